@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of nearlight shares: warnings, sanitizers, include root.
+
+add_library(nearlight_options INTERFACE)
+target_compile_options(nearlight_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion>
+  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${NEARLIGHT_WERROR}>>:-Werror>
+  # Host arithmetic must not depend on whether the compiler fused a multiply and an add.
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+if(NEARLIGHT_SANITIZE)
+  target_compile_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE})
+endif()
+
+# nearlight_library(NAME SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/.
+function(nearlight_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  add_library(nearlight::${name} ALIAS ${name})
+  target_include_directories(${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nearlight>)
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:nearlight_options> ${ARG_PRIVATE})
+  if(NEARLIGHT_CLANG_TIDY)
+    set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY clang-tidy)
+  endif()
+endfunction()
+
+# nearlight_test(NAME SOURCES … LIBRARIES … LABELS …): one GoogleTest binary, each case a ctest.
+function(nearlight_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE nearlight_options GTest::gtest_main ${ARG_LIBRARIES})
+  target_compile_definitions(${name} PRIVATE
+    NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}." PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages for people go to standard error; standard output is for results.
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+namespace nearlight {
+
+enum class Verbosity { quiet, normal, verbose };
+
+/// Sets up the process's logger on standard error: quiet shows errors only, verbose also debug messages.
+/// Use spdlog::info(), warn(), debug() to write.
+void set_up_log(Verbosity verbosity);
+
+}  // namespace nearlight

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounding volume hierarchy: built on the host, flattened to the nodes that host and kernels share.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/base/math.h"
+#include "host/scene/scene.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+struct Bvh {
+    std::vector<BvhNode> nodes;               ///< at least one; node 0 is the root
+    std::vector<BvhTriangle> triangles;       ///< at least one (a degenerate one far away if there is none)
+    std::vector<uint> triangle_ids;           ///< for each of those, its index in Scene::triangles
+    int depth = 0;                            ///< of the deepest leaf; at most NEARLIGHT_MAX_BVH_DEPTH
+    double sah_cost = 0;                      ///< expected cost of a ray through the root, with the costs below
+};
+
+struct BvhConfig {
+    int bin_count = 32;
+    uint max_leaf_triangles = 4;
+    float traversal_cost = 1.0f;     ///< of one node (both child boxes)
+    float intersection_cost = 1.0f;  ///< of one triangle
+};
+
+/// Top-down binned SAH [Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007] over those
+/// triangles of the scene that `ids` names, in parallel. The result does not depend on the number of threads.
+Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config = {});
+
+/// The two trees of a scene: what light and camera see, and the glass that only the camera sees.
+struct SceneBvhs {
+    Bvh opaque;
+    Bvh glass;
+    bool has_glass = false;
+};
+SceneBvhs build_scene_bvhs(const Scene& scene, const BvhConfig& config = {});
+
+/// Checks every invariant of the layout: each triangle in exactly one leaf, child boxes that hold what is
+/// below them, indices in range, depth within bounds. Returns what is wrong, one line each; empty if sound.
+std::vector<std::string> check_bvh(const Bvh& bvh, const Scene& scene, std::span<const uint> ids);
+
+struct BvhHit {
+    float t = std::numeric_limits<float>::infinity();
+    float u = 0.0f;  ///< weight of v1
+    float v = 0.0f;  ///< weight of v2
+    uint triangle = ~0u;  ///< index in Scene::triangles
+};
+/// Closest hit with t in (t_min, t_max), both sides. The plain host traversal that kernels are compared with.
+BvhHit closest_hit(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
+bool occluded(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
+
+}  // namespace nearlight

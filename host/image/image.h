@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Floating-point images with named channels.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nearlight {
+
+/// Interleaved channels, top row first. Channel names follow OpenEXR: "R", "indirect.R", "depth.Z".
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels;
+    std::vector<float> values;  ///< width·height·channels.size()
+
+    [[nodiscard]] std::size_t channel_count() const { return channels.size(); }
+    [[nodiscard]] float& at(int x, int y, std::size_t channel) {
+        return values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                          channels.size() + channel];
+    }
+    [[nodiscard]] float at(int x, int y, std::size_t channel) const {
+        return const_cast<Image*>(this)->at(x, y, channel);
+    }
+    /// Index of the channel called `name`, or -1.
+    [[nodiscard]] int find_channel(std::string_view name) const;
+};
+
+/// An image of zeros.
+Image make_image(int width, int height, std::vector<std::string> channels);
+
+}  // namespace nearlight

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading and writing image files (through OpenImageIO, which only image_io.cpp knows).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/image/image.h"
+
+namespace nearlight {
+
+/// Values are as in the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
+/// Throws Error(ExitCode::file) naming the file and the reason.
+Image read_image(const std::filesystem::path& file);
+
+using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
+
+struct ImageWriterOptions {
+    Metadata metadata;       ///< EXR attributes; a vector of 16 floats becomes a matrix
+    float exposure = 0.0f;   ///< PNG: stops, applied before the sRGB curve
+};
+
+/// Writes rows from top to bottom as they come, so that no whole picture need be in memory. The data goes to
+/// a temporary file beside the target; commit() renames it, anything else leaves an old file untouched.
+class ImageWriter {
+  public:
+    /// EXR keeps all channels (32-bit float, ZIP); PNG takes R, G, B, tone-mapped to 8-bit sRGB with a
+    /// deterministic dither-free rounding. The format follows the extension.
+    /// Throws Error(ExitCode::usage) for an unknown extension, Error(ExitCode::file) for an unwritable path.
+    ImageWriter(const std::filesystem::path& file, int width, int height, std::vector<std::string> channels,
+                const ImageWriterOptions& options = {});
+    ~ImageWriter();
+    ImageWriter(ImageWriter&&) noexcept;
+    ImageWriter& operator=(ImageWriter&&) noexcept;
+
+    /// The next rows: a multiple of width·channels values.
+    void write_rows(std::span<const float> values);
+    /// Fills rows that were not written with zeros, closes the file and moves it into place.
+    void commit();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The whole image at once.
+void write_image(const std::filesystem::path& file, const Image& image, const ImageWriterOptions& options = {});
+
+}  // namespace nearlight

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structs that host and kernels share, compiled by both: this is the only place where they stand.
+// Rules: no float3 (16 bytes that read as 12), bool, size_t, pointers, bit-fields or enums inside structs;
+// every struct is a multiple of 16 bytes. A `layout_probe` kernel and a test compare sizes and offsets on
+// every device.
+#ifndef NEARLIGHT_SHARED_TYPES_H
+#define NEARLIGHT_SHARED_TYPES_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+namespace nearlight {
+using uint = std::uint32_t;
+#endif
+
+/// Three packed floats. Points and vectors in metres of the scene's world space, or linear sRGB colours.
+typedef struct Vec3 {
+    float x, y, z;
+} Vec3;
+
+/// A child reference of a BvhNode: bit 31 clear, the index of an inner node; bit 31 set, a leaf, with
+/// triangle count − 1 in bits 27 to 30 and the first index into the BvhTriangle array in bits 0 to 26.
+#define NEARLIGHT_LEAF_BIT 0x80000000u
+#define NEARLIGHT_LEAF_COUNT_SHIFT 27
+#define NEARLIGHT_LEAF_COUNT_MASK 15u
+#define NEARLIGHT_LEAF_FIRST_MASK 0x07ffffffu
+#define NEARLIGHT_LEAF_MAX_TRIANGLES 16
+/// The builder keeps the tree at most this deep, so a traversal stack of this many entries never overflows.
+#define NEARLIGHT_MAX_BVH_DEPTH 60
+
+/// A binary node that holds the boxes of both its children. Node 0 is the root. A child that does not exist
+/// (a scene of one leaf) has an empty box far away and refers to the leaf of the other child.
+typedef struct BvhNode {
+    Vec3 left_min;
+    uint left;
+    Vec3 left_max;
+    uint right;
+    Vec3 right_min;
+    uint pad0;
+    Vec3 right_max;
+    uint pad1;
+} BvhNode;
+
+/// A triangle in the order of the leaves. normal = edge1 × edge2, not normalised; its side is the front.
+typedef struct BvhTriangle {
+    Vec3 v0;
+    Vec3 edge1;  // v1 − v0
+    Vec3 edge2;  // v2 − v0
+    Vec3 normal;
+} BvhTriangle;
+
+/// A vertex. A zero normal means: use the triangle's own.
+typedef struct Vertex {
+    Vec3 position;
+    float u;
+    Vec3 normal;
+    float v;  // 0 at the bottom row of the texture, as OBJ has it
+} Vertex;
+
+/// Indices into the vertex array, counter-clockwise seen from the front, and the material.
+typedef struct Triangle {
+    uint v0, v1, v2;
+    uint material;
+} Triangle;
+
+// What the camera sees at a surface besides its Lambertian base (Material.lobe). Light transport beyond the
+// first diffuse surface sees every opaque surface as Lambertian and no glass at all; see docs/method.md.
+#define NEARLIGHT_LOBE_NONE 0u             // Lambertian only
+#define NEARLIGHT_LOBE_COAT 1u             // dielectric coat over the base (plastic, roughplastic)
+#define NEARLIGHT_LOBE_CONDUCTOR 2u        // metal, no base (conductor, roughconductor, mirror)
+#define NEARLIGHT_LOBE_DIELECTRIC 3u       // solid glass, no base
+#define NEARLIGHT_LOBE_THIN_DIELECTRIC 4u  // a pane of glass, no base
+
+#define NEARLIGHT_MATERIAL_TWO_SIDED 1u  // without it the back reflects nothing
+
+/// Reflectance t = base × texture. The camera sees a Lambertian albedo t·base_scale / (1 − base_saturation·t)
+/// (times 1 − Fresnel under a coat), light transport sees t·light_scale / (1 − base_saturation·t) +
+/// light_offset.
+typedef struct Material {
+    Vec3 base;
+    int base_texture;  // index, or −1
+    Vec3 specular;     // tint of the lobe's reflection
+    float roughness;   // GGX alpha of the lobe; 0 is smooth
+    Vec3 eta;          // conductor: real index; otherwise x is interior ÷ exterior index
+    uint lobe;
+    Vec3 k;  // conductor: imaginary index
+    uint flags;
+    Vec3 emission;  // radiance of an area light (front side only), W/(m² sr)
+    float base_scale;
+    Vec3 light_offset;
+    float light_scale;
+    Vec3 transmission;  // tint of the lobe's transmission
+    float base_saturation;
+} Material;
+
+#define NEARLIGHT_TEXTURE_BITMAP 0u
+#define NEARLIGHT_TEXTURE_CHECKERBOARD 1u
+
+/// Looked up at (u, v)' = uv_to_st · (u, v, 1). Bitmaps are sRGB-encoded RGBA8 in one shared pool, top row
+/// first, repeated and filtered bilinearly.
+typedef struct Texture {
+    uint kind;
+    uint first_texel;  // into the pool
+    uint width, height;
+    float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
+    float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
+    Vec3 color0;                             // checkerboard: where s and t are in the same half of their cell
+    float pad2;
+    Vec3 color1;
+    float pad3;
+} Texture;
+
+#define NEARLIGHT_EMITTER_POINT 0u
+#define NEARLIGHT_EMITTER_SPOT 1u
+#define NEARLIGHT_EMITTER_TRIANGLE 2u
+#define NEARLIGHT_EMITTER_ENVIRONMENT 3u
+
+/// One entry of the flat table of lights: point and spot lights first, then each emissive triangle, then the
+/// environment. Selected with probability `probability`, in proportion to emitted power.
+typedef struct Emitter {
+    Vec3 position;  // point and spot
+    uint type;
+    Vec3 direction;  // spot: unit vector along the axis
+    uint triangle;   // index into the triangle array
+    Vec3 radiance;   // point and spot: intensity, W/sr; triangle: radiance; environment: mean radiance
+    float area;      // triangle, m²
+    float probability;
+    float cdf;           // sum of the probabilities up to and including this one
+    float beam_angle;    // spot: full intensity within this angle of the axis, radians
+    float cutoff_angle;  // spot: none beyond it; linear in the angle between
+} Emitter;
+
+/// A latitude-longitude environment: pixel rows from +Y (top) to −Y, in the local frame of the light;
+/// a constant one has a single pixel. Its pixels are float4 (RGB radiance), importance sampled through
+/// tables of row and column distribution.
+typedef struct Environment {
+    float world_to_local[9];  // rows
+    uint width, height;       // 0 × 0: no environment
+    float scene_radius;       // of the sphere around the scene, m
+    Vec3 scene_center;
+    float pad0;
+} Environment;
+
+/// Pinhole camera. The ray through film position (x, y), in pixels from the top left corner, has direction
+/// corner + x·step_x + y·step_y (not normalised), starting at `origin`.
+typedef struct PinholeCamera {
+    Vec3 origin;
+    uint width;
+    Vec3 corner;
+    uint height;
+    Vec3 step_x;
+    float pad0;
+    Vec3 step_y;
+    float pad1;
+} PinholeCamera;
+
+/// A virtual point light: sends reflected flux `power` (W, albedo applied) into the hemisphere of `normal`
+/// with radiant intensity power/π · cosθ. The position stands off its surface by the ray epsilon.
+typedef struct Vpl {
+    Vec3 position;
+    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …
+    Vec3 normal;
+    uint flags;
+    Vec3 power;
+    float pad0;
+} Vpl;
+#define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+
+/// Receivers travel in packets of 64 (a tile of 8 × 8 pixels, or 64 neighbours on a curve), component by
+/// component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
+/// position stands off its surface by the ray epsilon.
+#define NEARLIGHT_PACKET_SIZE 64
+typedef struct ReceiverPacket {
+    float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
+    float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
+} ReceiverPacket;
+
+/// Irradiance (W/m²) of the receivers of a packet.
+typedef struct IrradiancePacket {
+    float r[NEARLIGHT_PACKET_SIZE], g[NEARLIGHT_PACKET_SIZE], b[NEARLIGHT_PACKET_SIZE];
+} IrradiancePacket;
+
+/// What a camera sample found at the end of its way through glass and mirrors, one per receiver.
+typedef struct CameraVertex {
+    Vec3 throughput;  // weight of light leaving the first diffuse surface towards the camera
+    float depth;      // distance from the camera to the first surface seen, m; 0: none
+    Vec3 albedo;      // Lambertian, at the first diffuse surface
+    uint flags;
+    Vec3 emitted;  // radiance of lights and environment seen on the way
+    float pad0;
+} CameraVertex;
+#define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
+
+/// The close range: in the view frustum (five planes through or at the camera, inside where
+/// dot(plane.xyz, p) + w ≥ 0) and nearer to the camera than `range`.
+typedef struct CloseRange {
+    float planes[5][4];
+    Vec3 origin;
+    float range;  // m
+} CloseRange;
+
+/// Numbers that every ray kernel needs.
+typedef struct SceneInfo {
+    uint triangle_count;
+    uint emitter_count;
+    uint delta_emitter_count;  // point and spot lights: the first entries of the table
+    uint has_glass;            // 1: a second tree holds the glass, which only camera paths see
+    float extent;              // largest side of the scene's bounds, m
+    uint pad0, pad1, pad2;
+} SceneInfo;
+
+#ifdef __cplusplus
+#define NEARLIGHT_CHECK_SHARED(Type, bytes)                                      \
+    static_assert(sizeof(Type) == (bytes) && alignof(Type) == 4, #Type " size"); \
+    static_assert(std::is_trivially_copyable_v<Type>, #Type " must be plain data")
+static_assert(sizeof(Vec3) == 12);
+NEARLIGHT_CHECK_SHARED(BvhNode, 64);
+NEARLIGHT_CHECK_SHARED(BvhTriangle, 48);
+NEARLIGHT_CHECK_SHARED(Vertex, 32);
+NEARLIGHT_CHECK_SHARED(Triangle, 16);
+NEARLIGHT_CHECK_SHARED(Material, 112);
+NEARLIGHT_CHECK_SHARED(Texture, 80);
+NEARLIGHT_CHECK_SHARED(Emitter, 64);
+NEARLIGHT_CHECK_SHARED(Environment, 64);
+NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
+NEARLIGHT_CHECK_SHARED(Vpl, 48);
+NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1536);
+NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
+NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
+NEARLIGHT_CHECK_SHARED(CloseRange, 96);
+NEARLIGHT_CHECK_SHARED(SceneInfo, 32);
+}  // namespace nearlight
+#endif
+
+#endif
