@@ -191,6 +191,11 @@ typedef struct IrradiancePacket {
     float r[NEARLIGHT_PACKET_SIZE], g[NEARLIGHT_PACKET_SIZE], b[NEARLIGHT_PACKET_SIZE];
 } IrradiancePacket;
 
+/// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
+/// stand off their surfaces already; the margins only keep rounding at the ends from counting as hits.
+#define NEARLIGHT_SEGMENT_T_MIN 1e-5f
+#define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-5f)
+
 /// What a camera sample found at the end of its way through glass and mirrors, one per receiver.
 typedef struct CameraVertex {
     Vec3 throughput;  // weight of light leaving the first diffuse surface towards the camera
