@@ -33,6 +33,8 @@ kernel void layout_probe(global uint* out) {
     OFFSET(PinholeCamera, step_y);
     SIZE(Vpl);
     OFFSET(Vpl, power);
+    SIZE(SurfaceSample);
+    OFFSET(SurfaceSample, v);
     SIZE(ReceiverPacket);
     OFFSET(ReceiverPacket, nz);
     SIZE(IrradiancePacket);

@@ -23,15 +23,31 @@ inline float ray_epsilon(float3 p, float extent) {
     return 2e-5f * fmax(max_component(fabs(p)), 0.05f * extent);
 }
 
-/// Vector `local`, given in the frame (tangent, bitangent, n) with the unit n, in world space.
+/// A right-handed orthonormal frame about the unit vector n.
 /// [Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017]
-inline float3 to_world_frame(float3 local, float3 n) {
+typedef struct Frame {
+    float3 tangent, bitangent, n;
+} Frame;
+inline Frame make_frame(float3 n) {
     const float s = n.z < 0.0f ? -1.0f : 1.0f;
     const float a = -1.0f / (s + n.z);
     const float b = n.x * n.y * a;
-    const float3 tangent = (float3)(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
-    const float3 bitangent = (float3)(b, s + n.y * n.y * a, -n.y);
-    return local.x * tangent + local.y * bitangent + local.z * n;
+    Frame frame;
+    frame.tangent = (float3)(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
+    frame.bitangent = (float3)(b, s + n.y * n.y * a, -n.y);
+    frame.n = n;
+    return frame;
+}
+inline float3 frame_to_world(const Frame* frame, float3 v) {
+    return v.x * frame->tangent + v.y * frame->bitangent + v.z * frame->n;
+}
+inline float3 world_to_frame(const Frame* frame, float3 v) {
+    return (float3)(dot(v, frame->tangent), dot(v, frame->bitangent), dot(v, frame->n));
+}
+/// Vector v, given in the frame about n, in world space.
+inline float3 to_world_frame(float3 v, float3 n) {
+    const Frame frame = make_frame(n);
+    return frame_to_world(&frame, v);
 }
 
 #endif
