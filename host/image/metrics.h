@@ -11,10 +11,10 @@
 namespace nearlight {
 
 struct ImageDifference {
-    double rmse = 0;           ///< root mean square over pixels and R, G, B (the paper's measure)
-    double relative_mse = 0;   ///< mean of (a − b)² / (b² + 0.01), b the reference
-    double mean_ratio = 0;     ///< mean luminance of a ÷ mean luminance of b: light lost or gained
-    double flip = 0;           ///< mean FLIP of the tone-mapped pictures [Andersson et al. 2020]
+    double rmse = 0;             ///< root mean square over pixels and R, G, B (the paper's measure)
+    double relative_mse = 0;     ///< mean of (a − b)² / (b² + 0.01), b the reference
+    double mean_ratio = 0;       ///< mean luminance of a ÷ mean luminance of b: light lost or gained
+    double flip = 0;             ///< mean FLIP of the tone-mapped pictures [Andersson et al. 2020]
     std::size_t non_finite = 0;  ///< pixels with NaN or infinity in either; left out of the figures
 };
 
