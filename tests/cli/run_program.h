@@ -37,7 +37,7 @@ inline ProgramResult run_program(const std::string& arguments) {
 
 /// A path as a word of the shell.
 inline std::string quoted(const std::filesystem::path& path) {
-    return "'" + path.string() + "'";
+    return std::string("'").append(path.string()).append("'");
 }
 
 }  // namespace nearlight
