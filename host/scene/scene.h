@@ -37,7 +37,9 @@ struct SceneTexture {
     int image = -1;        ///< for NEARLIGHT_TEXTURE_BITMAP
 };
 
-/// Latitude-longitude light from everywhere; 1 × 1 pixel for a constant one.
+/// Latitude-longitude light from everywhere; 1 × 1 pixel for a constant one. The centre of pixel (column i,
+/// row j) shines from the local direction (sin φ·sin θ, cos θ, −cos φ·sin θ) with φ = 2π·(i + 0.5)/width and
+/// θ = π·(j + 0.5)/height, as Mitsuba's `envmap` has it; radiance is constant over a pixel.
 struct EnvironmentLight {
     int width = 0;  ///< 0: none
     int height = 0;

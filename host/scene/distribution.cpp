@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/distribution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearlight {
+namespace {
+
+constexpr double kQuanta = 0x1p24;
+
+}  // namespace
+
+std::vector<float> cumulative_distribution(std::span<const double> weights) {
+    double total = 0;
+    std::size_t positive = 0;
+    for (const double weight : weights) {
+        if (weight > 0) {
+            total += weight;
+            ++positive;
+        }
+    }
+    const bool uniform = positive == 0;
+    if (uniform) {
+        total = static_cast<double>(weights.size());
+        positive = weights.size();
+    }
+    // One quantum for each positive weight, and the rest in proportion.
+    const double shared = kQuanta - static_cast<double>(positive);
+    std::vector<float> cdf;
+    cdf.reserve(weights.size());
+    double sum = 0;
+    double seen = 0;
+    for (const double weight : weights) {
+        if (uniform || weight > 0) {
+            sum += uniform ? 1.0 : weight;
+            seen += 1;
+        }
+        // sum repeats the additions of total, so that it ends at the same bits and the ratio at exactly 1.
+        cdf.push_back(static_cast<float>((std::floor(sum / total * shared) + seen) / kQuanta));
+    }
+    return cdf;
+}
+
+std::size_t select(std::span<const float> cdf, float u) {
+    return static_cast<std::size_t>(std::upper_bound(cdf.begin(), cdf.end(), u) - cdf.begin());
+}
+
+}  // namespace nearlight

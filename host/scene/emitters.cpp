@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/emitters.h"
+
+#include "host/scene/distribution.h"
+
+namespace nearlight {
+namespace {
+
+constexpr double kPiD = std::numbers::pi;
+
+struct Sphere {
+    Vec3 center{0, 0, 0};
+    float radius = 0;
+};
+
+/// About the centre of the bounding box, through the farthest vertex in use.
+Sphere bounding_sphere(const Scene& scene) {
+    Sphere sphere{.center = bounds(scene).center()};
+    for (const Triangle& triangle : scene.triangles) {
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            sphere.radius = std::max(sphere.radius, length(scene.vertices[vertex].position - sphere.center));
+        }
+    }
+    return sphere;
+}
+
+double row_sine(int row, int height) {
+    return std::sin(kPiD * (row + 0.5) / height);
+}
+
+/// ∫ L dω. A pixel of row j covers (2π/width)·(cos θ_j − cos θ_{j+1}) = (2π/width)·2·sin(π/2height)·sinθ
+/// steradians, θ in the middle of the row; so luminance · sinθ is its exact share.
+Vec3 sphere_integral(const EnvironmentLight& environment) {
+    double sum[3] = {0, 0, 0};
+    const Vec3* pixel = environment.radiance.data();
+    for (int row = 0; row < environment.height; ++row) {
+        const double sine = row_sine(row, environment.height);
+        for (int column = 0; column < environment.width; ++column, ++pixel) {
+            sum[0] += sine * pixel->x;
+            sum[1] += sine * pixel->y;
+            sum[2] += sine * pixel->z;
+        }
+    }
+    const double scale = environment.width > 0 && environment.height > 0
+                             ? 4 * kPiD / environment.width * std::sin(kPiD / (2.0 * environment.height))
+                             : 0.0;
+    return {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+            static_cast<float>(sum[2] * scale)};
+}
+
+/// ∫ over the sphere of the spot's falloff: 2π·(1 − (sin c − sin b)/(c − b)) for full intensity up to b that
+/// falls linearly to none at c; 2π·(1 − cos b) in the limit c = b.
+double spot_solid_angle(double beam, double cutoff) {
+    const double mean_cosine =
+        cutoff - beam > 1e-6 ? (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : std::cos(cutoff);
+    return 2 * kPiD * (1 - mean_cosine);
+}
+
+/// Luminance of all flux that the light sends out, W; of an environment, what enters the scene's sphere.
+double emitted_power(const Emitter& emitter, float scene_radius) {
+    const double radiance = luminance(emitter.radiance);
+    switch (emitter.type) {
+        case NEARLIGHT_EMITTER_POINT:
+            return 4 * kPiD * radiance;
+        case NEARLIGHT_EMITTER_SPOT:
+            return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
+        case NEARLIGHT_EMITTER_TRIANGLE:
+            return kPiD * emitter.area * radiance;
+        default:
+            // From each direction a beam as wide as the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
+            return kPiD * scene_radius * scene_radius * 4 * kPiD * radiance;
+    }
+}
+
+/// All lights, also those without power; probabilities not yet filled in.
+std::vector<Emitter> collect_emitters(const Scene& scene) {
+    std::vector<Emitter> emitters = scene.delta_emitters;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& triangle = scene.triangles[i];
+        const Vec3 emission = scene.materials[triangle.material].emission;
+        if (is_zero(emission)) {
+            continue;
+        }
+        Emitter emitter{};
+        emitter.type = NEARLIGHT_EMITTER_TRIANGLE;
+        emitter.triangle = static_cast<uint>(i);
+        emitter.radiance = emission;
+        emitter.area = triangle_area(scene, triangle);
+        emitters.push_back(emitter);
+    }
+    if (scene.environment.width > 0) {
+        Emitter emitter{};
+        emitter.type = NEARLIGHT_EMITTER_ENVIRONMENT;
+        emitter.radiance = sphere_integral(scene.environment) / (4.0f * kPi);
+        emitters.push_back(emitter);
+    }
+    return emitters;
+}
+
+}  // namespace
+
+EmitterTable build_emitter_table(const Scene& scene) {
+    const float scene_radius = scene.environment.width > 0 ? bounding_sphere(scene).radius : 0.0f;
+    EmitterTable table;
+    std::vector<double> powers;
+    double total = 0;
+    for (const Emitter& emitter : collect_emitters(scene)) {
+        const double power = emitted_power(emitter, scene_radius);
+        if (!(power > 0)) {
+            continue;
+        }
+        table.emitters.push_back(emitter);
+        table.delta_emitter_count +=
+            emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT ? 1u : 0u;
+        powers.push_back(power);
+        total += power;
+    }
+    const std::vector<float> cdf = cumulative_distribution(powers);
+    for (std::size_t i = 0; i < cdf.size(); ++i) {
+        table.emitters[i].cdf = cdf[i];
+        table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
+    }
+    table.total_power = static_cast<float>(total);
+    return table;
+}
+
+EnvironmentTable build_environment_table(const Scene& scene) {
+    const EnvironmentLight& environment = scene.environment;
+    EnvironmentTable table;
+    Environment& parameters = table.parameters;
+    const Sphere sphere = bounding_sphere(scene);
+    parameters.scene_center = sphere.center;
+    parameters.scene_radius = sphere.radius;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {  // the inverse of a rotation is its transpose
+            parameters.world_to_local[row * 3 + column] =
+                static_cast<float>(environment.to_world(column, row));
+        }
+    }
+    if (environment.width == 0 || environment.height == 0) {
+        table.pixels.assign(4, 0.0f);
+        table.row_cdf = table.column_cdf = {1.0f};
+        return table;
+    }
+    parameters.width = static_cast<uint>(environment.width);
+    parameters.height = static_cast<uint>(environment.height);
+    std::vector<double> row_weights;
+    std::vector<double> weights(static_cast<std::size_t>(environment.width));
+    const Vec3* pixel = environment.radiance.data();
+    for (int row = 0; row < environment.height; ++row) {
+        double sum = 0;
+        for (double& weight : weights) {
+            table.pixels.insert(table.pixels.end(), {pixel->x, pixel->y, pixel->z, 1.0f});
+            weight = luminance(*pixel++);
+            sum += std::max(weight, 0.0);
+        }
+        row_weights.push_back(sum * row_sine(row, environment.height));
+        const std::vector<float> columns = cumulative_distribution(weights);
+        table.column_cdf.insert(table.column_cdf.end(), columns.begin(), columns.end());
+    }
+    table.row_cdf = cumulative_distribution(row_weights);
+    return table;
+}
+
+}  // namespace nearlight
