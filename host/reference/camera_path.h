@@ -43,7 +43,7 @@ struct CameraPath {
 };
 
 /// Surfaces that a path visits at most before it is given up as black.
-inline constexpr int kMaxCameraVertices = 16;
+inline constexpr int kMaxCameraVertices = 24;
 
 /// One path, lobes chosen by chance. Refraction does not scale radiance, for light does not see glass.
 CameraPath trace_camera_path(const Scene& scene, const EmbreeScene& embree, const LightSampler& lights,

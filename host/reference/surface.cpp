@@ -20,11 +20,9 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
     surface.front = dot(normal, direction) < 0.0f;
     surface.geometric_normal = surface.front ? normal : -normal;
 
-    const bool smooth = !is_zero(a.normal) && !is_zero(b.normal) && !is_zero(c.normal);
-    const Vec3 shading =
-        smooth ? normalize(a.normal * weight_a + b.normal * hit.u + c.normal * hit.v) : normal;
-    const float side = dot(shading, surface.geometric_normal);
-    surface.shading_normal = side > 0.0f ? shading : side < 0.0f ? -shading : surface.geometric_normal;
+    const Vec3 interpolated = a.normal * weight_a + b.normal * hit.u + c.normal * hit.v;
+    const Vec3 shading = length(interpolated) > 1e-6f ? normalize(interpolated) : normal;
+    surface.shading_normal = dot(shading, surface.geometric_normal) < 0.0f ? -shading : shading;
     return surface;
 }
 
