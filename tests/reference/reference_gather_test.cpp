@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/random.h"
+#include "host/reference/path_tracer.h"
 #include "tests/reference/small_scenes.h"
 
 namespace nearlight {
@@ -94,6 +95,57 @@ TEST(ReferenceGather, ThreadsDoNotMatter) {
         EXPECT_EQ(one[i].r[1], one[0].r[1]);
     }
     EXPECT_GT(one[0].r[0], one[0].r[1]);
+}
+
+/// Two squares of side 2 facing each other at distance 1, a blocker between, and a light beside the blocker.
+Scene facing_squares() {
+    Scene scene;
+    const uint material = add_material(scene, lambertian({0.8f, 0.8f, 0.8f}));
+    scene.materials[material].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, material);
+    add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, material);
+    const uint black = add_material(scene, lambertian({0, 0, 0}));
+    add_quad(scene, {-0.9f, 0.4f, -0.6f}, {0.6f, 0, 0}, {0, 0, 1.2f}, black);
+    add_point_light(scene, {0.2f, 0.6f, 0.1f}, {1, 1, 1});
+    set_camera(scene, {0.0, 0.5, 0.0}, {0.3, 0.0, 0.2}, 0.05);
+    return scene;
+}
+
+/// VPLs on a grid over the upper square: what the light sends there, reflected.
+std::vector<Vpl> grid_of_vpls(int side) {
+    std::vector<Vpl> vpls;
+    for (int i = 0; i < side * side; ++i) {
+        const float cell = 2.0f / static_cast<float>(side);
+        const Vec3 position{-1 + cell * (static_cast<float>(i % side) + 0.5f), 1 - 2e-5f,
+                            -1 + cell * (static_cast<float>(i / side) + 0.5f)};
+        const Vec3 to_light = Vec3{0.2f, 0.6f, 0.1f} - position;
+        const float irradiance = -to_light.y / (dot(to_light, to_light) * length(to_light));
+        const float power = 0.8f * irradiance * cell * cell;
+        vpls.push_back(vpl_at(position, {0, -1, 0}, {power, power, power}));
+    }
+    return vpls;
+}
+
+TEST(ReferenceGather, ManyVplsAreTheClampedPathTracer) {
+    const Scene scene = facing_squares();
+    const EmbreeScene embree(scene);
+    std::vector<ReceiverPacket> receivers(1);
+    receivers[0].px[0] = 0.3f;
+    receivers[0].py[0] = 2e-5f;
+    receivers[0].pz[0] = 0.2f;
+    receivers[0].ny[0] = 1.0f;
+    std::vector<IrradiancePacket> irradiance(1);
+    for (const float radius : {0.0f, 1.3f}) {
+        gather_reference(embree, grid_of_vpls(300), radius, receivers, irradiance);
+        const Image image = trace_paths(scene, {.width = 4,
+                                                .height = 4,
+                                                .spp = 8192,
+                                                .max_depth = 3,
+                                                .clamp_radius = radius,
+                                                .indirect_only = true});
+        const double expected = irradiance[0].r[0] * 0.8 / kPi;
+        EXPECT_NEAR(channel_mean(image, "R"), expected, 4.5 * standard_error(image) + 2e-3 * expected);
+    }
 }
 
 }  // namespace
