@@ -12,9 +12,9 @@
 #include "host/cli/interrupt.h"
 #include "host/cli/output.h"
 #include "host/cli/progress_bar.h"
+#include "host/cli/scene_options.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
-#include "host/scene/scene_loader.h"
 
 namespace nearlight {
 namespace {
@@ -22,14 +22,13 @@ namespace {
 constexpr int kDefaultSpp = 64;
 
 struct ReferenceOptions {
-    std::filesystem::path scene;
+    SceneOptions scene;
     std::vector<std::filesystem::path> outputs;
     ImageSize size;
     std::optional<int> spp;
     std::optional<int> max_depth;
     float clamp_radius = 0.0f;
     bool indirect_only = false;
-    bool strict = false;
     std::uint64_t seed = 0;
     int threads = 0;
 };
@@ -89,7 +88,7 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
     for (const std::filesystem::path& output : options.outputs) {
         outputs.push_back(output.string());
     }
-    return {{"scene", options.scene.string()},
+    return {{"scene", options.scene.file.string()},
             {"width", outcome.image.width},
             {"height", outcome.image.height},
             {"samples_per_pixel", settings.spp},
@@ -109,11 +108,8 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
 ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& global) {
     Outcome outcome;
     const auto load_start = std::chrono::steady_clock::now();
-    const Scene scene = load_scene(options.scene, {.parameters = {}, .strict = options.strict});
+    const Scene scene = load_scene(options.scene);
     outcome.load_seconds = seconds_since(load_start);
-    for (const Note& note : scene.notes) {
-        spdlog::warn("{}", to_string(note));
-    }
 
     const PathTracerSettings settings = make_settings(options, scene);
     const auto render_start = std::chrono::steady_clock::now();
@@ -145,7 +141,7 @@ void add_reference_command(CommandLine& line) {
     CLI::App& command =
         line.add_command("reference", "Path-trace a scene on the CPU: what every sampler converges to",
                          [options](const GlobalOptions& global) { return run_reference(*options, global); });
-    command.add_option("SCENE", options->scene, "Scene file")->required();
+    add_scene_options(command, options->scene);
     command
         .add_option("-o,--output", options->outputs, "EXR (all layers) or PNG; may be given several times")
         ->type_name("OUT")
@@ -168,7 +164,6 @@ void add_reference_command(CommandLine& line) {
     command.add_option("--seed", options->seed, "Another seed, other noise");
     command.add_option("--threads", options->threads, "CPU threads; 0: one a core")
         ->check(CLI::NonNegativeNumber);
-    command.add_flag("--strict", options->strict, "Refuse scenes that need approximation");
 }
 
 }  // namespace nearlight

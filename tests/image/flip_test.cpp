@@ -25,13 +25,16 @@ double mean_flip(int width, int height, const Pixels& a, const Pixels& b) {
     return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
 }
 
-Pixels constant(int count, Vec3 color) { return Pixels(static_cast<std::size_t>(count), color); }
+Pixels constant(int count, Vec3 color) {
+    return Pixels(static_cast<std::size_t>(count), color);
+}
 
 Pixels checkerboard(int width, int height, int cell) {
     Pixels pixels;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            pixels.push_back((x / cell + y / cell) % 2 == 0 ? Vec3{0.8f, 0.3f, 0.1f} : Vec3{0.05f, 0.1f, 0.4f});
+            pixels.push_back((x / cell + y / cell) % 2 == 0 ? Vec3{0.8f, 0.3f, 0.1f}
+                                                            : Vec3{0.05f, 0.1f, 0.4f});
         }
     }
     return pixels;
@@ -66,8 +69,8 @@ TEST(Flip, GreenAgainstBlueIsTheLargestError) {
 }
 
 TEST(Flip, BlackAgainstWhite) {
-    // L* differs by 100, so the compressed error is 100^0.7 = 25.119. Green and blue, the farthest colours, have
-    // L* 87.74 and 32.30 and Hunt-adjusted a* −75.6 and 25.6, b* 73.0 and −34.8: 203.2^0.7 = 41.27.
+    // L* differs by 100, so the compressed error is 100^0.7 = 25.119. Green and blue, the farthest colours,
+    // have L* 87.74 and 32.30 and Hunt-adjusted a* −75.6 and 25.6, b* 73.0 and −34.8: 203.2^0.7 = 41.27.
     const double largest = std::pow(203.2, 0.7);
     const double expected = 0.95 + (std::pow(100.0, 0.7) - 0.4 * largest) / (0.6 * largest) * 0.05;
     const double error = mean_flip(24, 24, constant(576, {0, 0, 0}), constant(576, {1, 1, 1}));
@@ -112,7 +115,8 @@ TEST(Flip, GrowsWithBlurAndNoise) {
 }
 
 TEST(Flip, FinePatternsBlendAtAViewingDistance) {
-    // One pixel wide stripes of black and white, 67 to a degree, look almost like a shifted copy of themselves.
+    // One pixel wide stripes of black and white, 67 to a degree, look almost like a shifted copy of
+    // themselves.
     Pixels even;
     Pixels odd;
     for (int i = 0; i < 64 * 64; ++i) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-Image picture(int width, int height, std::vector<float> values, std::vector<std::string> channels = {"R", "G", "B"}) {
+Image picture(int width, int height, std::vector<float> values,
+              std::vector<std::string> channels = {"R", "G", "B"}) {
     return {width, height, std::move(channels), std::move(values)};
 }
 
@@ -61,7 +62,8 @@ TEST(Metrics, LayersNeedAllThreeChannels) {
 
 TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
     const Image a = picture(3, 1, {kNan, 0, 0, 1, 1, 1, 0.5f, 0.5f, 0.5f});
-    const Image b = picture(3, 1, {0, 0, 0, 1, std::numeric_limits<float>::infinity(), 1, 0.25f, 0.25f, 0.25f});
+    const Image b =
+        picture(3, 1, {0, 0, 0, 1, std::numeric_limits<float>::infinity(), 1, 0.25f, 0.25f, 0.25f});
     const ImageDifference difference = compare_images(a, b);
     EXPECT_EQ(difference.non_finite, 2u);
     EXPECT_NEAR(difference.rmse, 0.25, 1e-7);
