@@ -105,7 +105,15 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
             {"outputs", outputs}};
 }
 
+/// Hours of rendering must not end at a path that cannot be written.
+void check_outputs(const std::vector<std::filesystem::path>& outputs) {
+    for (const std::filesystem::path& output : outputs) {
+        const ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
+    }
+}
+
 ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& global) {
+    check_outputs(options.outputs);
     Outcome outcome;
     const auto load_start = std::chrono::steady_clock::now();
     const Scene scene = load_scene(options.scene);
