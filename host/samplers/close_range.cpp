@@ -114,10 +114,14 @@ VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task) {
     set.close_triangles = selection.count;
     set.close_fraction = task.close_fraction ? *task.close_fraction : choose_close_fraction(stages, task, selection.region);
     const uint close_budget = static_cast<uint>(std::lround(set.close_fraction * static_cast<float>(task.vpl_count)));
+    if (close_budget == 0) {
+        return sample_instant_radiosity(stages, task);
+    }
     set.vpls = place_about(stages, task, selection, close_budget);
     set.close_count = set.vpls.size();
     const std::vector<Vpl> distant =
-        trace_about(stages, task, selection.region, deposits_to_keep(task.policy), task.vpl_count - close_budget);
+        trace_about(stages, task, selection.region, deposits_to_keep(task.policy),
+                    std::max(task.vpl_count - close_budget, 1u));  // without any, the far light would be lost
     set.distant_count = distant.size();
     set.vpls.insert(set.vpls.end(), distant.begin(), distant.end());
     return set;
