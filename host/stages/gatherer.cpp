@@ -18,6 +18,9 @@ constexpr std::size_t kChunk = 256;
 constexpr std::size_t kCpuPackets = 1024;
 constexpr std::size_t kGpuPackets = 16384;
 
+/// Pairs of a launch at most, however fast the device is.
+constexpr double kMostLaunchPairs = 0x1p40;
+
 GatherConfig resolved(GatherConfig config, const Device& device) {
     if (config.kernel == GatherKernel::automatic) {
         config.kernel = device.is_cpu() ? GatherKernel::packets : GatherKernel::rays;
@@ -93,7 +96,7 @@ bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradi
                       const GatherProgress& progress) {
     using Clock = std::chrono::steady_clock;
     const std::uint64_t total = std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE;
-    double budget = static_cast<double>(config_.first_launch_pairs);
+    double budget = std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs);
     std::uint64_t done = 0;
     Part part;
     part.end_vpl = input.vpl_count;
@@ -105,7 +108,7 @@ bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradi
         const double seconds = std::max(1e-6, std::chrono::duration<double>(Clock::now() - start).count());
         // At most four times as much, because neighbouring parts may differ in cost.
         const double fitting = static_cast<double>(part.pairs()) * config_.launch_seconds / seconds;
-        budget = std::clamp(fitting, 1.0, std::max(budget, 1.0) * 4.0);
+        budget = std::clamp(fitting, 1.0, std::min(budget * 4.0, kMostLaunchPairs));
         done += part.pairs();
         if (progress && !progress(done, total)) {
             return false;

@@ -27,7 +27,7 @@ struct GatherConfig {
     /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
     /// time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
-    double launch_seconds = 0.2;  ///< how long a launch should take; infinity: everything in the first launch
+    double launch_seconds = 0.2;  ///< how long a launch should take
 };
 
 /// What is gathered. The tree is the one of opaque surfaces. Counts may be smaller than the buffers'.
