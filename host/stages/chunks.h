@@ -18,12 +18,15 @@ struct Chunks {
     uint count = 0;
 };
 
-/// About one run a worker of the device, but none shorter than is worth a work-item.
-inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {
-    const std::size_t shortest = device.is_cpu() ? 1024 : 32;
+/// About one run a worker of the device, but none of fewer than `shortest` elements.
+inline Chunks split_into_chunks(const Device& device, std::size_t element_count, std::size_t shortest) {
     const std::size_t even = (element_count + device.worker_count() - 1) / device.worker_count();
     const std::size_t size = std::max(shortest, even);
     return {static_cast<uint>(size), static_cast<uint>((element_count + size - 1) / size)};
+}
+/// With runs that are worth a work-item where an element is little work.
+inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {
+    return split_into_chunks(device, element_count, device.is_cpu() ? 1024 : 32);
 }
 
 /// Work-group size for such kernels: on CPUs a group is what one thread runs, so one run each.

@@ -193,6 +193,20 @@ INSTANTIATE_TEST_SUITE_P(Formats, Readable,
                          testing::Values("exr", "png", "jpg", "hdr", "ppm", "tif", "tga", "bmp"),
                          [](const auto& tested) { return std::string(tested.param); });
 
+TEST(ImageIo, PfmIsReadTopRowFirst) {
+    const TemporaryFolder folder;
+    // In the file, the bottom row comes first.
+    const std::array<float, 6> values{4, 5, 6, 1, 2, 3};
+    std::string text = "PF\n1 2\n-1.0\n";
+    text.append(reinterpret_cast<const char*>(values.data()), sizeof values);
+    write_text(folder / "a.pfm", text);
+    const Image image = read_image(folder / "a.pfm");
+    EXPECT_EQ(image.height, 2);
+    EXPECT_EQ(image.values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+    write_text(folder / "a.pfm", text.substr(0, text.size() - 3));
+    error_of(ExitCode::file, [&] { read_image(folder / "a.pfm"); });
+}
+
 TEST(ImageIo, ReadingNamesTheFileAndTheReason) {
     const TemporaryFolder folder;
     EXPECT_NE(
