@@ -81,9 +81,13 @@ Vec3 transform_normal_by_inverse(const Mat4& inverse, Vec3 n) {
     return {column(0), column(1), column(2)};
 }
 
-Mat4 translation(double x, double y, double z) { return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}}; }
+Mat4 translation(double x, double y, double z) {
+    return {{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1}};
+}
 
-Mat4 scaling(double x, double y, double z) { return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}}; }
+Mat4 scaling(double x, double y, double z) {
+    return {{x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1}};
+}
 
 Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees) {
     const double norm = std::sqrt(axis_x * axis_x + axis_y * axis_y + axis_z * axis_z);

@@ -14,40 +14,76 @@ namespace nearlight {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
 
-constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-constexpr Vec3 operator*(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-constexpr Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-constexpr Vec3 operator*(float s, Vec3 a) { return a * s; }
-constexpr Vec3 operator/(Vec3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
-constexpr Vec3& operator+=(Vec3& a, Vec3 b) { return a = a + b; }
-constexpr Vec3& operator*=(Vec3& a, float s) { return a = a * s; }
-constexpr Vec3& operator*=(Vec3& a, Vec3 b) { return a = a * b; }
-constexpr bool operator==(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+constexpr Vec3 operator+(Vec3 a, Vec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Vec3 operator-(Vec3 a, Vec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Vec3 operator-(Vec3 a) {
+    return {-a.x, -a.y, -a.z};
+}
+constexpr Vec3 operator*(Vec3 a, Vec3 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+constexpr Vec3 operator*(Vec3 a, float s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+constexpr Vec3 operator*(float s, Vec3 a) {
+    return a * s;
+}
+constexpr Vec3 operator/(Vec3 a, float s) {
+    return {a.x / s, a.y / s, a.z / s};
+}
+constexpr Vec3& operator+=(Vec3& a, Vec3 b) {
+    return a = a + b;
+}
+constexpr Vec3& operator*=(Vec3& a, float s) {
+    return a = a * s;
+}
+constexpr Vec3& operator*=(Vec3& a, Vec3 b) {
+    return a = a * b;
+}
+constexpr bool operator==(Vec3 a, Vec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
-constexpr float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr float dot(Vec3 a, Vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 constexpr Vec3 cross(Vec3 a, Vec3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline float length(Vec3 a) {
+    return std::sqrt(dot(a, a));
+}
 /// A zero vector stays zero.
 inline Vec3 normalize(Vec3 a) {
     const float l = length(a);
     return l > 0.0f ? a / l : a;
 }
-inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
-constexpr bool is_zero(Vec3 a) { return a.x == 0.0f && a.y == 0.0f && a.z == 0.0f; }
+inline bool is_finite(Vec3 a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+constexpr bool is_zero(Vec3 a) {
+    return a.x == 0.0f && a.y == 0.0f && a.z == 0.0f;
+}
 constexpr Vec3 min(Vec3 a, Vec3 b) {
     return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
 constexpr Vec3 max(Vec3 a, Vec3 b) {
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
-constexpr float max_component(Vec3 a) { return std::max(a.x, std::max(a.y, a.z)); }
+constexpr float max_component(Vec3 a) {
+    return std::max(a.x, std::max(a.y, a.z));
+}
 /// Relative luminance of linear sRGB.
-constexpr float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-constexpr float degrees_to_radians(float degrees) { return degrees * (kPi / 180.0f); }
+constexpr float luminance(Vec3 c) {
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+constexpr float degrees_to_radians(float degrees) {
+    return degrees * (kPi / 180.0f);
+}
 
 /// Two unit vectors that form a right-handed orthonormal frame (tangent, bitangent, n) with the unit n.
 /// [Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017]
@@ -87,7 +123,9 @@ struct Aabb {
 struct Mat4 {
     std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-    [[nodiscard]] double operator()(int row, int column) const { return m[static_cast<size_t>(row * 4 + column)]; }
+    [[nodiscard]] double operator()(int row, int column) const {
+        return m[static_cast<size_t>(row * 4 + column)];
+    }
     [[nodiscard]] double& operator()(int row, int column) { return m[static_cast<size_t>(row * 4 + column)]; }
 };
 Mat4 operator*(const Mat4& a, const Mat4& b);

@@ -18,8 +18,10 @@ struct Image {
 
     [[nodiscard]] std::size_t channel_count() const { return channels.size(); }
     [[nodiscard]] float& at(int x, int y, std::size_t channel) {
-        return values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-                          channels.size() + channel];
+        return values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(x)) *
+                          channels.size() +
+                      channel];
     }
     [[nodiscard]] float at(int x, int y, std::size_t channel) const {
         return const_cast<Image*>(this)->at(x, y, channel);

@@ -17,12 +17,14 @@ namespace nearlight {
 /// Values are as in the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
 /// Throws Error(ExitCode::file) naming the file and the reason.
 Image read_image(const std::filesystem::path& file);
+/// The same, with the colours of sRGB-encoded files (8- and 16-bit integers) decoded to linear.
+Image read_linear_image(const std::filesystem::path& file);
 
 using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
 
 struct ImageWriterOptions {
-    Metadata metadata;       ///< EXR attributes; a vector of 16 floats becomes a matrix
-    float exposure = 0.0f;   ///< PNG: stops, applied before the sRGB curve
+    Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix
+    float exposure = 0.0f;  ///< PNG: stops, applied before the sRGB curve
 };
 
 /// Writes rows from top to bottom as they come, so that no whole picture need be in memory. The data goes to
@@ -49,6 +51,7 @@ class ImageWriter {
 };
 
 /// The whole image at once.
-void write_image(const std::filesystem::path& file, const Image& image, const ImageWriterOptions& options = {});
+void write_image(const std::filesystem::path& file, const Image& image,
+                 const ImageWriterOptions& options = {});
 
 }  // namespace nearlight

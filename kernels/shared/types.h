@@ -167,6 +167,16 @@ typedef struct Vpl {
 } Vpl;
 #define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
 
+/// A point placed on a triangle, on the surface itself.
+typedef struct SurfaceSample {
+    Vec3 position;
+    uint triangle;  // in the scene's triangle array
+    Vec3 normal;    // unit, of the front
+    float u;        // texture coordinates
+    float v;
+    float pad0, pad1, pad2;
+} SurfaceSample;
+
 /// Receivers travel in packets of 64 (a tile of 8 × 8 pixels, or 64 neighbours on a curve), component by
 /// component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
 /// position stands off its surface by the ray epsilon.
@@ -181,6 +191,11 @@ typedef struct IrradiancePacket {
     float r[NEARLIGHT_PACKET_SIZE], g[NEARLIGHT_PACKET_SIZE], b[NEARLIGHT_PACKET_SIZE];
 } IrradiancePacket;
 
+/// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
+/// stand off their surfaces already; the margins only keep rounding at the ends from counting as hits.
+#define NEARLIGHT_SEGMENT_T_MIN 1e-5f
+#define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-5f)
+
 /// What a camera sample found at the end of its way through glass and mirrors, one per receiver.
 typedef struct CameraVertex {
     Vec3 throughput;  // weight of light leaving the first diffuse surface towards the camera
@@ -191,6 +206,11 @@ typedef struct CameraVertex {
     float pad0;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
+
+/// Floats a pixel while samples are added (kernels/film.cl), and channels of a finished picture: beauty, direct,
+/// indirect, albedo, N, P (three each), depth, closerange.
+#define NEARLIGHT_FILM_CHANNELS 17
+#define NEARLIGHT_LAYER_CHANNELS 20
 
 /// The close range: in the view frustum (five planes through or at the camera, inside where
 /// dot(plane.xyz, p) + w ≥ 0) and nearer to the camera than `range`.
@@ -225,6 +245,7 @@ NEARLIGHT_CHECK_SHARED(Emitter, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
 NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
+NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
 NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1536);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 48);

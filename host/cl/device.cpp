@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/device.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "host/cl/opencl_error.h"
+
+namespace nearlight {
+
+std::filesystem::path default_cache_dir() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::filesystem::path(value == nullptr ? "" : value);
+    };
+    if (const auto dir = variable("NEARLIGHT_CACHE_DIR"); !dir.empty()) {
+        return dir;
+    }
+    if (const auto dir = variable("XDG_CACHE_HOME"); !dir.empty()) {
+        return dir / "nearlight";
+    }
+    const auto home = variable("HOME");
+    return home.empty() ? home : home / ".cache" / "nearlight";
+}
+
+Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(entry), options_(options) {
+    if (options_.cache_dir.empty()) {
+        options_.cache_dir = default_cache_dir();
+    }
+    try {
+        context_ = cl::Context(entry_.handle);
+        queue_ = cl::CommandQueue(context_, entry_.handle, CL_QUEUE_PROFILING_ENABLE);
+    } catch (const cl::Error& error) {
+        throw Error(ExitCode::no_device,
+                    "OpenCL device '" + entry_.name + "' does not start: " + error.what() + " gave " +
+                        opencl_error_name(error.err()) + "; choose another with --device");
+    }
+}
+
+std::size_t Device::worker_count() const {
+    // CPUs: a few runs a core, to even out; GPUs: enough to fill their lanes.
+    return is_cpu() ? std::max<std::size_t>(4, 4 * entry_.compute_units) : std::size_t{64} * 64;
+}
+
+void Device::finish() {
+    with_opencl_errors("device " + name(), [&] { queue_.finish(); });
+}
+
+void Device::add_allocated(std::size_t bytes) {
+    allocated_bytes_ += bytes;
+    peak_bytes_ = std::max(peak_bytes_, allocated_bytes_);
+}
+
+}  // namespace nearlight

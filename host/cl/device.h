@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A device that work is sent to: context, in-order queue, profiler, and where its programs come from.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <filesystem>
+#include <string>
+
+#include "host/cl/device_list.h"
+#include "host/cl/profiler.h"
+
+namespace nearlight {
+
+struct DeviceOptions {
+    /// Kernels are read from here where set, else from the binary.
+    std::filesystem::path kernel_dir;
+    /// Compiled programs are kept here; empty: default_cache_dir(). "none" keeps nothing.
+    std::filesystem::path cache_dir;
+};
+
+/// $NEARLIGHT_CACHE_DIR, or $XDG_CACHE_HOME/nearlight, or ~/.cache/nearlight; empty where there is no home.
+std::filesystem::path default_cache_dir();
+
+/// Not copyable: stages hold a reference to it. All work goes through one in-order queue.
+class Device {
+  public:
+    explicit Device(const DeviceEntry& entry, const DeviceOptions& options = {});
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    [[nodiscard]] const DeviceEntry& entry() const { return entry_; }
+    [[nodiscard]] const std::string& name() const { return entry_.name; }
+    [[nodiscard]] bool is_cpu() const { return entry_.kind == DeviceKind::cpu; }
+    [[nodiscard]] const DeviceOptions& options() const { return options_; }
+    [[nodiscard]] const cl::Context& context() const { return context_; }
+    [[nodiscard]] const cl::CommandQueue& queue() const { return queue_; }
+    [[nodiscard]] Profiler& profiler() { return profiler_; }
+
+    /// Work-group size for kernels in which a work-item is independent of its neighbours.
+    [[nodiscard]] std::size_t local_size() const { return is_cpu() ? 8 : 64; }
+    /// How many work-items a kernel should have that gives each a long run of elements (scan, sort).
+    [[nodiscard]] std::size_t worker_count() const;
+
+    /// Waits for everything enqueued; asynchronous failures surface here.
+    void finish();
+
+    /// Bytes of all live Buffers, and the most there ever were.
+    void add_allocated(std::size_t bytes);
+    void remove_allocated(std::size_t bytes) { allocated_bytes_ -= bytes; }
+    [[nodiscard]] std::size_t peak_bytes() const { return peak_bytes_; }
+
+  private:
+    DeviceEntry entry_;
+    DeviceOptions options_;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    Profiler profiler_;
+    std::size_t allocated_bytes_ = 0;
+    std::size_t peak_bytes_ = 0;
+};
+
+}  // namespace nearlight

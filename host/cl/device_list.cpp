@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/device_list.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+#include "host/cl/opencl_error.h"
+
+namespace nearlight {
+namespace {
+
+constexpr const char* kInstallHint =
+    "install a driver: `apt-get install pocl-opencl-icd` runs on any CPU, GPUs need their vendor's OpenCL "
+    "package";
+
+std::string trimmed(std::string text) {
+    // Some drivers pad with blanks, others count the terminating zero.
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+DeviceEntry describe(const cl::Device& handle, const std::string& platform) {
+    DeviceEntry entry;
+    entry.handle = handle;
+    entry.platform = platform;
+    entry.name = trimmed(handle.getInfo<CL_DEVICE_NAME>());
+    entry.version = trimmed(handle.getInfo<CL_DEVICE_VERSION>());
+    entry.driver = trimmed(handle.getInfo<CL_DRIVER_VERSION>());
+    const cl_device_type type = handle.getInfo<CL_DEVICE_TYPE>();
+    entry.kind = (type & CL_DEVICE_TYPE_GPU)   ? DeviceKind::gpu
+                 : (type & CL_DEVICE_TYPE_CPU) ? DeviceKind::cpu
+                                               : DeviceKind::other;
+    entry.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    entry.global_bytes = handle.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    entry.max_allocation_bytes = handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    if (!handle.getInfo<CL_DEVICE_AVAILABLE>()) {
+        entry.unusable_because = "the driver says it is not available";
+    } else if (!handle.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) {
+        entry.unusable_because = "its driver has no compiler";
+    } else if (!handle.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) {
+        entry.unusable_because = "it is big-endian";
+    }
+    return entry;
+}
+
+void list_platform(const cl::Platform& platform, DeviceList& list) {
+    std::string name = "a platform";
+    try {
+        name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+        std::vector<cl::Device> handles;
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &handles);
+        if (handles.empty()) {
+            list.problems.push_back("platform '" + name + "' has no device");
+        }
+        for (const cl::Device& handle : handles) {
+            DeviceEntry entry = describe(handle, name);
+            entry.index = static_cast<int>(list.devices.size());
+            list.devices.push_back(std::move(entry));
+        }
+    } catch (const cl::Error& error) {
+        list.problems.push_back(error.err() == CL_DEVICE_NOT_FOUND
+                                    ? "platform '" + name + "' has no device"
+                                    : "platform '" + name + "' is broken: " + error.what() + " gave " +
+                                          opencl_error_name(error.err()));
+    }
+}
+
+std::string describe_choices(const DeviceList& list) {
+    std::string text;
+    for (const DeviceEntry& entry : list.devices) {
+        text += (text.empty() ? "" : ", ") + std::to_string(entry.index) + " = " + entry.name;
+    }
+    return text;
+}
+
+bool matches(const DeviceEntry& entry, const std::string& choice) {
+    const bool is_index = !choice.empty() && std::all_of(choice.begin(), choice.end(),
+                                                         [](unsigned char c) { return std::isdigit(c); });
+    if (is_index) {
+        return std::to_string(entry.index) == choice;
+    }
+    if (choice == "all") {
+        return entry.unusable_because.empty();
+    }
+    if (choice == "cpu" || choice == "gpu") {
+        return choice == to_string(entry.kind);
+    }
+    return lower(entry.name + " " + entry.platform).find(choice) != std::string::npos;
+}
+
+DeviceEntry default_device(const DeviceList& list) {
+    const DeviceEntry* best = nullptr;
+    for (const DeviceEntry& entry : list.devices) {
+        if (!entry.unusable_because.empty()) {
+            continue;
+        }
+        if (best == nullptr || (entry.kind == DeviceKind::gpu && best->kind != DeviceKind::gpu)) {
+            best = &entry;
+        }
+    }
+    if (best == nullptr) {
+        const DeviceEntry& first = list.devices.front();
+        throw Error(ExitCode::no_device, "OpenCL device '" + first.name + "' cannot be used: " +
+                                             first.unusable_because + "; " + kInstallHint);
+    }
+    return *best;
+}
+
+}  // namespace
+
+std::string to_string(DeviceKind kind) {
+    return kind == DeviceKind::cpu ? "cpu" : kind == DeviceKind::gpu ? "gpu" : "other";
+}
+
+DeviceList list_devices() {
+    DeviceList list;
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error& error) {
+        if (error.err() != -1001) {  // CL_PLATFORM_NOT_FOUND_KHR: simply none
+            list.problems.push_back("the OpenCL loader failed: " + opencl_error_name(error.err()));
+        }
+    }
+    for (const cl::Platform& platform : platforms) {
+        list_platform(platform, list);
+    }
+    return list;
+}
+
+std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& requested) {
+    if (list.devices.empty()) {
+        const std::string why = list.problems.empty() ? "no OpenCL platform" : list.problems.front();
+        throw Error(ExitCode::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
+    }
+    std::string choice = lower(requested);
+    if (const char* variable = std::getenv("NEARLIGHT_DEVICE"); choice.empty() && variable != nullptr) {
+        choice = lower(variable);
+    }
+    if (choice.empty()) {
+        return {default_device(list)};
+    }
+    std::vector<DeviceEntry> chosen;
+    std::copy_if(list.devices.begin(), list.devices.end(), std::back_inserter(chosen),
+                 [&](const DeviceEntry& entry) { return matches(entry, choice); });
+    if (chosen.empty()) {
+        throw Error(ExitCode::no_device,
+                    "no OpenCL device matches '" + choice + "'; there are: " + describe_choices(list));
+    }
+    for (const DeviceEntry& entry : chosen) {
+        if (!entry.unusable_because.empty()) {
+            throw Error(ExitCode::no_device,
+                        "OpenCL device '" + entry.name + "' cannot be used: " + entry.unusable_because);
+        }
+    }
+    if (choice != "all") {
+        chosen.resize(1);
+    }
+    return chosen;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What OpenCL offers on this machine, and the choice among it.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nearlight {
+
+enum class DeviceKind { cpu, gpu, other };
+std::string to_string(DeviceKind kind);
+
+/// One device of one platform. Devices are numbered over all platforms in the order of the drivers.
+struct DeviceEntry {
+    int index = 0;
+    cl::Device handle;
+    std::string name;
+    std::string platform;
+    std::string version;  ///< of the device, e.g. "OpenCL 3.0 PoCL HSTR: …"
+    std::string driver;
+    DeviceKind kind = DeviceKind::other;
+    unsigned compute_units = 0;
+    std::size_t global_bytes = 0;
+    std::size_t max_allocation_bytes = 0;
+    std::string unusable_because;  ///< empty where the device can be used
+};
+
+/// Platforms that are broken or have no device are kept as text, so that `devices` can show them.
+struct DeviceList {
+    std::vector<DeviceEntry> devices;
+    std::vector<std::string> problems;
+};
+/// Never throws for what drivers do wrong.
+DeviceList list_devices();
+
+/// By `choice`: an index, "cpu", "gpu", "all", or part of a name (any case); empty: NEARLIGHT_DEVICE from the
+/// environment, or else the first GPU, or else the first device. Throws Error(ExitCode::no_device) with what
+/// to install, or with the devices there are.
+std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
+
+}  // namespace nearlight

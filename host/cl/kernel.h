@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A kernel entry point with typed launching.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <string>
+#include <type_traits>
+
+#include "host/cl/buffer.h"
+#include "host/cl/program.h"
+
+namespace nearlight {
+
+class Kernel {
+  public:
+    Kernel(const Program& program, const std::string& name)
+        : device_(&program.device()), name_(name), handle_(program.kernel(name)) {}
+
+    /// One work-item for each of `item_count`, in groups of `local_size`; the last group may reach beyond, so
+    /// the kernel checks its index. Arguments are Buffers, groups of them and plain values, in the
+    /// kernel's order.
+    template <typename... Arguments>
+    void launch(std::size_t item_count, std::size_t local_size, const Arguments&... arguments) {
+        if (item_count == 0) {
+            return;
+        }
+        const std::size_t global_size = (item_count + local_size - 1) / local_size * local_size;
+        with_opencl_errors("kernel " + name_ + " on device " + device_->name(), [&] {
+            cl_uint index = 0;
+            (set_arguments(index, arguments), ...);
+            cl::Event event;
+            device_->queue().enqueueNDRangeKernel(handle_, cl::NullRange, cl::NDRange(global_size),
+                                                  cl::NDRange(local_size), nullptr, &event);
+            device_->profiler().record(name_, std::move(event));
+        });
+    }
+    /// With the device's usual group size.
+    template <typename... Arguments>
+    void launch_items(std::size_t item_count, const Arguments&... arguments) {
+        launch(item_count, device_->local_size(), arguments...);
+    }
+
+  private:
+    template <typename T>
+    void set_arguments(cl_uint& index, const Buffer<T>& buffer) {
+        handle_.setArg(index++, buffer.handle());
+    }
+    /// Something that stands for several buffers, such as a DeviceScene: it visits them in the kernel's order.
+    template <typename T>
+        requires requires(const T& group) { group.for_each_buffer([](const auto&) {}); }
+    void set_arguments(cl_uint& index, const T& group) {
+        group.for_each_buffer([&](const auto& buffer) { set_arguments(index, buffer); });
+    }
+    template <typename T>
+    void set_arguments(cl_uint& index, const T& value) {
+        static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool> && !std::is_pointer_v<T>);
+        handle_.setArg(index++, value);
+    }
+
+    Device* device_;
+    std::string name_;
+    cl::Kernel handle_;
+};
+
+}  // namespace nearlight

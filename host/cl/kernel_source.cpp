@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/kernel_source.h"
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "kernels/embedded.h"
+
+namespace nearlight {
+namespace {
+
+std::string read_kernel(const std::string& name, const std::filesystem::path& kernel_dir,
+                        const std::string& includer) {
+    if (kernel_dir.empty()) {
+        if (const auto text = embedded_kernel(name)) {
+            return std::string(*text);
+        }
+    } else if (std::ifstream file(kernel_dir / name); file) {
+        std::ostringstream text;
+        text << file.rdbuf();
+        return text.str();
+    }
+    const std::string where = kernel_dir.empty() ? "in this binary" : "in " + kernel_dir.string();
+    throw Error(ExitCode::kernel_build, "no kernel file '" + name + "' " + where +
+                                            (includer.empty() ? "" : " (included by " + includer + ")") +
+                                            "; check --kernel-dir");
+}
+
+void expand(const std::string& name, const std::filesystem::path& kernel_dir, const std::string& includer,
+            std::set<std::string>& seen, std::ostringstream& out) {
+    if (!seen.insert(name).second) {
+        return;
+    }
+    static const std::regex include_line(R"re(^\s*#\s*include\s+"([^"]+)".*$)re");
+    std::istringstream lines(read_kernel(name, kernel_dir, includer));
+    out << "#line 1 \"" << name << "\"\n";
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::smatch match;
+        if (std::regex_match(line, match, include_line)) {
+            expand(match[1].str(), kernel_dir, name, seen, out);
+            out << "#line " << number + 1 << " \"" << name << "\"\n";
+        } else {
+            out << line << '\n';
+        }
+    }
+}
+
+}  // namespace
+
+std::string expand_kernel_source(const std::string& name, const std::filesystem::path& kernel_dir) {
+    std::set<std::string> seen;
+    std::ostringstream out;
+    expand(name, kernel_dir, "", seen, out);
+    return out.str();
+}
+
+}  // namespace nearlight

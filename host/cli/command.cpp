@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/command.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+#include "host/base/log.h"
+#include "host/cli/output.h"
+#include "host/cli/suggestion.h"
+
+namespace nearlight {
+namespace {
+
+constexpr int kMaxSide = 65536;
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(command->get_name());
+    }
+    return names;
+}
+
+std::string unknown(const char* kind, const std::string& word, const std::vector<std::string>& candidates) {
+    const std::string nearest = nearest_word(word, candidates);
+    return std::string("unknown ") + kind + " '" + word + "'" +
+           (nearest.empty() ? "" : ", did you mean '" + nearest + "'?");
+}
+
+/// What is wrong with the line. A word that nothing knows explains more than whatever misses because of it.
+std::string describe(const CLI::ParseError& error, CLI::App& app, const CLI::App* command) {
+    const std::vector<std::string> extras = app.remaining(true);
+    const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
+    const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+    if (option != extras.end()) {
+        return unknown("option", option->substr(0, option->find('=')),
+                       option_names(command ? *command : app));
+    }
+    if (!extras.empty() && command == nullptr) {
+        return unknown("command", extras.front(), command_names(app));
+    }
+    if (!extras.empty()) {
+        return "unexpected argument '" + extras.front() + "'";
+    }
+    return error.what();
+}
+
+/// One line: what is wrong, and where to read more.
+Error usage_error(const CLI::ParseError& error, CLI::App& app) {
+    const auto commands = app.get_subcommands();
+    const CLI::App* command = commands.empty() ? nullptr : commands.front();
+    std::string text = describe(error, app, command);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    const std::string help = "nearlight " + (command ? command->get_name() + " " : std::string()) + "--help";
+    return {ExitCode::usage, text + (text.back() == '?' ? " See '" : "; see '") + help + "'"};
+}
+
+std::string short_usage(const CLI::App& app) {
+    std::string text = "usage: nearlight COMMAND ...\n\n";
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        std::string name = command->get_name();
+        name.resize(12, ' ');
+        text += "  " + name + command->get_description() + "\n";
+    }
+    return text + "\n'nearlight COMMAND --help' tells more.\n";
+}
+
+void add_global_options(CLI::App& app, GlobalOptions& global) {
+    const std::string group = "Every command";
+    app.set_help_flag("-h,--help", "Show this help")->group(group);
+    app.set_version_flag("--version", "nearlight " NEARLIGHT_VERSION, "Show the version")->group(group);
+    app.add_flag("--json", global.json, "Print the result as one JSON object")->group(group);
+    app.add_flag("-q,--quiet", global.quiet, "Print errors only")->group(group);
+    app.add_flag("-v,--verbose", global.verbose, "Print debug messages too")->group(group);
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app_("Global illumination with virtual point lights on OpenCL", "nearlight") {
+    add_global_options(app_, global_);
+    app_.require_subcommand(0, 1);
+}
+
+CLI::App& CommandLine::add_command(const std::string& name, const std::string& description, Run run) {
+    CLI::App& command = *app_.add_subcommand(name, description);
+    add_global_options(command, global_);
+    command.callback([this, run = std::move(run)] { run_ = run; });
+    return command;
+}
+
+ExitCode CommandLine::run(int argc, const char* const* argv) {
+    try {
+        app_.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help and --version
+        app_.exit(success, std::cout, std::cerr);
+        check_standard_output();
+        return ExitCode::done;
+    } catch (const CLI::ParseError& error) {
+        throw usage_error(error, app_);
+    }
+    if (!run_) {
+        std::cerr << short_usage(app_);
+        return ExitCode::usage;
+    }
+    if (global_.quiet && global_.verbose) {
+        throw Error(ExitCode::usage, "--quiet and --verbose contradict each other; give one of them");
+    }
+    set_up_log(global_.quiet ? Verbosity::quiet : global_.verbose ? Verbosity::verbose : Verbosity::normal);
+    const ExitCode code = run_(global_);
+    check_standard_output();
+    return code;
+}
+
+ImageSize parse_size(const std::string& text) {
+    ImageSize size;
+    const char* const end = text.data() + text.size();
+    const auto [middle, width_error] = std::from_chars(text.data(), end, size.width);
+    const bool has_x = width_error == std::errc() && middle != end && *middle == 'x';
+    const auto [last, height_error] = std::from_chars(has_x ? middle + 1 : end, end, size.height);
+    const auto fits = [](int side) { return side >= 1 && side <= kMaxSide; };
+    if (!has_x || height_error != std::errc() || last != end || !fits(size.width) || !fits(size.height)) {
+        throw Error(ExitCode::usage, "'" + text + "' is no size: give WIDTHxHEIGHT, each from 1 to " +
+                                         std::to_string(kMaxSide) + ", as in 640x480");
+    }
+    return size;
+}
+
+CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
+    return command
+        .add_option_function<std::string>(
+            "--size", [&size](const std::string& text) { size = parse_size(text); },
+            "Size of the picture in pixels")
+        ->type_name("WxH");
+}
+
+}  // namespace nearlight

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight diff A B [-o MAP]: how far two pictures are apart, layer by layer.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_diff_command(CommandLine& line);
+
+}  // namespace nearlight

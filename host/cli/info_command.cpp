@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/info_command.h"
+
+#include "host/cli/output.h"
+#include "host/cli/scene_options.h"
+#include "host/cli/scene_summary.h"
+
+namespace nearlight {
+namespace {
+
+ExitCode run_info(const SceneOptions& options, const GlobalOptions& global) {
+    const Scene scene = load_scene(options);
+    if (global.json) {
+        print_json(scene_summary_json(scene));
+    } else {
+        print(scene_summary_text(scene));
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_info_command(CommandLine& line) {
+    auto options = std::make_shared<SceneOptions>();
+    CLI::App& command = line.add_command(
+        "info", "Tell what a scene holds, what of it is approximated, and the memory it takes",
+        [options](const GlobalOptions& global) { return run_info(*options, global); });
+    add_scene_options(command, *options);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight info SCENE: what was read, what was approximated, how much memory it takes.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_info_command(CommandLine& line);
+
+}  // namespace nearlight

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/output.h"
+
+#include <iostream>
+
+#include "host/base/error.h"
+
+namespace nearlight {
+
+void print_json(const nlohmann::ordered_json& result) {
+    // File names may hold bytes that are not UTF-8, which JSON must not.
+    std::cout << result.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+}
+
+void print(std::string_view text) {
+    std::cout << text;
+}
+
+void check_standard_output() {
+    if (!std::cout.flush()) {
+        throw Error(ExitCode::runtime, "cannot write to standard output");
+    }
+}
+
+}  // namespace nearlight

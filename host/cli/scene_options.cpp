@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/scene_options.h"
+
+#include "host/base/log.h"
+
+namespace nearlight {
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.file, "Mitsuba XML (.xml), glTF (.gltf, .glb) or OBJ (.obj)")
+        ->required();
+    command
+        .add_option("-D,--define", options.definitions,
+                    "Value for $NAME in the scene; may be given several times")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    command.add_flag("--strict", options.strict, "Fail where the scene would be approximated");
+}
+
+LoadOptions load_options(const SceneOptions& options) {
+    LoadOptions result;
+    result.strict = options.strict;
+    for (const std::string& definition : options.definitions) {
+        const std::size_t equals = definition.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw Error(ExitCode::usage, "'-D " + definition + "' defines nothing: give NAME=VALUE");
+        }
+        result.parameters[definition.substr(0, equals)] = definition.substr(equals + 1);
+    }
+    return result;
+}
+
+Scene load_scene(const SceneOptions& options) {
+    Scene scene = load_scene(options.file, load_options(options));
+    for (const Note& note : scene.notes) {
+        spdlog::warn("{}", to_string(note));
+    }
+    return scene;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options by which a command takes its scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/cli/command.h"
+#include "host/scene/scene_loader.h"
+
+namespace nearlight {
+
+struct SceneOptions {
+    std::filesystem::path file;
+    std::vector<std::string> definitions;  ///< "name=value"
+    bool strict = false;
+};
+
+/// The positional SCENE, -D and --strict.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// Throws Error(ExitCode::usage) for a definition without a name or a '='.
+LoadOptions load_options(const SceneOptions& options);
+
+/// Reads the scene and tells its notes as warnings.
+Scene load_scene(const SceneOptions& options);
+
+}  // namespace nearlight

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/scene_summary.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "host/scene/emitters.h"
+
+namespace nearlight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct LightCounts {
+    std::size_t points = 0;
+    std::size_t spots = 0;
+    std::size_t triangles = 0;
+    float power = 0.0f;  ///< luminance of all flux, W
+};
+
+LightCounts count_lights(const Scene& scene) {
+    const EmitterTable table = build_emitter_table(scene);
+    const auto count = [&](uint type) {
+        return static_cast<std::size_t>(std::count_if(table.emitters.begin(), table.emitters.end(),
+                                                      [&](const Emitter& e) { return e.type == type; }));
+    };
+    return {count(NEARLIGHT_EMITTER_POINT), count(NEARLIGHT_EMITTER_SPOT), count(NEARLIGHT_EMITTER_TRIANGLE),
+            table.total_power};
+}
+
+std::uint64_t texel_count(const Scene& scene) {
+    return std::accumulate(
+        scene.images.begin(), scene.images.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const TextureImage& image) { return sum + image.texels.size(); });
+}
+
+const char* kind_of(const Material& material) {
+    switch (material.lobe) {
+        case NEARLIGHT_LOBE_COAT:
+            return "coated";
+        case NEARLIGHT_LOBE_CONDUCTOR:
+            return "metal";
+        case NEARLIGHT_LOBE_DIELECTRIC:
+            return "glass";
+        case NEARLIGHT_LOBE_THIN_DIELECTRIC:
+            return "thin glass";
+        default:
+            return "diffuse";
+    }
+}
+
+Json json_vector(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string text_vector(Vec3 v) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+Vec3 camera_position(const Scene& scene) {
+    return transform_point(scene.camera.to_world, {0, 0, 0});
+}
+
+Vec3 camera_direction(const Scene& scene) {
+    return normalize(transform_vector(scene.camera.to_world, {0, 0, 1}));
+}
+
+std::uint64_t total(const MemoryEstimate::Parts& parts) {
+    return std::accumulate(parts.begin(), parts.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const auto& part) { return sum + part.second; });
+}
+
+std::string text_bytes(std::uint64_t bytes) {
+    return bytes < 10'000'000 ? fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3)
+                              : fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6);
+}
+
+std::string text_parts(const MemoryEstimate::Parts& parts) {
+    std::string text = text_bytes(total(parts)) + " (";
+    for (const auto& [name, bytes] : parts) {
+        text += fmt::format("{}{} {}", &bytes == &parts.front().second ? "" : ", ", name, text_bytes(bytes));
+    }
+    return text + ")";
+}
+
+Json json_parts(const MemoryEstimate::Parts& parts) {
+    Json json = Json::object();
+    for (const auto& [name, bytes] : parts) {
+        json[name] = bytes;
+    }
+    json["total"] = total(parts);
+    return json;
+}
+
+std::string text_environment(const EnvironmentLight& environment) {
+    if (environment.width == 0) {
+        return "no environment";
+    }
+    return environment.width * environment.height == 1
+               ? "constant environment"
+               : fmt::format("environment of {}x{} pixels", environment.width, environment.height);
+}
+
+std::string text_limit(int value, const char* unknown) {
+    return value > 0 ? std::to_string(value) : std::string(unknown);
+}
+
+Json json_lights(const Scene& scene) {
+    const LightCounts lights = count_lights(scene);
+    const EnvironmentLight& environment = scene.environment;
+    return {{"points", lights.points},
+            {"spots", lights.spots},
+            {"triangles", lights.triangles},
+            {"environment",
+             environment.width > 0 ? Json::array({environment.width, environment.height}) : Json()},
+            {"power", lights.power}};
+}
+
+Json json_camera(const Scene& scene) {
+    return {{"width", scene.camera.width},
+            {"height", scene.camera.height},
+            {"fov_x_degrees", scene.camera.fov_x_degrees},
+            {"position", json_vector(camera_position(scene))},
+            {"direction", json_vector(camera_direction(scene))}};
+}
+
+Json json_notes(const Scene& scene) {
+    Json notes = Json::array();
+    for (const Note& note : scene.notes) {
+        notes.push_back({{"file", note.file.string()}, {"line", note.line}, {"text", note.text}});
+    }
+    return notes;
+}
+
+}  // namespace
+
+MemoryEstimate estimate_memory(const Scene& scene) {
+    constexpr std::uint64_t kTrianglesPerLeaf = 2;
+    const std::uint64_t triangles = scene.triangles.size();
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+    const std::uint64_t geometry = scene.vertices.size() * sizeof(Vertex) + triangles * sizeof(Triangle);
+    const std::uint64_t trees =
+        triangles * (sizeof(BvhTriangle) + sizeof(uint)) + triangles / kTrianglesPerLeaf * sizeof(BvhNode);
+    const std::uint64_t textures = texel_count(scene) * sizeof(std::uint32_t);
+    const std::uint64_t environment = scene.environment.radiance.size();
+    constexpr std::uint64_t kReceiverBytes =
+        (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE +
+        sizeof(CameraVertex);
+    constexpr std::uint64_t kPixelBytes =
+        kReceiverBytes + (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
+    MemoryEstimate estimate;
+    estimate.host = {{"geometry", geometry},
+                     {"trees", trees},
+                     {"textures", textures},
+                     {"environment", environment * sizeof(Vec3)},
+                     {"picture", pixels * NEARLIGHT_LAYER_CHANNELS * sizeof(float)}};
+    // The environment has RGBA pixels there, and a table to sample them by.
+    estimate.device = {{"geometry", geometry},
+                       {"trees", trees},
+                       {"textures", textures},
+                       {"environment", environment * 5 * sizeof(float)},
+                       {"picture", pixels * kPixelBytes}};
+    return estimate;
+}
+
+std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    for (const char* kind : {"diffuse", "coated", "metal", "glass", "thin glass"}) {
+        const auto count = std::count_if(
+            scene.materials.begin(), scene.materials.end(),
+            [&](const Material& material) { return std::string_view(kind_of(material)) == kind; });
+        if (count > 0) {
+            counts.emplace_back(kind, static_cast<std::size_t>(count));
+        }
+    }
+    return counts;
+}
+
+nlohmann::ordered_json scene_summary_json(const Scene& scene) {
+    Json materials = Json::object();
+    for (const auto& [kind, count] : count_materials(scene)) {
+        materials[kind] = count;
+    }
+    const Aabb box = bounds(scene);
+    const MemoryEstimate memory = estimate_memory(scene);
+    return {
+        {"scene", scene.name},
+        {"source", scene.source.string()},
+        {"triangles", scene.triangles.size()},
+        {"vertices", scene.vertices.size()},
+        {"materials", materials},
+        {"textures",
+         {{"count", scene.textures.size()}, {"images", scene.images.size()}, {"texels", texel_count(scene)}}},
+        {"lights", json_lights(scene)},
+        {"camera", json_camera(scene)},
+        {"bounds",
+         box.is_empty() ? Json() : Json{{"min", json_vector(box.min)}, {"max", json_vector(box.max)}}},
+        {"max_depth", scene.max_depth > 0 ? Json(scene.max_depth) : Json()},
+        {"samples_per_pixel", scene.samples_per_pixel > 0 ? Json(scene.samples_per_pixel) : Json()},
+        {"notes", json_notes(scene)},
+        {"memory_bytes", {{"host", json_parts(memory.host)}, {"device", json_parts(memory.device)}}}};
+}
+
+std::string scene_summary_text(const Scene& scene) {
+    std::string materials;
+    for (const auto& [kind, count] : count_materials(scene)) {
+        materials += fmt::format("{}{} {}", materials.empty() ? "" : ", ", count, kind);
+    }
+    const LightCounts lights = count_lights(scene);
+    const Aabb box = bounds(scene);
+    const MemoryEstimate memory = estimate_memory(scene);
+    const auto row = [](const char* name, const std::string& value) {
+        return fmt::format("{:<12}{}\n", name, value);
+    };
+    return row("scene", fmt::format("{} ({})", scene.name, scene.source.string())) +
+           row("geometry",
+               fmt::format("{} triangles, {} vertices", scene.triangles.size(), scene.vertices.size())) +
+           row("bounds", box.is_empty() ? "empty" : text_vector(box.min) + " to " + text_vector(box.max)) +
+           row("materials", materials.empty() ? "none" : materials) +
+           row("textures", fmt::format("{} of {} images, {} texels", scene.textures.size(),
+                                       scene.images.size(), texel_count(scene))) +
+           row("lights",
+               fmt::format("{} points, {} spots, {} triangles, {}; {:.6g} W", lights.points, lights.spots,
+                           lights.triangles, text_environment(scene.environment), lights.power)) +
+           row("camera",
+               fmt::format("{}x{}, {:.6g} degrees wide, at {} towards {}", scene.camera.width,
+                           scene.camera.height, scene.camera.fov_x_degrees,
+                           text_vector(camera_position(scene)), text_vector(camera_direction(scene)))) +
+           row("max depth", text_limit(scene.max_depth, "not given")) +
+           row("samples", text_limit(scene.samples_per_pixel, "not given")) +
+           row("host", text_parts(memory.host)) + row("device", text_parts(memory.device)) +
+           row("notes", scene.notes.empty() ? "none" : std::to_string(scene.notes.size()));
+}
+
+}  // namespace nearlight

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/suggestion.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace nearlight {
+
+// Optimal string alignment distance, row by row.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before_last(b.size() + 1);
+    std::vector<std::size_t> last(b.size() + 1);
+    std::vector<std::size_t> current(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        current[j] = j;
+    }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        before_last.swap(last);
+        last.swap(current);
+        current[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            current[j] = std::min({last[j] + 1, current[j - 1] + 1, replaced});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                current[j] = std::min(current[j], before_last[j - 2] + 1);
+            }
+        }
+    }
+    return current[b.size()];
+}
+
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
+    // A third of the letters may be wrong; beyond that a suggestion misleads.
+    std::size_t best_distance = word.size() / 3 + 1;
+    std::string best;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance || (distance == best_distance && best.empty())) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// "Did you mean …?"
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nearlight {
+
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to `word`, or an empty string if none is near enough to be what was meant.
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace nearlight

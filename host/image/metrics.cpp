@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "host/base/error.h"
+#include "host/base/math.h"
+#include "host/image/color.h"
+#include "host/image/flip.h"
+
+namespace nearlight {
+namespace {
+
+std::string channel_name(const std::string& layer, char component) {
+    return layer.empty() ? std::string(1, component) : layer + "." + component;
+}
+
+std::vector<Vec3> color_pixels(const Image& image, const std::string& layer, const char* which) {
+    std::array<std::size_t, 3> indices{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::string name = channel_name(layer, "RGB"[c]);
+        const int index = image.find_channel(name);
+        if (index < 0) {
+            throw Error(ExitCode::file,
+                        std::string("the ") + which + " picture has no channel '" + name + "'");
+        }
+        indices[c] = static_cast<std::size_t>(index);
+    }
+    std::vector<Vec3> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const float* const values = image.values.data() + i * image.channel_count();
+        pixels[i] = {values[indices[0]], values[indices[1]], values[indices[2]]};
+    }
+    return pixels;
+}
+
+/// The same layer of two pictures of one size.
+struct Pair {
+    std::vector<Vec3> a;
+    std::vector<Vec3> b;
+    std::vector<bool> usable;  ///< finite in both; others are black in both
+    std::size_t usable_count = 0;
+};
+
+Pair color_pair(const Image& a, const Image& b, const std::string& layer) {
+    if (a.width != b.width || a.height != b.height) {
+        throw Error(ExitCode::file, "pictures of " + std::to_string(a.width) + "x" +
+                                        std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
+                                        std::to_string(b.height) + " pixels cannot be compared");
+    }
+    Pair pair{color_pixels(a, layer, "first"), color_pixels(b, layer, "second"), {}, 0};
+    pair.usable.resize(pair.a.size());
+    for (std::size_t i = 0; i < pair.a.size(); ++i) {
+        pair.usable[i] = is_finite(pair.a[i]) && is_finite(pair.b[i]);
+        if (pair.usable[i]) {
+            ++pair.usable_count;
+        } else {
+            pair.a[i] = pair.b[i] = Vec3{0, 0, 0};
+        }
+    }
+    return pair;
+}
+
+double luminance_of(Vec3 c) {
+    return static_cast<double>(luminance(c));
+}
+
+double ratio(double numerator, double denominator) {
+    if (denominator != 0.0) {
+        return numerator / denominator;
+    }
+    return numerator == 0.0 ? 1.0 : std::numeric_limits<double>::infinity();
+}
+
+/// Dark violet over red to pale yellow, in equal steps of lightness; sRGB.
+Vec3 map_color(float error) {
+    constexpr std::array<Vec3, 6> kStops{{{0.00f, 0.00f, 0.02f},
+                                          {0.23f, 0.06f, 0.44f},
+                                          {0.55f, 0.16f, 0.51f},
+                                          {0.87f, 0.29f, 0.41f},
+                                          {0.99f, 0.62f, 0.43f},
+                                          {0.99f, 0.99f, 0.75f}}};
+    const float position = std::clamp(error, 0.0f, 1.0f) * static_cast<float>(kStops.size() - 1);
+    const std::size_t index = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
+    const float weight = position - static_cast<float>(index);
+    return kStops[index] * (1.0f - weight) + kStops[index + 1] * weight;
+}
+
+}  // namespace
+
+bool has_color_layer(const Image& image, const std::string& layer) {
+    return image.find_channel(channel_name(layer, 'R')) >= 0 &&
+           image.find_channel(channel_name(layer, 'G')) >= 0 &&
+           image.find_channel(channel_name(layer, 'B')) >= 0;
+}
+
+std::vector<std::string> color_layers(const Image& image) {
+    std::vector<std::string> layers;
+    for (const std::string& channel : image.channels) {
+        const bool is_red = channel == "R" || channel.ends_with(".R");
+        const std::string layer = channel.size() > 2 && is_red ? channel.substr(0, channel.size() - 2) : "";
+        if (is_red && has_color_layer(image, layer)) {
+            layers.push_back(layer);
+        }
+    }
+    return layers;
+}
+
+ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer) {
+    const Pair pair = color_pair(a, b, layer);
+    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+    ImageDifference result;
+    result.non_finite = pair.a.size() - pair.usable_count;
+    double luminance_a = 0.0;
+    double luminance_b = 0.0;
+    for (std::size_t i = 0; i < pair.a.size(); ++i) {
+        if (!pair.usable[i]) {
+            continue;
+        }
+        const std::array<std::array<float, 2>, 3> components{
+            {{pair.a[i].x, pair.b[i].x}, {pair.a[i].y, pair.b[i].y}, {pair.a[i].z, pair.b[i].z}}};
+        for (const auto& [value, reference] : components) {
+            const double squared = std::pow(static_cast<double>(value) - static_cast<double>(reference), 2);
+            result.rmse += squared;
+            result.relative_mse += squared / (std::pow(static_cast<double>(reference), 2) + 0.01);
+        }
+        luminance_a += luminance_of(pair.a[i]);
+        luminance_b += luminance_of(pair.b[i]);
+        result.flip += static_cast<double>(flip[i]);
+    }
+    const double count = std::max<double>(1.0, static_cast<double>(pair.usable_count));
+    result.rmse = std::sqrt(result.rmse / (3.0 * count));
+    result.relative_mse /= 3.0 * count;
+    result.mean_ratio = ratio(luminance_a, luminance_b);
+    result.flip /= count;
+    return result;
+}
+
+Image flip_map(const Image& a, const Image& b, const std::string& layer) {
+    const Pair pair = color_pair(a, b, layer);
+    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+    Image map = make_image(a.width, a.height, {"R", "G", "B"});
+    for (std::size_t i = 0; i < flip.size(); ++i) {
+        const Vec3 color = map_color(flip[i]);
+        map.values[3 * i] = srgb_to_linear(color.x);
+        map.values[3 * i + 1] = srgb_to_linear(color.y);
+        map.values[3 * i + 2] = srgb_to_linear(color.z);
+    }
+    return map;
+}
+
+}  // namespace nearlight

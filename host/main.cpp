@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `nearlight`: options → command → exit code, and the only place where errors end.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "host/base/error.h"
+#include "host/cli/command.h"
+#include "host/cli/diff_command.h"
+
+namespace {
+
+int fail(const char* message, nearlight::ExitCode code) {
+    std::fprintf(stderr, "nearlight: error: %s\n", message);
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using nearlight::ExitCode;
+    try {
+        nearlight::CommandLine line;
+        nearlight::add_diff_command(line);
+        return static_cast<int>(line.run(argc, argv));
+    } catch (const nearlight::Error& error) {
+        return fail(error.what(), error.code());
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory on the host; try a smaller --size or fewer --layers",
+                    ExitCode::out_of_memory);
+    } catch (const std::exception& error) {
+        return fail(error.what(), ExitCode::runtime);
+    }
+}

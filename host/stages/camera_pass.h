@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The G-buffer: where camera paths meet their first diffuse surface.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "host/stages/device_scene.h"
+
+namespace nearlight {
+
+/// Which tile rows and samples of the picture one launch covers.
+struct CameraBand {
+    uint first_tile_row = 0;
+    uint tile_row_count = 0;  ///< of 8 pixel rows each; the last may reach below the picture
+    uint first_sample = 0;
+    uint sample_count = 1;
+    uint samples_per_pixel = 1;  ///< in all; a single one goes through the pixel's centre
+    uint branch_count = 1;       ///< 2 where camera paths may divide
+};
+
+/// Packets of receivers that a band has: tiles × samples × branches.
+std::size_t packet_count(const CameraBand& band, uint image_width);
+
+class CameraPass {
+  public:
+    explicit CameraPass(Device& device);
+
+    /// Writes packet_count() packets and as many times 64 vertices, in the order that kernels/camera_pass.cl states.
+    void run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
+             const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
+             Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);
+
+  private:
+    Program program_;
+    Kernel camera_pass_;
+};
+
+}  // namespace nearlight

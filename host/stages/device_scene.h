@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene in device memory, as kernels/lib/scene.cl sees it.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/cl/buffer.h"
+#include "host/scene/scene.h"
+
+namespace nearlight {
+
+struct DeviceScene {
+    Buffer<BvhNode> nodes;
+    Buffer<BvhTriangle> bvh_triangles;
+    Buffer<uint> triangle_ids;
+    Buffer<BvhNode> glass_nodes;
+    Buffer<BvhTriangle> glass_triangles;
+    Buffer<uint> glass_ids;
+    Buffer<Vertex> vertices;
+    Buffer<Triangle> triangles;
+    Buffer<Material> materials;
+    Buffer<Texture> textures;
+    Buffer<uint> texels;
+    Buffer<Emitter> emitters;
+    Buffer<Environment> environment;
+    Buffer<float> environment_pixels;  ///< RGBA
+    Buffer<float> row_cdf;
+    Buffer<float> column_cdf;
+    Buffer<SceneInfo> info;
+
+    // What the host needs to know without asking the device.
+    SceneInfo host_info{};
+    bool has_lobes = false;     ///< some material gives camera paths two ways on (a coat or glass)
+    float mean_albedo = 0.5f;   ///< luminance that light transport sees, averaged over area
+    float total_power = 0.0f;   ///< luminance of all emitted flux, W
+
+    /// In the order of SCENE_PARAMETERS.
+    template <typename Visitor>
+    void for_each_buffer(Visitor&& visit) const {
+        visit(nodes), visit(bvh_triangles), visit(triangle_ids);
+        visit(glass_nodes), visit(glass_triangles), visit(glass_ids);
+        visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
+        visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
+        visit(info);
+    }
+};
+
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs);
+
+}  // namespace nearlight

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds samples to pixels and turns the sums into the layers of the picture, on the device.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "host/stages/camera_pass.h"
+
+namespace nearlight {
+
+class Film {
+  public:
+    explicit Film(Device& device);
+
+    /// Adds one batch of samples; `sums` holds NEARLIGHT_FILM_CHANNELS floats for each of width × row_count pixels.
+    void add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
+             const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect, const CameraBand& band,
+             uint width, uint row_count, Buffer<float>& sums);
+    /// NEARLIGHT_LAYER_CHANNELS floats a pixel, in the order of layer_channels().
+    void resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel, Buffer<float>& layers);
+
+  private:
+    Program program_;
+    Kernel film_add_;
+    Kernel film_resolve_;
+};
+
+/// Names of a finished picture's channels: R, G, B, direct.R, …, closerange.Y.
+std::vector<std::string> layer_channels();
+
+}  // namespace nearlight

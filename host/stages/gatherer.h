@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gather: irradiance that a VPL set sends to receivers, with visibility tested for every pair.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "host/cl/buffer.h"
+#include "host/cl/kernel.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+/// Which kernel does the work. Both compute the same sum; visibility may differ for rays that meet an edge of a
+/// triangle within rounding.
+enum class GatherKernel {
+    automatic,  ///< packets on CPUs, rays elsewhere
+    packets,    ///< gather_packets.cl: one work-item, 64 receivers in vector registers
+    rays,       ///< gather_rays.cl: one work-item, one receiver
+};
+
+struct GatherConfig {
+    GatherKernel kernel = GatherKernel::automatic;
+    uint packet_width = NEARLIGHT_PACKET_SIZE;  ///< of `packets`: 16, 32 or 64 receivers a tree traversal
+    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the time
+    /// it took. The result does not depend on it.
+    std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
+    double launch_seconds = 0.2;  ///< how long a launch should take; infinity: everything in the first launch
+};
+
+/// What is gathered. The tree is the one of opaque surfaces. Counts may be smaller than the buffers'.
+struct GatherInput {
+    const Buffer<BvhNode>& nodes;
+    const Buffer<BvhTriangle>& triangles;
+    const Buffer<Vpl>& vpls;
+    std::size_t vpl_count = 0;
+    const Buffer<ReceiverPacket>& receivers;
+    std::size_t packet_count = 0;
+    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
+};
+
+/// Called between launches with the number of (receiver, VPL) pairs done so far and of all; false cancels.
+using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
+
+/// What became of one (receiver, VPL) pair.
+enum class GatherPair : std::uint8_t {
+    culled = 0,  ///< no ray: a cosine is not positive (an absent receiver's is 0), or something is not finite
+    visible = 1,
+    occluded = 2,
+};
+
+class Gatherer {
+  public:
+    /// Compiles the kernel. Throws Error(ExitCode::kernel_build).
+    explicit Gatherer(Device& device, const GatherConfig& config = {});
+
+    /// irradiance[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0, vpl_count), in
+    /// W/m², for each packet p of [0, packet_count). Sums are formed in a fixed order: the same bits for any
+    /// division into launches and any number of threads. Pairs with NaN or infinity in them contribute nothing.
+    /// Returns when done; false if `progress` cancelled, and then only part of the VPLs is summed.
+    bool gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
+                const GatherProgress& progress = {});
+
+    /// The same, and what became of each pair: entry (packet·vpl_count + vpl)·64 + lane. For tests and
+    /// benchmarks; a byte a pair.
+    std::vector<GatherPair> gather_recorded(const GatherInput& input, Buffer<IrradiancePacket>& irradiance);
+
+    [[nodiscard]] GatherKernel kernel() const { return config_.kernel; }
+
+  private:
+    struct Part;
+    [[nodiscard]] Kernel make_kernel(bool recording) const;
+    [[nodiscard]] Part next_part(const GatherInput& input, const Part& done, std::uint64_t pair_budget) const;
+    template <typename... Record>
+    void launch(Kernel& kernel, const GatherInput& input, const Part& part,
+                Buffer<IrradiancePacket>& irradiance, const Record&... record);
+
+    Device* device_;
+    GatherConfig config_;
+    Kernel kernel_;
+};
+
+}  // namespace nearlight

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the G-buffer).
+//
+// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of 8 × 8 pixel tiles
+// × tiles_x + column, counted from the first tile row of the band; lane = y % 8 · 8 + x % 8. Each sample has
+// branch_count (1 or 2) receivers: at the first surface with two ways on (a coat, glass), branch 0 takes the base
+// or the refraction and branch 1 the reflection, each with its full weight, so that a glossy floor is not made
+// of noise; later ones choose by chance. Branch 1 of a sample that never divides is absent.
+// One work-item a receiver; any work-group size. Random numbers depend on pixel and sample only.
+
+#include "lib/close_range.cl"
+#include "lib/emitter.cl"
+#include "lib/fresnel.cl"
+#include "lib/material.cl"
+
+#define MAX_CHAIN 24
+
+typedef struct CameraPath {
+    float3 origin;
+    float3 direction;
+    float3 throughput;
+    float3 emitted;
+    uint key;        // of the random sequence
+    uint undivided;  // 1: no surface with two ways on was met yet, and there are two branches
+} CameraPath;
+
+/// Chooses between reflection (true) and the other way. The first division gives each branch one way with its
+/// full weight; later ones are by chance, reflection with probability p.
+inline bool choose_reflection(CameraPath* path, uint branch, float p, float u) {
+    if (path->undivided) {
+        path->undivided = 0;
+        if (branch == 1) {
+            path->emitted = (float3)(0.0f);  // what was seen so far is counted by branch 0
+        }
+        return branch == 1;
+    }
+    const bool reflection = u < p;
+    path->throughput *= 1.0f / (reflection ? p : 1.0f - p);
+    return reflection;
+}
+
+/// A microfacet normal that the viewer sees, for roughness alpha.
+inline float3 sample_facet(float3 n, float3 to_viewer, float alpha, float2 u) {
+    if (alpha < 1e-3f) {
+        return n;
+    }
+    const Frame frame = make_frame(n);
+    float3 viewer = world_to_frame(&frame, to_viewer);
+    viewer.z = fmax(viewer.z, 1e-4f);
+    return frame_to_world(&frame, sample_visible_normal(normalize(viewer), alpha, u));
+}
+
+/// Turns the path into the mirror direction about the facet. False where it would go below the surface.
+inline bool reflect_path(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, float3 n, float3 facet,
+                         float alpha, float3 weight) {
+    const float3 to_viewer = -path->direction;
+    const float3 reflected = 2.0f * dot(to_viewer, facet) * facet - to_viewer;
+    const float cosine = dot(reflected, n);
+    if (!(cosine > 0.0f) || !(dot(reflected, hit->geometric) > 0.0f)) {
+        return false;
+    }
+    path->throughput *= weight * (alpha < 1e-3f ? 1.0f : ggx_masking(cosine, alpha));
+    path->direction = normalize(reflected);
+    path->origin = offset_point(scene, hit->position, hit->geometric);
+    return true;
+}
+
+/// Metal: reflection is the only way.
+inline bool scatter_conductor(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                              const global Material* material, float3 n, float2 u) {
+    const float3 facet = sample_facet(n, -path->direction, material->roughness, u);
+    const float cosine = fmax(dot(-path->direction, facet), 0.0f);
+    const float3 weight = load3(material->specular) * fresnel_conductor(cosine, load3(material->eta), load3(material->k));
+    return reflect_path(scene, path, hit, n, facet, material->roughness, weight);
+}
+
+/// Solid glass: reflection or refraction.
+inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                               const global Material* material, float3 n, uint branch, float2 u_facet, float u_choice) {
+    const float eta = hit->front ? material->eta.x : 1.0f / material->eta.x;
+    const float3 facet = sample_facet(n, -path->direction, material->roughness, u_facet);
+    const float cosine = fmax(dot(-path->direction, facet), 0.0f);
+    float cos_far;
+    const float reflectance = fresnel_dielectric(cosine, eta, &cos_far);
+    if (reflectance >= 1.0f) {
+        return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular));
+    }
+    if (choose_reflection(path, branch, reflectance, u_choice)) {
+        return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular) * reflectance);
+    }
+    const float3 refracted = path->direction / eta + (cosine / eta - cos_far) * facet;
+    if (!(dot(refracted, hit->geometric) < 0.0f)) {
+        return false;
+    }
+    path->throughput *= load3(material->transmission) * (1.0f - reflectance);
+    path->direction = normalize(refracted);
+    path->origin = offset_point(scene, hit->position, -hit->geometric);
+    return true;
+}
+
+/// A pane: both its faces at once, no bending.
+inline bool scatter_thin_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                                    const global Material* material, float3 n, uint branch, float u_choice) {
+    float cos_far;
+    const float once = fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
+    const float reflectance = once >= 1.0f ? 1.0f : 2.0f * once / (1.0f + once);
+    if (choose_reflection(path, branch, reflectance, u_choice)) {
+        return reflect_path(scene, path, hit, n, n, 0.0f, load3(material->specular) * reflectance);
+    }
+    path->throughput *= load3(material->transmission) * (1.0f - reflectance);
+    path->origin = offset_point(scene, hit->position, -hit->geometric);
+    return true;
+}
+
+/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, 2 if this surface is
+/// the receiver; then `albedo` is what the camera sees there.
+inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, uint branch, uint step,
+                    float3* albedo) {
+    const global Material* material = scene->materials + hit->material;
+    const float2 u_facet = sample_2d(0, 2 * step + 1, path->key);
+    const float u_choice = sample_2d(0, 2 * step + 2, path->key).x;
+    const float3 n = dot(hit->shading, path->direction) < 0.0f ? hit->shading : hit->geometric;
+    switch (material->lobe) {
+        case NEARLIGHT_LOBE_CONDUCTOR:
+            return reflects(material, hit->front) && scatter_conductor(scene, path, hit, material, n, u_facet);
+        case NEARLIGHT_LOBE_DIELECTRIC:
+            return scatter_dielectric(scene, path, hit, material, n, branch, u_facet, u_choice);
+        case NEARLIGHT_LOBE_THIN_DIELECTRIC:
+            return scatter_thin_dielectric(scene, path, hit, material, n, branch, u_choice);
+        default:
+            break;
+    }
+    if (!reflects(material, hit->front)) {
+        return 0;
+    }
+    *albedo = camera_albedo(scene, material, hit->uv);
+    if (material->lobe == NEARLIGHT_LOBE_COAT) {
+        const float3 facet = sample_facet(n, -path->direction, material->roughness, u_facet);
+        float cos_far;
+        const float facet_reflectance =
+            fresnel_dielectric(fmax(dot(-path->direction, facet), 0.0f), material->eta.x, &cos_far);
+        const float reflectance = fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
+        const float p = clamp(reflectance / (reflectance + (1.0f - reflectance) * luminance(*albedo)), 0.05f, 0.95f);
+        if (choose_reflection(path, branch, p, u_choice)) {
+            return reflect_path(scene, path, hit, n, facet, material->roughness,
+                                load3(material->specular) * facet_reflectance);
+        }
+        *albedo *= 1.0f - reflectance;
+    }
+    return 2;
+}
+
+kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
+                        const global CloseRange* restrict close_range, uint first_tile_row, uint tile_row_count,
+                        uint first_sample, uint sample_count, uint sequence_length, uint branch_count, uint seed,
+                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
+    const uint index = (uint)get_global_id(0);
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    const uint packet = index / NEARLIGHT_PACKET_SIZE;
+    const uint branch = packet % branch_count;
+    const uint sample = packet / branch_count % sample_count;
+    const uint tile = packet / (branch_count * sample_count);
+    const uint tiles_x = (camera->width + 7) / 8;
+    if (tile >= tiles_x * tile_row_count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const uint x = tile % tiles_x * 8 + lane % 8;
+    const uint y = (first_tile_row + tile / tiles_x) * 8 + lane / 8;
+
+    CameraVertex vertex;
+    vertex.throughput = store3((float3)(0.0f));
+    vertex.depth = 0.0f;
+    vertex.albedo = store3((float3)(0.0f));
+    vertex.flags = 0;
+    vertex.emitted = store3((float3)(0.0f));
+    vertex.pad0 = 0.0f;
+    float3 position = (float3)(0.0f);
+    float3 normal = (float3)(0.0f);
+
+    if (x < camera->width && y < camera->height) {
+        const uint pixel = y * camera->width + x;
+        CameraPath path;
+        path.key = random_uint4((uint4)(pixel, first_sample + sample, seed, 0xca3e7au)).x;
+        // A single sample goes through the centre of its pixel.
+        const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
+        const float2 jitter = sequence_length > 1 ? sample_2d(first_sample + sample, 0, pixel_key) : (float2)(0.5f);
+        path.origin = load3(camera->origin);
+        path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
+                                   ((float)y + jitter.y) * load3(camera->step_y));
+        path.throughput = (float3)(1.0f);
+        path.emitted = (float3)(0.0f);
+        path.undivided = branch_count > 1;
+        float3 albedo = (float3)(0.0f);
+        for (uint step = 0; step < MAX_CHAIN; ++step) {
+            const SurfaceHit hit = trace_camera(&scene, path.origin, path.direction);
+            if (hit.t < 0.0f) {
+                path.emitted += path.throughput * environment_radiance(&scene, path.direction);
+                break;
+            }
+            if (step == 0) {
+                vertex.depth = hit.t;
+            }
+            if (hit.front) {
+                path.emitted += path.throughput * load3(scene.materials[hit.material].emission);
+            }
+            const uint outcome = scatter(&scene, &path, &hit, branch, step, &albedo);
+            if (outcome == 2) {
+                position = offset_point(&scene, hit.position, hit.geometric);
+                normal = hit.shading;
+                vertex.throughput = store3(path.throughput);
+                vertex.albedo = store3(albedo);
+                vertex.flags = in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
+            }
+            if (outcome != 1) {
+                break;
+            }
+        }
+        if (branch == 1 && path.undivided) {
+            vertex.throughput = store3((float3)(0.0f));
+            vertex.albedo = store3((float3)(0.0f));
+            normal = (float3)(0.0f);
+            path.emitted = (float3)(0.0f);
+        }
+        vertex.emitted = store3(path.emitted);
+    }
+    receivers[packet].px[lane] = position.x;
+    receivers[packet].py[lane] = position.y;
+    receivers[packet].pz[lane] = position.z;
+    receivers[packet].nx[lane] = normal.x;
+    receivers[packet].ny[lane] = normal.y;
+    receivers[packet].nz[lane] = normal.z;
+    vertices[index] = vertex;
+}

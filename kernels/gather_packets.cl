@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums a VPL set over receivers, for CPUs: irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²)
+// · V.
+//
+// One work-item takes one packet of receivers against a run of VPLs. The compiler does not turn a divergent
+// traversal loop into vector code, so the vectors are written out: a packet is GATHER_GROUPS groups of 16
+// lanes that go through the tree together. What makes this fast:
+// - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle test
+// is
+//   three dot products a lane with constants of the (VPL, triangle) pair, without a division.
+// - A child is entered as soon as one group meets it, and remembers that group: the groups before it need not
+// be
+//   looked at again below [Overbeck et al., Large Ray Packets for Real-time Whitted Ray Tracing, 2008].
+// - A lane that is culled or occluded has t_max = −1, which no box and no triangle passes: no other mask is
+// kept. gather_rays.cl computes the same on GPUs. host/stages/gatherer.h is the interface of both.
+
+#include "lib/gather.cl"
+
+#ifndef GATHER_PACKET_WIDTH
+#define GATHER_PACKET_WIDTH \
+    NEARLIGHT_PACKET_SIZE  // receivers that go through the tree together: 16, 32 or 64
+#endif
+#define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
+
+/// Segments from one VPL to the receivers of a packet; the points on them are origin + t·(dx, dy, dz).
+typedef struct Segments {
+    float16 dx[GATHER_GROUPS], dy[GATHER_GROUPS], dz[GATHER_GROUPS];
+    float16 reciprocal_x[GATHER_GROUPS], reciprocal_y[GATHER_GROUPS], reciprocal_z[GATHER_GROUPS];
+    float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
+    float16 weight[GATHER_GROUPS];
+    float3 origin;
+    float3 axis;  // direction of the packet as a whole
+} Segments;
+
+typedef struct Accumulator {
+    float16 r[GATHER_GROUPS], g[GATHER_GROUPS], b[GATHER_GROUPS];
+} Accumulator;
+
+// The spelled-out comparisons compile to one instruction each; fmin() and fmax() have to look after NaN.
+inline float16 min16(float16 a, float16 b) {
+    return a < b ? a : b;
+}
+inline float16 max16(float16 a, float16 b) {
+    return a > b ? a : b;
+}
+
+/// True if any lane is −1. Some drivers compile any() to a branch a lane pair.
+inline bool any_lane(int16 mask) {
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define NEARLIGHT_REDUCE_OR 1
+#endif
+#endif
+#ifdef NEARLIGHT_REDUCE_OR
+    return __builtin_reduce_or(mask) != 0;
+#else
+    const int8 a = mask.lo | mask.hi;
+    const int4 b = a.lo | a.hi;
+    const int2 c = b.lo | b.hi;
+    return (c.x | c.y) != 0;
+#endif
+}
+
+inline float16 reciprocal16(float16 d) {
+    const float16 tiny = (float16)1e-20f;
+    return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
+}
+
+/// The first group from `group` on that meets the box [low, high] (relative to the origin); GATHER_GROUPS:
+/// none.
+inline uint first_group_in_box(const Segments* s, float3 low, float3 high, uint group) {
+    for (; group < GATHER_GROUPS; ++group) {
+        const float16 x0 = low.x * s->reciprocal_x[group];
+        const float16 x1 = high.x * s->reciprocal_x[group];
+        const float16 y0 = low.y * s->reciprocal_y[group];
+        const float16 y1 = high.y * s->reciprocal_y[group];
+        const float16 z0 = low.z * s->reciprocal_z[group];
+        const float16 z1 = high.z * s->reciprocal_z[group];
+        const float16 enter = max16(max16(min16(x0, x1), min16(y0, y1)),
+                                    max16(min16(z0, z1), (float16)NEARLIGHT_SEGMENT_T_MIN));
+        const float16 leave =
+            min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), s->t_max[group]));
+        if (any_lane(enter <= leave)) {
+            break;
+        }
+    }
+    return group;
+}
+
+/// Ends the segments that meet the triangle. Turning the triangle towards the origin makes the sign of t the
+/// same for all lanes; then 0 ≤ u, 0 ≤ v, u + v ≤ det (all scaled by det) and t_min·det < t < t_max·det.
+/// Returns true if any segment ended.
+inline bool intersect_triangle(Segments* s, const global BvhTriangle* triangle, uint group) {
+    const float3 to_origin = s->origin - load3(triangle->v0);
+    const float3 normal = load3(triangle->normal);
+    const float distance = dot(to_origin, normal);
+    const float side = distance < 0.0f ? -1.0f : 1.0f;
+    const float3 n = normal * -side;
+    const float3 u_axis = cross(load3(triangle->edge2), to_origin) * side;
+    const float3 v_axis = cross(to_origin, load3(triangle->edge1)) * side;
+    const float16 t = (float16)(distance * side);
+    int16 any_hit = (int16)0;
+    for (; group < GATHER_GROUPS; ++group) {
+        const float16 dx = s->dx[group], dy = s->dy[group], dz = s->dz[group];
+        const float16 det = n.x * dx + n.y * dy + n.z * dz;
+        const float16 u = u_axis.x * dx + u_axis.y * dy + u_axis.z * dz;
+        const float16 v = v_axis.x * dx + v_axis.y * dy + v_axis.z * dz;
+        const int16 hit = (u >= 0.0f) & (v >= 0.0f) & (u + v <= det) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
+                          (t < s->t_max[group] * det);
+        s->t_max[group] = hit ? (float16)-1.0f : s->t_max[group];
+        any_hit |= hit;
+    }
+    return any_lane(any_hit);
+}
+
+inline uint first_open_group(const Segments* s, uint group) {
+    while (group < GATHER_GROUPS && !any_lane(s->t_max[group] > 0.0f)) {
+        ++group;
+    }
+    return group;
+}
+
+/// Ends the segments (t_max = −1) that meet anything.
+inline void trace_segments(Segments* s, const global BvhNode* nodes, const global BvhTriangle* triangles) {
+    uint2 stack[NEARLIGHT_MAX_BVH_DEPTH + 4];  // child, first group
+    int top = 0;
+    uint group = first_open_group(s, 0);
+    if (group == GATHER_GROUPS) {
+        return;
+    }
+    uint child = 0;
+    for (;;) {
+        if (child & NEARLIGHT_LEAF_BIT) {
+            const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
+            const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+            bool any_hit = false;
+            for (uint i = first; i <= last; ++i) {
+                any_hit |= intersect_triangle(s, triangles + i, group);
+            }
+            if (any_hit && first_open_group(s, 0) == GATHER_GROUPS) {
+                return;
+            }
+        } else {
+            const global BvhNode* node = nodes + child;
+            const float3 left_min = load3(node->left_min) - s->origin;
+            const float3 left_max = load3(node->left_max) - s->origin;
+            const float3 right_min = load3(node->right_min) - s->origin;
+            const float3 right_max = load3(node->right_max) - s->origin;
+            const uint left = first_group_in_box(s, left_min, left_max, group);
+            const uint right = first_group_in_box(s, right_min, right_max, group);
+            if (left < GATHER_GROUPS && right < GATHER_GROUPS) {
+                const bool left_first = dot(left_min + left_max - right_min - right_max, s->axis) <= 0.0f;
+                stack[top++] = left_first ? (uint2)(node->right, right) : (uint2)(node->left, left);
+                child = left_first ? node->left : node->right;
+                group = left_first ? left : right;
+                continue;
+            }
+            if (left < GATHER_GROUPS || right < GATHER_GROUPS) {
+                child = left < GATHER_GROUPS ? node->left : node->right;
+                group = min(left, right);
+                continue;
+            }
+        }
+        if (top == 0) {
+            return;
+        }
+        --top;
+        child = stack[top].x;
+        group = stack[top].y;
+    }
+}
+
+/// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry term.
+inline void connect(Segments* s, const global Vpl* vpl, const global ReceiverPacket* packet, uint first_lane,
+                    float clamp_radius_squared) {
+    s->origin = load3(vpl->position);
+    const float3 vpl_normal = load3(vpl->normal);
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const uint at = first_lane / 16 + group;
+        const float16 dx = vload16(at, packet->px) - s->origin.x;
+        const float16 dy = vload16(at, packet->py) - s->origin.y;
+        const float16 dz = vload16(at, packet->pz) - s->origin.z;
+        const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
+        const float16 cos_receiver =
+            -(vload16(at, packet->nx) * dx + vload16(at, packet->ny) * dy + vload16(at, packet->nz) * dz);
+        const float16 r2 = dx * dx + dy * dy + dz * dz;
+        // Both cosines still carry a factor r.
+        const float16 weight = cos_vpl * cos_receiver / (r2 * max16(r2, (float16)clamp_radius_squared));
+        const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (weight < INFINITY);
+        s->dx[group] = dx;
+        s->dy[group] = dy;
+        s->dz[group] = dz;
+        s->reciprocal_x[group] = reciprocal16(dx);
+        s->reciprocal_y[group] = reciprocal16(dy);
+        s->reciprocal_z[group] = reciprocal16(dz);
+        s->weight[group] = weight;
+        s->t_max[group] = open ? (float16)NEARLIGHT_SEGMENT_T_MAX : (float16)-1.0f;
+    }
+}
+
+/// The middle of the receivers that are there: which child a packet visits first depends on it.
+inline float3 packet_center(const global ReceiverPacket* packet, uint first_lane) {
+    float3 sum = (float3)0.0f;
+    float count = 0.0f;
+    for (uint i = first_lane; i < first_lane + GATHER_PACKET_WIDTH; ++i) {
+        if (packet->nx[i] != 0.0f || packet->ny[i] != 0.0f || packet->nz[i] != 0.0f) {
+            sum += (float3)(packet->px[i], packet->py[i], packet->pz[i]);
+            count += 1.0f;
+        }
+    }
+    return sum / fmax(count, 1.0f);
+}
+
+#ifdef GATHER_RECORD
+inline void record_open(const Segments* s, global uchar* record) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const int16 open = s->t_max[group] > 0.0f;
+        vstore16(convert_uchar16(open & (int)GATHER_RECORD_VISIBLE), group, record);
+    }
+}
+inline void record_occluded(const Segments* s, global uchar* record) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const uchar16 traced = vload16(group, record);
+        const uchar16 occluded = convert_uchar16((s->t_max[group] < 0.0f) & (int)GATHER_RECORD_OCCLUDED);
+        vstore16(traced != (uchar16)0 ? max(traced, occluded) : traced, group, record);
+    }
+}
+#endif
+
+inline void add_visible(Accumulator* sum, const Segments* s, float3 scale) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const float16 weight = s->t_max[group] > 0.0f ? s->weight[group] : (float16)0.0f;
+        sum->r[group] += scale.x * weight;
+        sum->g[group] += scale.y * weight;
+        sum->b[group] += scale.z * weight;
+    }
+}
+
+inline void clear(Accumulator* sum) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        sum->r[group] = sum->g[group] = sum->b[group] = (float16)0.0f;
+    }
+}
+
+/// irradiance (+)= sum, where `replace` says not to add.
+inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first_lane, const Accumulator* sum,
+                              bool replace) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const uint at = first_lane / 16 + group;
+        const float16 none = (float16)0.0f;
+        vstore16(sum->r[group] + (replace ? none : vload16(at, irradiance->r)), at, irradiance->r);
+        vstore16(sum->g[group] + (replace ? none : vload16(at, irradiance->g)), at, irradiance->g);
+        vstore16(sum->b[group] + (replace ? none : vload16(at, irradiance->b)), at, irradiance->b);
+    }
+}
+
+/// One work-item for each GATHER_PACKET_WIDTH receivers of the packets [first_packet, end_packet), over the
+/// VPLs [first_vpl, end_vpl). Each GATHER_CHUNK of VPLs, counted from VPL 0, is summed by itself and then
+/// added to the irradiance, so that the result does not depend on how launches divide the work; first_vpl
+/// must be a multiple of GATHER_CHUNK. Launches over the VPLs of one packet must follow one another in order,
+/// from 0.
+kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
+    const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
+    uint end_vpl, const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
+    float clamp_radius_squared, global IrradiancePacket* irradiance GATHER_RECORD_PARAMETERS) {
+    const uint item = (uint)get_global_id(0);
+    const uint packet = first_packet + item / (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH);
+    const uint first_lane = item % (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH) * GATHER_PACKET_WIDTH;
+    if (packet >= end_packet) {
+        return;
+    }
+    const float3 center = packet_center(receivers + packet, first_lane);
+    Segments segments;
+    Accumulator sum;
+    for (uint chunk = first_vpl; chunk < end_vpl || chunk == 0; chunk += GATHER_CHUNK) {
+        clear(&sum);
+        for (uint i = chunk; i < min(chunk + GATHER_CHUNK, end_vpl); ++i) {
+            connect(&segments, vpls + i, receivers + packet, first_lane, clamp_radius_squared);
+            segments.axis = center - segments.origin;
+#ifdef GATHER_RECORD
+            global uchar* pairs = record + gather_record_index(packet, i, record_vpl_count, first_lane);
+            record_open(&segments, pairs);
+#endif
+            trace_segments(&segments, nodes, triangles);
+#ifdef GATHER_RECORD
+            record_occluded(&segments, pairs);
+#endif
+            add_visible(&sum, &segments, gather_scale(vpls + i));
+        }
+        add_to_irradiance(irradiance + packet, first_lane, &sum, chunk == 0);
+    }
+}

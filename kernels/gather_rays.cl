@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums a VPL set over receivers, for GPUs: one work-item takes one receiver, one ray at a time. All
+// work-items go through the VPLs in the same order, so those of a group ask for the same VPL and for
+// neighbouring nodes. gather_packets.cl computes the same on CPUs. host/stages/gatherer.h is the interface of
+// both.
+
+#include "lib/bvh_traverse.cl"
+#include "lib/gather.cl"
+
+/// Geometry term of VPL and receiver without visibility, 0 if there is nothing to trace: `segment` leads from
+/// the VPL to the receiver.
+inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, float clamp_radius_squared) {
+    const float cos_vpl = dot(vpl_normal, segment);
+    const float cos_receiver = -dot(normal, segment);
+    const float r2 = dot(segment, segment);
+    // Both cosines still carry a factor r.
+    const float term = cos_vpl * cos_receiver / (r2 * fmax(r2, clamp_radius_squared));
+    return cos_vpl > 0.0f && cos_receiver > 0.0f && term < INFINITY ? term : 0.0f;
+}
+
+/// One work-item for each receiver of the packets [first_packet, end_packet), over the VPLs [first_vpl,
+/// end_vpl). Chunks and launches as in gather_packets.
+kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
+                        const global Vpl* vpls, uint first_vpl, uint end_vpl,
+                        const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
+                        float clamp_radius_squared,
+                        global IrradiancePacket* irradiance GATHER_RECORD_PARAMETERS) {
+    const uint item = (uint)get_global_id(0);
+    const uint packet = first_packet + item / NEARLIGHT_PACKET_SIZE;
+    const uint lane = item % NEARLIGHT_PACKET_SIZE;
+    if (packet >= end_packet) {
+        return;
+    }
+    const global ReceiverPacket* from = receivers + packet;
+    const float3 position = (float3)(from->px[lane], from->py[lane], from->pz[lane]);
+    const float3 normal = (float3)(from->nx[lane], from->ny[lane], from->nz[lane]);
+    global IrradiancePacket* to = irradiance + packet;
+    float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
+    for (uint chunk = first_vpl; chunk < end_vpl; chunk += GATHER_CHUNK) {
+        float3 sum = (float3)0.0f;
+        for (uint i = chunk; i < min(chunk + GATHER_CHUNK, end_vpl); ++i) {
+            const global Vpl* vpl = vpls + i;
+            const float3 origin = load3(vpl->position);
+            const float3 segment = position - origin;
+            const float term = geometry_term(segment, load3(vpl->normal), normal, clamp_radius_squared);
+            const bool open = term > 0.0f;
+            const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
+                                                   NEARLIGHT_SEGMENT_T_MAX);
+            sum += visible ? gather_scale(vpl) * term : (float3)0.0f;
+#ifdef GATHER_RECORD
+            record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0
+                                                                             : visible
+                                                                                 ? GATHER_RECORD_VISIBLE
+                                                                                 : GATHER_RECORD_OCCLUDED;
+#endif
+        }
+        total += sum;
+    }
+    to->r[lane] = total.x;
+    to->g[lane] = total.y;
+    to->b[lane] = total.z;
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes size and member offsets of every shared struct, so that a test can compare them with the host's on
+// every device. Output: one uint a fact, in the order of the list in tests/cl/layout_test.cpp.
+
+#include "shared/types.h"
+
+#define SIZE(Type) *out++ = (uint)sizeof(Type)
+#define OFFSET(Type, member) *out++ = (uint)(size_t)(&(((Type*)0)->member))
+
+kernel void layout_probe(global uint* out) {
+    SIZE(BvhNode);
+    OFFSET(BvhNode, left);
+    OFFSET(BvhNode, right_max);
+    SIZE(BvhTriangle);
+    OFFSET(BvhTriangle, normal);
+    SIZE(Vertex);
+    OFFSET(Vertex, v);
+    SIZE(Triangle);
+    OFFSET(Triangle, material);
+    SIZE(Material);
+    OFFSET(Material, eta);
+    OFFSET(Material, transmission);
+    OFFSET(Material, base_saturation);
+    SIZE(Texture);
+    OFFSET(Texture, v_offset);
+    OFFSET(Texture, color1);
+    SIZE(Emitter);
+    OFFSET(Emitter, radiance);
+    OFFSET(Emitter, cutoff_angle);
+    SIZE(Environment);
+    OFFSET(Environment, scene_center);
+    SIZE(PinholeCamera);
+    OFFSET(PinholeCamera, step_y);
+    SIZE(Vpl);
+    OFFSET(Vpl, power);
+    SIZE(SurfaceSample);
+    OFFSET(SurfaceSample, v);
+    SIZE(ReceiverPacket);
+    OFFSET(ReceiverPacket, nz);
+    SIZE(IrradiancePacket);
+    OFFSET(IrradiancePacket, b);
+    SIZE(CameraVertex);
+    OFFSET(CameraVertex, emitted);
+    SIZE(CloseRange);
+    OFFSET(CloseRange, range);
+    SIZE(SceneInfo);
+    OFFSET(SceneInfo, extent);
+}

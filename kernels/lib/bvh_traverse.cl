@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traversal of the shared BVH by one ray: any hit and closest hit.
+//
+// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so it cannot overflow. Directions are kept away
+// from zero, so the slab test meets no 0·∞; NaN in a ray makes every comparison false, so it hits nothing.
+#ifndef NEARLIGHT_LIB_BVH_TRAVERSE
+#define NEARLIGHT_LIB_BVH_TRAVERSE
+
+#include "lib/math.cl"
+
+typedef struct RayHit {
+    float t;
+    float u;    // weight of v1
+    float v;    // weight of v2
+    uint slot;  // index into the BvhTriangle array; ~0u: nothing hit
+} RayHit;
+
+inline float away_from_zero(float x) { return fabs(x) < 1e-20f ? copysign(1e-20f, x) : x; }
+inline float3 safe_reciprocal(float3 d) {
+    return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
+}
+
+/// Entry distance of the ray into the box, or a value > t_max (strictly) if it misses.
+inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min, float t_max) {
+    const float3 t0 = (load3(box_min) - origin) * reciprocal;
+    const float3 t1 = (load3(box_max) - origin) * reciprocal;
+    const float3 near3 = fmin(t0, t1);
+    const float3 far3 = fmax(t0, t1);
+    const float t_near = fmax(fmax(near3.x, near3.y), fmax(near3.z, t_min));
+    const float t_far = fmin(fmin(far3.x, far3.y), fmin(far3.z, t_max));
+    return t_near <= t_far ? t_near : INFINITY;
+}
+
+/// Möller–Trumbore without the division until something is hit. Both sides; t strictly inside (t_min, t_max).
+inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, float3 direction, float t_min,
+                         float t_max, RayHit* hit) {
+    const float3 edge1 = load3(triangle->edge1);
+    const float3 edge2 = load3(triangle->edge2);
+    const float3 normal = load3(triangle->normal);
+    const float3 to_origin = origin - load3(triangle->v0);
+    const float determinant = -dot(direction, normal);
+    const float side = copysign(1.0f, determinant);
+    const float scale = fabs(determinant);
+    const float3 crossed = cross(to_origin, direction);
+    const float u = dot(edge2, crossed) * side;
+    const float v = -dot(edge1, crossed) * side;
+    const float t = dot(to_origin, normal) * side;
+    if (!(scale > 0.0f) || !(u >= 0.0f) || !(v >= 0.0f) || !(u + v <= scale) || !(t > t_min * scale) ||
+        !(t < t_max * scale)) {
+        return false;
+    }
+    const float inverse = 1.0f / scale;
+    hit->t = t * inverse;
+    hit->u = u * inverse;
+    hit->v = v * inverse;
+    return true;
+}
+
+/// True if anything lies on the ray strictly inside (t_min, t_max).
+inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
+                     float3 direction, float t_min, float t_max) {
+    const float3 reciprocal = safe_reciprocal(direction);
+    uint stack[NEARLIGHT_MAX_BVH_DEPTH + 4];
+    int top = 0;
+    uint child = 0;
+    RayHit ignored;
+    for (;;) {
+        if (child & NEARLIGHT_LEAF_BIT) {
+            const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
+            const uint count = ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK) + 1;
+            for (uint i = first; i < first + count; ++i) {
+                if (hit_triangle(triangles + i, origin, direction, t_min, t_max, &ignored)) {
+                    return true;
+                }
+            }
+        } else {
+            const global BvhNode* node = nodes + child;
+            const float left = enter_box(node->left_min, node->left_max, origin, reciprocal, t_min, t_max);
+            const float right = enter_box(node->right_min, node->right_max, origin, reciprocal, t_min, t_max);
+            const bool hits_left = left <= t_max;
+            const bool hits_right = right <= t_max;
+            if (hits_left && hits_right) {
+                const bool left_first = left <= right;
+                stack[top++] = left_first ? node->right : node->left;
+                child = left_first ? node->left : node->right;
+                continue;
+            }
+            if (hits_left || hits_right) {
+                child = hits_left ? node->left : node->right;
+                continue;
+            }
+        }
+        if (top == 0) {
+            return false;
+        }
+        child = stack[--top];
+    }
+}
+
+/// The closest hit strictly inside (t_min, t_max); slot ~0u if there is none.
+inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
+                          float3 direction, float t_min, float t_max) {
+    const float3 reciprocal = safe_reciprocal(direction);
+    uint stack[NEARLIGHT_MAX_BVH_DEPTH + 4];
+    float entry[NEARLIGHT_MAX_BVH_DEPTH + 4];
+    int top = 0;
+    uint child = 0;
+    RayHit best = {t_max, 0.0f, 0.0f, ~0u};
+    for (;;) {
+        if (child & NEARLIGHT_LEAF_BIT) {
+            const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
+            const uint count = ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK) + 1;
+            for (uint i = first; i < first + count; ++i) {
+                if (hit_triangle(triangles + i, origin, direction, t_min, best.t, &best)) {
+                    best.slot = i;
+                }
+            }
+        } else {
+            const global BvhNode* node = nodes + child;
+            const float left = enter_box(node->left_min, node->left_max, origin, reciprocal, t_min, best.t);
+            const float right = enter_box(node->right_min, node->right_max, origin, reciprocal, t_min, best.t);
+            const bool hits_left = left <= best.t;
+            const bool hits_right = right <= best.t;
+            if (hits_left && hits_right) {
+                const bool left_first = left <= right;
+                stack[top] = left_first ? node->right : node->left;
+                entry[top++] = left_first ? right : left;
+                child = left_first ? node->left : node->right;
+                continue;
+            }
+            if (hits_left || hits_right) {
+                child = hits_left ? node->left : node->right;
+                continue;
+            }
+        }
+        do {
+            if (top == 0) {
+                return best;
+            }
+            child = stack[--top];
+        } while (entry[top] > best.t);
+    }
+}
+
+#endif

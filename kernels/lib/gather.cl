@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both gather kernels share.
+//
+// With GATHER_RECORD defined, the kernels also write one byte a (receiver, VPL) pair that says what became of
+// it, so that tests and benchmarks can compare hit by hit.
+#ifndef NEARLIGHT_LIB_GATHER
+#define NEARLIGHT_LIB_GATHER
+
+#include "lib/math.cl"
+
+#ifndef GATHER_CHUNK
+#define GATHER_CHUNK 256  // VPLs that are summed before the sum is added to the irradiance
+#endif
+
+// Values of the record; 0: culled, because a cosine is not positive or the geometry term is not finite.
+#define GATHER_RECORD_VISIBLE 1
+#define GATHER_RECORD_OCCLUDED 2
+#ifdef GATHER_RECORD
+#define GATHER_RECORD_PARAMETERS , global uchar *record, uint record_vpl_count
+inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint lane) {
+    return ((size_t)packet * vpl_count + vpl) * NEARLIGHT_PACKET_SIZE + lane;
+}
+#else
+#define GATHER_RECORD_PARAMETERS
+#endif
+
+/// Radiant intensity of the VPL along its normal, W/sr. A VPL whose power is not finite is left out.
+inline float3 gather_scale(const global Vpl* vpl) {
+    const float3 power = load3(vpl->power);
+    const bool finite = isfinite(power.x) && isfinite(power.y) && isfinite(power.z);
+    return finite ? power * M_1_PI_F : (float3)0.0f;
+}
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random and quasi-random numbers without state: a function of what they are for, so that no result depends on
+// the order in which work-items run.
+#ifndef NEARLIGHT_LIB_RANDOM
+#define NEARLIGHT_LIB_RANDOM
+
+/// Four independent words for a key. [Jarzynski & Olano, Hash Functions for GPU Rendering, JCGT 2020: pcg4d]
+inline uint4 random_uint4(uint4 key) {
+    uint4 v = key * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+/// Uniform in [0, 1).
+inline float to_unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
+
+inline uint reverse_bits(uint x) {
+    x = ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
+    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
+    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+}
+
+/// Owen scrambling by hash: a random permutation of the binary tree of [0, 1).
+/// [Laine & Karras 2011; Burley, Practical Hash-based Owen Scrambling, JCGT 2020]
+inline uint owen_scramble(uint x, uint seed) {
+    x = reverse_bits(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reverse_bits(x);
+}
+
+/// Second coordinate of the (0, 2)-sequence of Sobol'; the first is reverse_bits(index).
+inline uint sobol_second(uint index) {
+    uint result = 0;
+    for (uint v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
+        if (index & 1u) {
+            result ^= v;
+        }
+    }
+    return result;
+}
+
+/// Point `index` of a randomised (0, 2)-sequence. Different `dimension`s are independent of each other: the
+/// sequence is shuffled and scrambled anew for each, so that any number of them can be put side by side.
+inline float2 sample_2d(uint index, uint dimension, uint seed) {
+    const uint4 keys = random_uint4((uint4)(dimension, seed, 0x9e3779b9u, 0x7f4a7c15u));
+    const uint shuffled = owen_scramble(index, keys.x);
+    return (float2)(to_unit_float(owen_scramble(reverse_bits(shuffled), keys.y)),
+                    to_unit_float(owen_scramble(sobol_second(shuffled), keys.z)));
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the unit square to directions and triangles.
+#ifndef NEARLIGHT_LIB_SAMPLING
+#define NEARLIGHT_LIB_SAMPLING
+
+#include "lib/math.cl"
+
+/// About +Z, density cosθ/π.
+inline float3 square_to_cosine_hemisphere(float2 u) {
+    const float r = sqrt(u.x);
+    const float phi = 2.0f * M_PI_F * u.y;
+    return (float3)(r * cos(phi), r * sin(phi), sqrt(fmax(0.0f, 1.0f - u.x)));
+}
+
+/// About +Z within the angle of cosine `cos_max`, density 1 / (2π(1 − cos_max)); −1 gives the whole sphere.
+inline float3 square_to_cone(float2 u, float cos_max) {
+    const float z = 1.0f - u.x * (1.0f - cos_max);
+    const float r = sqrt(fmax(0.0f, 1.0f - z * z));
+    const float phi = 2.0f * M_PI_F * u.y;
+    return (float3)(r * cos(phi), r * sin(phi), z);
+}
+
+/// Weights of v1 and v2 of a uniform point in a triangle.
+inline float2 square_to_triangle(float2 u) {
+    const float r = sqrt(u.x);
+    return (float2)(r * (1.0f - u.y), r * u.y);
+}
+
+/// The visible normals of GGX: a microfacet normal seen from `wo` (wo.z > 0), in the frame of the surface.
+/// [Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 2018]
+inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
+    const float3 stretched = normalize((float3)(alpha * wo.x, alpha * wo.y, wo.z));
+    const float planar = stretched.x * stretched.x + stretched.y * stretched.y;
+    const float3 t1 = planar > 0.0f ? (float3)(-stretched.y, stretched.x, 0.0f) * rsqrt(planar) : (float3)(1.0f, 0.0f, 0.0f);
+    const float3 t2 = cross(stretched, t1);
+    const float r = sqrt(u.x);
+    const float phi = 2.0f * M_PI_F * u.y;
+    const float p1 = r * cos(phi);
+    const float s = 0.5f * (1.0f + stretched.z);
+    const float p2 = (1.0f - s) * sqrt(fmax(0.0f, 1.0f - p1 * p1)) + s * r * sin(phi);
+    const float3 h = p1 * t1 + p2 * t2 + sqrt(fmax(0.0f, 1.0f - p1 * p1 - p2 * p2)) * stretched;
+    return normalize((float3)(alpha * h.x, alpha * h.y, fmax(0.0f, h.z)));
+}
+
+/// Smith's masking of GGX for a direction with cosine `z`: what sampling visible normals leaves as weight.
+inline float ggx_masking(float z, float alpha) {
+    const float cos2 = z * z;
+    return z > 0.0f ? 2.0f * z / (z + sqrt(alpha * alpha + (1.0f - alpha * alpha) * cos2)) : 0.0f;
+}
+
+#endif

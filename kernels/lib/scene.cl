@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as kernels see it: one parameter list, one struct of pointers, and what a ray finds on a surface.
+//
+// A kernel declares SCENE_PARAMETERS and gathers them with `const SceneView scene = SCENE_VIEW;`. The host
+// passes a DeviceScene, which sets the same arguments in the same order (host/stages/device_scene.h).
+#ifndef NEARLIGHT_LIB_SCENE
+#define NEARLIGHT_LIB_SCENE
+
+#include "lib/bvh_traverse.cl"
+
+#define SCENE_PARAMETERS                                                                                       \
+    const global BvhNode *restrict scene_nodes, const global BvhTriangle *restrict scene_bvh_triangles,        \
+        const global uint *restrict scene_triangle_ids, const global BvhNode *restrict scene_glass_nodes,      \
+        const global BvhTriangle *restrict scene_glass_triangles,                                              \
+        const global uint *restrict scene_glass_ids, const global Vertex *restrict scene_vertices,             \
+        const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,      \
+        const global Texture *restrict scene_textures, const global uint *restrict scene_texels,               \
+        const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment,   \
+        const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,    \
+        const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
+#define SCENE_VIEW                                                                                             \
+    {scene_nodes,     scene_bvh_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,       \
+     scene_glass_ids, scene_vertices,      scene_triangles,    scene_materials,   scene_textures,              \
+     scene_texels,    scene_emitters,      scene_environment,  scene_environment_pixels,                       \
+     scene_row_cdf,   scene_column_cdf,    scene_info}
+
+typedef struct SceneView {
+    const global BvhNode* nodes;  // opaque
+    const global BvhTriangle* bvh_triangles;
+    const global uint* triangle_ids;  // of a BVH slot, in `triangles`
+    const global BvhNode* glass_nodes;
+    const global BvhTriangle* glass_triangles;
+    const global uint* glass_ids;
+    const global Vertex* vertices;
+    const global Triangle* triangles;
+    const global Material* materials;
+    const global Texture* textures;
+    const global uint* texels;
+    const global Emitter* emitters;
+    const global Environment* environment;
+    const global float4* environment_pixels;
+    const global float* row_cdf;
+    const global float* column_cdf;
+    const global SceneInfo* info;
+} SceneView;
+
+/// What a ray found. Normals are unit vectors on the side the ray came from.
+typedef struct SurfaceHit {
+    float t;            // < 0: nothing
+    float3 position;    // on the surface
+    float3 geometric;   // normal of the triangle
+    float3 shading;     // interpolated; the geometric one where the mesh has none
+    float2 uv;          // texture coordinates
+    uint triangle;      // in SceneView.triangles
+    uint material;
+    uint front;  // 1: the ray met the front
+} SurfaceHit;
+
+inline SurfaceHit make_surface_hit(const SceneView* scene, const global BvhTriangle* bvh_triangle, uint triangle_id,
+                                   float3 direction, float t, float u, float v) {
+    SurfaceHit hit;
+    const Triangle triangle = scene->triangles[triangle_id];
+    const global Vertex* a = scene->vertices + triangle.v0;
+    const global Vertex* b = scene->vertices + triangle.v1;
+    const global Vertex* c = scene->vertices + triangle.v2;
+    const float w = 1.0f - u - v;
+    hit.t = t;
+    // From the triangle, not from the ray: as exact as the vertices are.
+    hit.position = load3(bvh_triangle->v0) + u * load3(bvh_triangle->edge1) + v * load3(bvh_triangle->edge2);
+    const float3 normal = normalize(load3(bvh_triangle->normal));
+    hit.front = dot(normal, direction) < 0.0f;
+    hit.geometric = hit.front ? normal : -normal;
+    const float3 interpolated = w * load3(a->normal) + u * load3(b->normal) + v * load3(c->normal);
+    const float squared = dot(interpolated, interpolated);
+    const float3 smooth = squared > 1e-12f ? interpolated * rsqrt(squared) : normal;
+    hit.shading = dot(smooth, hit.geometric) < 0.0f ? -smooth : smooth;
+    hit.uv = (float2)(w * a->u + u * b->u + v * c->u, w * a->v + u * b->v + v * c->v);
+    hit.triangle = triangle_id;
+    hit.material = triangle.material;
+    return hit;
+}
+
+/// The nearest opaque surface.
+inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 direction, float t_max) {
+    const RayHit hit = closest_hit(scene->nodes, scene->bvh_triangles, origin, direction, 0.0f, t_max);
+    if (hit.slot == ~0u) {
+        SurfaceHit none;
+        none.t = -1.0f;
+        return none;
+    }
+    return make_surface_hit(scene, scene->bvh_triangles + hit.slot, scene->triangle_ids[hit.slot], direction, hit.t,
+                            hit.u, hit.v);
+}
+
+/// The nearest surface, glass included: for camera paths only.
+inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 direction) {
+    const RayHit opaque = closest_hit(scene->nodes, scene->bvh_triangles, origin, direction, 0.0f, INFINITY);
+    if (scene->info->has_glass) {
+        const RayHit glass =
+            closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, 0.0f, opaque.t);
+        if (glass.slot != ~0u) {
+            return make_surface_hit(scene, scene->glass_triangles + glass.slot, scene->glass_ids[glass.slot],
+                                    direction, glass.t, glass.u, glass.v);
+        }
+    }
+    if (opaque.slot == ~0u) {
+        SurfaceHit none;
+        none.t = -1.0f;
+        return none;
+    }
+    return make_surface_hit(scene, scene->bvh_triangles + opaque.slot, scene->triangle_ids[opaque.slot], direction,
+                            opaque.t, opaque.u, opaque.v);
+}
+
+/// True if no opaque surface lies between two points that both stand off their surfaces.
+inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
+    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, 1e-5f, 1.0f - 1e-5f);
+}
+
+inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {
+    return position + ray_epsilon(position, scene->info->extent) * normal;
+}
+
+#endif

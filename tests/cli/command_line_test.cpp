@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/cli/command.h"
+#include "tests/cli/run_program.h"
+
+namespace nearlight {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// An error is one line that starts with the program's name, and leaves standard output alone.
+void expect_error(const ProgramResult& result, int exit_code, const std::string& part) {
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_EQ(result.output, "");
+    EXPECT_TRUE(result.errors.starts_with("nearlight: error: ")) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+}
+
+TEST(CommandLine, HelpAndVersion) {
+    for (const char* arguments : {"--help", "-h", "diff --help", "--json diff -h"}) {
+        const ProgramResult result = run_program(arguments);
+        EXPECT_EQ(result.exit_code, 0) << arguments;
+        EXPECT_TRUE(contains(result.output, "Usage: nearlight")) << arguments;
+        EXPECT_EQ(result.errors, "") << arguments;
+    }
+    for (const char* arguments : {"--version", "diff --version"}) {
+        const ProgramResult result = run_program(arguments);
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_TRUE(result.output.starts_with("nearlight ")) << result.output;
+    }
+}
+
+TEST(CommandLine, WithoutCommandItTellsTheCommands) {
+    const ProgramResult result = run_program("");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.output, "");
+    EXPECT_TRUE(contains(result.errors, "usage: nearlight COMMAND"));
+    EXPECT_TRUE(contains(result.errors, "  diff "));
+}
+
+TEST(CommandLine, TyposGetSuggestions) {
+    expect_error(run_program("dif a b"), 2,
+                 "unknown command 'dif', did you mean 'diff'? See 'nearlight --help'");
+    expect_error(run_program("diff a b --lyaer x"), 2,
+                 "unknown option '--lyaer', did you mean '--layer'? See 'nearlight diff --help'");
+    expect_error(run_program("diff --lyaer=x"), 2, "unknown option '--lyaer', did you mean '--layer'?");
+    expect_error(run_program("--jsno"), 2, "did you mean '--json'?");
+    expect_error(run_program("frobnicate"), 2, "unknown command 'frobnicate'; see 'nearlight --help'");
+}
+
+TEST(CommandLine, WrongLinesAreUsageErrors) {
+    expect_error(run_program("diff a"), 2, "B is required");
+    expect_error(run_program("diff a b c"), 2, "unexpected argument 'c'");
+    expect_error(run_program("diff a b --layer"), 2, "--layer");
+    expect_error(run_program("diff a b --quiet --verbose"), 2, "contradict");
+}
+
+TEST(CommandLine, FullStandardOutputIsAnError) {
+    if (!std::filesystem::exists("/dev/full")) {
+        GTEST_SKIP() << "no /dev/full here";
+    }
+    const ProgramResult result = run_program("--version >/dev/full");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(contains(result.errors, "cannot write to standard output"));
+}
+
+TEST(Size, TwoNumbersWithinBounds) {
+    const ImageSize size = parse_size("640x480");
+    EXPECT_EQ(size.width, 640);
+    EXPECT_EQ(size.height, 480);
+    EXPECT_EQ(parse_size("1x65536").height, 65536);
+    for (const char* text : {"", "x", "640", "640x", "x480", "0x1", "1x0", "-1x5", "65537x1", "1x65537",
+                             "640 x480", "640x480x1", "640X480", "6.5x4", "99999999999x1", "640x480 "}) {
+        EXPECT_THROW(parse_size(text), Error) << text;
+    }
+}
+
+}  // namespace
+}  // namespace nearlight

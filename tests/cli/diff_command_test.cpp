@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_io.h"
+#include "tests/cli/run_program.h"
+
+namespace nearlight {
+namespace {
+
+Image constant_image(int width, int height, const std::vector<std::string>& channels, float value) {
+    Image image = make_image(width, height, channels);
+    std::fill(image.values.begin(), image.values.end(), value);
+    return image;
+}
+
+class Diff : public testing::Test {
+  protected:
+    Diff() {
+        write_image(a_, constant_image(20, 10, {"R", "G", "B", "direct.R", "direct.G", "direct.B", "extra.R"},
+                                       0.75f));
+        write_image(b_, constant_image(20, 10, {"R", "G", "B", "direct.R", "direct.G", "direct.B"}, 0.5f));
+    }
+    TemporaryFolder folder_;
+    std::filesystem::path a_ = folder_ / "a.exr";
+    std::filesystem::path b_ = folder_ / "b picture.exr";
+    std::string both_ = quoted(a_) + " " + quoted(b_);
+};
+
+TEST_F(Diff, JsonHasTheFiguresOfEveryCommonLayer) {
+    const ProgramResult result = run_program("diff --json " + both_);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["image"], a_.string());
+    EXPECT_EQ(json["reference"], b_.string());
+    EXPECT_EQ(json["width"], 20);
+    EXPECT_EQ(json["height"], 10);
+    ASSERT_EQ(json["layers"].size(), 2u);
+    EXPECT_EQ(json["layers"][0]["layer"], "");
+    EXPECT_EQ(json["layers"][1]["layer"], "direct");
+    for (const auto& layer : json["layers"]) {
+        EXPECT_NEAR(layer["rmse"], 0.25, 1e-7);
+        EXPECT_NEAR(layer["relative_mse"], 0.0625 / 0.26, 1e-6);
+        EXPECT_NEAR(layer["mean_ratio"], 1.5, 1e-6);
+        EXPECT_GT(layer["flip"], 0.05);
+        EXPECT_LT(layer["flip"], 0.9);
+        EXPECT_EQ(layer["non_finite"], 0);
+    }
+}
+
+TEST_F(Diff, TableForPeople) {
+    const ProgramResult result = run_program("diff " + both_);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.output.find("RMSE"), std::string::npos);
+    EXPECT_NE(result.output.find("direct"), std::string::npos);
+    EXPECT_NE(result.output.find("1.500000"), std::string::npos);
+}
+
+TEST_F(Diff, OneLayer) {
+    const ProgramResult result = run_program("diff --json --layer direct " + both_);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["layers"].size(), 1u);
+    EXPECT_EQ(json["layers"][0]["layer"], "direct");
+    const ProgramResult missing = run_program("diff --json --layer extra " + both_);
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_EQ(missing.output, "");
+}
+
+TEST_F(Diff, WritesTheMapAndKeepsOutputPure) {
+    const auto map = folder_ / "map.png";
+    const ProgramResult result = run_program("diff --json --verbose " + both_ + " -o " + quoted(map));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(nlohmann::json::accept(result.output)) << result.output;
+    EXPECT_NE(result.errors.find("map.png"), std::string::npos);
+    const Image image = read_image(map);
+    EXPECT_EQ(image.width, 20);
+    EXPECT_EQ(image.height, 10);
+    EXPECT_EQ(run_program("diff --json --quiet " + both_ + " -o " + quoted(map)).errors, "");
+}
+
+TEST_F(Diff, PngIsDecodedBeforeItIsCompared) {
+    write_image(folder_ / "a.png", read_image(a_));
+    const ProgramResult result = run_program("diff --json " + quoted(folder_ / "a.png") + " " + quoted(a_));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_NEAR(nlohmann::json::parse(result.output)["layers"][0]["mean_ratio"], 1.0, 0.01);
+}
+
+TEST_F(Diff, FilesThatCannotBeComparedAreErrors) {
+    write_image(folder_ / "small.exr", constant_image(20, 9, {"R", "G", "B"}, 0.5f));
+    write_image(folder_ / "depth.exr", constant_image(20, 10, {"depth.Z"}, 0.5f));
+    for (const char* other : {"small.exr", "depth.exr", "none.exr"}) {
+        const ProgramResult result = run_program("diff --json " + quoted(a_) + " " + quoted(folder_ / other));
+        EXPECT_EQ(result.exit_code, 3) << other;
+        EXPECT_EQ(result.output, "") << other;
+        EXPECT_NE(result.errors.find(other), std::string::npos) << result.errors;
+    }
+}
+
+TEST_F(Diff, OldMapSurvivesFailure) {
+    const auto map = folder_ / "map.png";
+    ASSERT_EQ(run_program("diff " + both_ + " -o " + quoted(map)).exit_code, 0);
+    const std::string old_text = file_text(map);
+    EXPECT_EQ(run_program("diff " + both_ + " --layer none -o " + quoted(map)).exit_code, 3);
+    EXPECT_EQ(file_text(map), old_text);
+    EXPECT_EQ(run_program("diff " + both_ + " -o " + quoted(folder_ / "none/map.png")).exit_code, 3);
+    EXPECT_EQ(run_program("diff " + both_ + " -o " + quoted(folder_ / "map.gif")).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace nearlight

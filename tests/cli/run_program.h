@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the real program, as a shell would.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight {
+
+struct ProgramResult {
+    int exit_code = -1;
+    std::string output;  ///< standard output
+    std::string errors;  ///< standard error
+};
+
+inline std::string file_text(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// `arguments` are words of a shell command line, redirections included.
+inline ProgramResult run_program(const std::string& arguments) {
+    const TemporaryFolder folder;
+    const std::string command = std::string(NEARLIGHT_PROGRAM) + " >" + (folder / "output").string() + " 2>" +
+                                (folder / "errors").string() + " " + arguments;
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / "output"),
+            file_text(folder / "errors")};
+}
+
+/// A path as a word of the shell.
+inline std::string quoted(const std::filesystem::path& path) {
+    return std::string("'").append(path.string()).append("'");
+}
+
+}  // namespace nearlight

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/scene_summary.h"
+
+#include <gtest/gtest.h>
+
+namespace nearlight {
+namespace {
+
+Scene one_lamp() {
+    Scene scene;
+    scene.name = "lamp";
+    scene.source = "lamp/scene.xml";
+    scene.vertices.resize(4);
+    scene.vertices[1].position = {2, 0, 0};
+    scene.vertices[2].position = {0, 3, 0};
+    scene.vertices[3].position = {0, 0, 100};  // used by no triangle
+    scene.materials.resize(3);
+    scene.materials[1].lobe = NEARLIGHT_LOBE_THIN_DIELECTRIC;
+    scene.materials[2].emission = {1, 1, 1};
+    scene.triangles = {{0, 1, 2, 0}, {0, 1, 2, 2}};
+    scene.camera.width = 100;
+    scene.camera.height = 50;
+    scene.camera.to_world = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
+    scene.notes.push_back({"lamp/scene.xml", 12, "something odd"});
+    return scene;
+}
+
+TEST(SceneSummary, JsonTellsWhatIsThere) {
+    const nlohmann::ordered_json json = scene_summary_json(one_lamp());
+    EXPECT_EQ(json["scene"], "lamp");
+    EXPECT_EQ(json["triangles"], 2);
+    EXPECT_EQ(json["vertices"], 4);
+    EXPECT_EQ(json["materials"].dump(), R"({"diffuse":2,"thin glass":1})");
+    EXPECT_EQ(json["lights"]["triangles"], 1);
+    EXPECT_EQ(json["lights"]["points"], 0);
+    EXPECT_TRUE(json["lights"]["environment"].is_null());
+    EXPECT_NEAR(json["lights"]["power"], 3.0 * 3.14159265, 1e-4);  // π times 3 m²
+    EXPECT_EQ(json["bounds"]["max"].dump(), "[2.0,3.0,0.0]");
+    EXPECT_EQ(json["camera"]["position"].dump(), "[0.0,0.0,5.0]");
+    EXPECT_NEAR(json["camera"]["direction"][2], -1.0, 1e-6);
+    EXPECT_TRUE(json["max_depth"].is_null());
+    EXPECT_EQ(json["notes"][0]["line"], 12);
+}
+
+TEST(SceneSummary, MemoryOfAllParts) {
+    Scene scene = one_lamp();
+    scene.images.push_back({"wood", 10, 10, std::vector<std::uint32_t>(100)});
+    const nlohmann::ordered_json memory = scene_summary_json(scene)["memory_bytes"];
+    EXPECT_EQ(memory["host"]["geometry"], 4 * 32 + 2 * 16);
+    EXPECT_EQ(memory["host"]["trees"], 2 * 52 + 64);
+    EXPECT_EQ(memory["host"]["textures"], 400);
+    EXPECT_EQ(memory["host"]["picture"], 100 * 50 * 20 * 4);
+    for (const auto& place : memory) {
+        std::uint64_t sum = 0;
+        for (const auto& [name, bytes] : place.items()) {
+            sum += name == "total" ? 0 : bytes.get<std::uint64_t>();
+        }
+        EXPECT_EQ(place["total"], sum);
+    }
+    const std::uint64_t before = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
+    scene.camera.width *= 2;
+    EXPECT_EQ(scene_summary_json(scene)["memory_bytes"]["device"]["picture"], 2 * before);
+}
+
+TEST(SceneSummary, TextTellsTheSame) {
+    const std::string text = scene_summary_text(one_lamp());
+    for (const char* part : {"lamp/scene.xml", "2 triangles, 4 vertices", "2 diffuse, 1 thin glass",
+                             "(0, 0, 0) to (2, 3, 0)", "100x50", "no environment", "not given"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    }
+}
+
+TEST(SceneSummary, EmptySceneIsNoProblem) {
+    EXPECT_TRUE(scene_summary_json(Scene{})["bounds"].is_null());
+    EXPECT_NE(scene_summary_text(Scene{}).find("empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/suggestion.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace nearlight {
+namespace {
+
+TEST(Suggestion, EditDistance) {
+    EXPECT_EQ(edit_distance("", ""), 0u);
+    EXPECT_EQ(edit_distance("", "abc"), 3u);
+    EXPECT_EQ(edit_distance("abc", ""), 3u);
+    EXPECT_EQ(edit_distance("render", "render"), 0u);
+    EXPECT_EQ(edit_distance("rendr", "render"), 1u);
+    EXPECT_EQ(edit_distance("redner", "render"), 1u);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+TEST(Suggestion, NearestWord) {
+    const std::vector<std::string> words{"--vpls", "--passes", "--seed", "--spp"};
+    EXPECT_EQ(nearest_word("--vlps", words), "--vpls");
+    EXPECT_EQ(nearest_word("--pases", words), "--passes");
+    EXPECT_EQ(nearest_word("--frobnicate", words), "");
+    EXPECT_EQ(nearest_word("--seed", {}), "");
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/image_io.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "host/base/error.h"
+#include "host/base/random.h"
+#include "host/image/color.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+Image noise(int width, int height, std::vector<std::string> channels) {
+    Image image = make_image(width, height, std::move(channels));
+    Pcg32 random(7);
+    for (float& value : image.values) {
+        value = random.uniform() * 4.0f - 1.0f;
+    }
+    return image;
+}
+
+const std::vector<std::string> kLayers{"R", "G", "B", "indirect.R", "indirect.G", "indirect.B", "depth.Z"};
+
+std::string read_text(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+/// The message of the Error that `action` throws with code `code`.
+template <typename Action>
+std::string error_of(ExitCode code, Action action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), code) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+}
+
+/// Values of channels by name: a file may order them in its own way.
+void expect_same(const Image& a, const Image& b) {
+    ASSERT_EQ(a.width, b.width);
+    ASSERT_EQ(a.height, b.height);
+    ASSERT_EQ(a.channel_count(), b.channel_count());
+    for (std::size_t c = 0; c < a.channel_count(); ++c) {
+        const int other = b.find_channel(a.channels[c]);
+        ASSERT_GE(other, 0) << a.channels[c];
+        for (int y = 0; y < a.height; ++y) {
+            for (int x = 0; x < a.width; ++x) {
+                ASSERT_EQ(a.at(x, y, c), b.at(x, y, static_cast<std::size_t>(other)))
+                    << a.channels[c] << " at " << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST(ImageIo, ExrKeepsEveryChannelBitForBit) {
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 37}, {53, 1}, {17, 19}, {64, 64}}) {
+        const Image image = noise(width, height, kLayers);
+        write_image(folder / "a.exr", image);
+        expect_same(image, read_image(folder / "a.exr"));
+    }
+}
+
+TEST(ImageIo, ExrKeepsInfinityAndNan) {
+    const TemporaryFolder folder;
+    Image image = make_image(3, 1, {"R", "G", "B"});
+    image.at(0, 0, 0) = std::numeric_limits<float>::infinity();
+    image.at(1, 0, 1) = std::numeric_limits<float>::quiet_NaN();
+    write_image(folder / "a.exr", image);
+    const Image back = read_image(folder / "a.exr");
+    EXPECT_TRUE(std::isinf(back.at(0, 0, 0)));
+    EXPECT_TRUE(std::isnan(back.at(1, 0, 1)));
+}
+
+TEST(ImageIo, ExrKeepsMetadata) {
+    const TemporaryFolder folder;
+    std::vector<float> matrix(16);
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+        matrix[i] = static_cast<float>(i) * 0.5f;
+    }
+    ImageWriterOptions options;
+    options.metadata = {{"nearlight:vpls", 1000},
+                        {"nearlight:clampRadius", 0.25f},
+                        {"nearlight:sampler", std::string("close-range")},
+                        {"nearlight:origin", std::vector<float>{1, 2, 3}},
+                        {"worldToCamera", matrix},
+                        {"renderTimeSeconds", 1.5f}};
+    write_image(folder / "a.exr", noise(4, 4, kLayers), options);
+    const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    EXPECT_EQ(spec.get_int_attribute("nearlight:vpls"), 1000);
+    EXPECT_EQ(spec.get_float_attribute("nearlight:clampRadius"), 0.25f);
+    EXPECT_EQ(spec.get_string_attribute("nearlight:sampler"), "close-range");
+    EXPECT_EQ(spec.get_float_attribute("renderTimeSeconds"), 1.5f);
+    EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+    EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+    const auto* origin = spec.find_attribute("nearlight:origin");
+    ASSERT_NE(origin, nullptr);
+    EXPECT_EQ(static_cast<const float*>(origin->data())[2], 3.0f);
+    const auto* stored = spec.find_attribute("worldToCamera", OIIO::TypeMatrix44);
+    ASSERT_NE(stored, nullptr);
+    EXPECT_TRUE(std::equal(matrix.begin(), matrix.end(), static_cast<const float*>(stored->data())));
+}
+
+TEST(ImageIo, PngIsExposedAndSrgbEncoded) {
+    const TemporaryFolder folder;
+    Image image = make_image(3, 1, {"depth.Z", "B", "G", "R"});
+    image.at(0, 0, 3) = 0.25f;
+    image.at(0, 0, 2) = 7.0f;
+    image.at(0, 0, 1) = -1.0f;
+    image.at(1, 0, 3) = std::numeric_limits<float>::quiet_NaN();
+    ImageWriterOptions options;
+    options.exposure = 1.0f;
+    write_image(folder / "a.PNG", image, options);
+    const Image back = read_image(folder / "a.PNG");
+    ASSERT_EQ(back.channels, (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_FLOAT_EQ(back.at(0, 0, 0), 188.0f / 255.0f);  // sRGB of 0.5 is 0.7354
+    EXPECT_EQ(back.at(0, 0, 1), 1.0f);
+    EXPECT_EQ(back.at(0, 0, 2), 0.0f);
+    EXPECT_EQ(back.at(1, 0, 0), 0.0f);
+    EXPECT_NEAR(read_linear_image(folder / "a.PNG").at(0, 0, 0), 0.5f, 0.004f);
+}
+
+TEST(ImageIo, LinearReadingLeavesFloatFilesAlone) {
+    const TemporaryFolder folder;
+    const Image image = noise(5, 4, {"R", "G", "B"});
+    write_image(folder / "a.exr", image);
+    expect_same(image, read_linear_image(folder / "a.exr"));
+}
+
+TEST(ImageIo, AlphaIsNotMultiplied) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    const auto output = OIIO::ImageOutput::create("png");
+    ASSERT_TRUE(output->open((folder / "a.png").string(), spec));
+    const std::array<unsigned char, 4> pixel{200, 100, 50, 51};
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, pixel.data()));
+    output->close();
+    const Image image = read_image(folder / "a.png");
+    ASSERT_EQ(image.channel_count(), 4u);
+    EXPECT_FLOAT_EQ(image.at(0, 0, 0), 200.0f / 255.0f);
+    EXPECT_FLOAT_EQ(image.at(0, 0, 3), 0.2f);
+}
+
+/// What other programs write, in formats that we only read.
+class Readable : public testing::TestWithParam<const char*> {
+  protected:
+    static void write_other(const fs::path& file, int width, int height) {
+        const auto output = OIIO::ImageOutput::create(file.string());
+        ASSERT_TRUE(output) << OIIO::geterror();
+        const Image image = noise(width, height, {"R", "G", "B"});
+        ASSERT_TRUE(output->open(file.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT)));
+        ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()));
+        ASSERT_TRUE(output->close());
+    }
+};
+
+TEST_P(Readable, WholeFileIsReadAndTruncatedOneIsAnError) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / (std::string("a.") + GetParam());
+    write_other(file, 61, 47);
+    const Image image = read_image(file);
+    EXPECT_EQ(image.width, 61);
+    EXPECT_EQ(image.height, 47);
+    EXPECT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B"}));
+    const std::string text = read_text(file);
+    for (const double part : {0.0, 0.01, 0.3, 0.6, 0.9}) {
+        write_text(file, text.substr(0, static_cast<std::size_t>(static_cast<double>(text.size()) * part)));
+        const std::string message = error_of(ExitCode::file, [&] { read_image(file); });
+        EXPECT_NE(message.find(file.string()), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Formats, Readable,
+                         testing::Values("exr", "png", "jpg", "hdr", "ppm", "tif", "tga", "bmp"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST(ImageIo, PfmIsReadTopRowFirst) {
+    const TemporaryFolder folder;
+    // In the file, the bottom row comes first.
+    const std::array<float, 6> values{4, 5, 6, 1, 2, 3};
+    std::string text = "PF\n1 2\n-1.0\n";
+    text.append(reinterpret_cast<const char*>(values.data()), sizeof values);
+    write_text(folder / "a.pfm", text);
+    const Image image = read_image(folder / "a.pfm");
+    EXPECT_EQ(image.height, 2);
+    EXPECT_EQ(image.values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+    write_text(folder / "a.pfm", text.substr(0, text.size() - 3));
+    error_of(ExitCode::file, [&] { read_image(folder / "a.pfm"); });
+}
+
+TEST(ImageIo, ReadingNamesTheFileAndTheReason) {
+    const TemporaryFolder folder;
+    EXPECT_NE(
+        error_of(ExitCode::file, [&] { read_image(folder / "none.exr"); }).find("none.exr': no such file"),
+        std::string::npos);
+    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder.path()); }).find("folder"), std::string::npos);
+    write_text(folder / "text.exr", "this is no picture");
+    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder / "text.exr"); }).find("text.exr"),
+              std::string::npos);
+    write_text(folder / "what.ever", "this is no picture");
+    error_of(ExitCode::file, [&] { read_image(folder / "what.ever"); });
+}
+
+TEST(ImageIo, RowsInAnyPortions) {
+    const TemporaryFolder folder;
+    const Image image = noise(9, 23, kLayers);
+    const std::size_t row = 9 * kLayers.size();
+    for (const char* name : {"a.exr", "a.png"}) {
+        ImageWriter writer(folder / name, 9, 23, kLayers);
+        std::size_t written = 0;
+        for (const std::size_t count : {1u, 0u, 3u, 7u, 12u}) {
+            writer.write_rows(std::span(image.values).subspan(written * row, count * row));
+            written += count;
+        }
+        writer.commit();
+        write_image(folder / (std::string("whole-") + name), image);
+        expect_same(read_image(folder / (std::string("whole-") + name)), read_image(folder / name));
+    }
+}
+
+TEST(ImageIo, MissingRowsAreZero) {
+    const TemporaryFolder folder;
+    Image image = noise(5, 8, {"R", "G", "B"});
+    ImageWriter writer(folder / "a.exr", 5, 8, image.channels);
+    writer.write_rows(std::span(image.values).first(5 * 3 * 3));
+    writer.commit();
+    std::fill(image.values.begin() + 5 * 3 * 3, image.values.end(), 0.0f);
+    expect_same(image, read_image(folder / "a.exr"));
+}
+
+TEST(ImageIo, PartialOrTooManyRowsAreRefused) {
+    const TemporaryFolder folder;
+    ImageWriter writer(folder / "a.exr", 2, 2, {"R", "G", "B"});
+    const std::vector<float> values(2 * 3 * 3);
+    error_of(ExitCode::runtime, [&] { writer.write_rows(std::span(values).first(7)); });
+    error_of(ExitCode::runtime, [&] { writer.write_rows(values); });
+}
+
+TEST(ImageIo, OldFileSurvivesUntilCommit) {
+    const TemporaryFolder folder;
+    const Image old_image = noise(8, 8, {"R", "G", "B"});
+    write_image(folder / "a.exr", old_image);
+    {
+        ImageWriter abandoned(folder / "a.exr", 3, 3, {"R", "G", "B"});
+        abandoned.write_rows(std::vector<float>(3 * 3 * 2));
+        EXPECT_EQ(folder.file_count(), 2u);
+    }
+    EXPECT_EQ(folder.file_count(), 1u);
+    expect_same(old_image, read_image(folder / "a.exr"));
+    const Image new_image = noise(3, 5, {"R", "G", "B"});
+    write_image(folder / "a.exr", new_image);
+    EXPECT_EQ(folder.file_count(), 1u);
+    expect_same(new_image, read_image(folder / "a.exr"));
+}
+
+TEST(ImageIo, MovedWriterOwnsTheFile) {
+    const TemporaryFolder folder;
+    ImageWriter writer(folder / "a.exr", 1, 1, {"R", "G", "B"});
+    ImageWriter other(folder / "b.exr", 1, 1, {"R", "G", "B"});
+    other = std::move(writer);
+    EXPECT_EQ(folder.file_count(), 1u);
+    other.commit();
+    EXPECT_TRUE(fs::exists(folder / "a.exr"));
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(ImageIo, UnwritablePlacesAreErrors) {
+    const TemporaryFolder folder;
+    const Image image = noise(2, 2, {"R", "G", "B"});
+    EXPECT_NE(
+        error_of(ExitCode::file, [&] { write_image(folder / "none/a.exr", image); }).find("No such file"),
+        std::string::npos);
+    write_text(folder / "file", "");
+    error_of(ExitCode::file, [&] { write_image(folder / "file/a.exr", image); });
+    fs::create_directory(folder / "folder.exr");
+    error_of(ExitCode::file, [&] { write_image(folder / "folder.exr", image); });
+    EXPECT_EQ(folder.file_count(), 2u);
+    error_of(ExitCode::usage, [&] { write_image(folder / "a.gif", image); });
+    error_of(ExitCode::usage, [&] { write_image(folder / "a", image); });
+    error_of(ExitCode::file, [&] { write_image(folder / "a.png", noise(2, 2, {"Y"})); });
+    EXPECT_EQ(folder.file_count(), 2u);
+}
+
+/// A limit on file sizes stands in for a full disk: writes fail in the same way.
+class SmallDisk {
+  public:
+    explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &old_limit_);
+        rlimit limit = old_limit_;
+        limit.rlim_cur = bytes;
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SmallDisk() {
+        setrlimit(RLIMIT_FSIZE, &old_limit_);
+        std::signal(SIGXFSZ, old_handler_);
+    }
+    SmallDisk(const SmallDisk&) = delete;
+    SmallDisk& operator=(const SmallDisk&) = delete;
+
+  private:
+    rlimit old_limit_{};
+    void (*old_handler_)(int);
+};
+
+TEST(ImageIo, FullDiskIsAnErrorAtWhateverByteItFills) {
+    const TemporaryFolder folder;
+    const Image image = noise(40, 33, kLayers);
+    for (const char* name : {"a.exr", "a.png"}) {
+        write_image(folder / name, image);
+        const auto size = fs::file_size(folder / name);
+        const std::string old_text = read_text(folder / name);
+        for (const auto limit : {std::uintmax_t{0}, std::uintmax_t{100}, size / 2, size - 1}) {
+            const SmallDisk disk(limit);
+            error_of(ExitCode::file, [&] { write_image(folder / name, image); });
+        }
+        EXPECT_EQ(read_text(folder / name), old_text);
+    }
+    EXPECT_EQ(folder.file_count(), 2u);
+}
+
+long peak_kilobytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+TEST(ImageIo, StreamingKeepsMemoryLow) {
+    const TemporaryFolder folder;
+    constexpr int kWidth = 8192;
+    constexpr int kHeight = 512;
+    std::vector<std::string> channels;
+    for (int c = 0; c < 17; ++c) {
+        channels.push_back("layer" + std::to_string(c) + ".Y");
+    }
+    const std::vector<float> rows(16u * kWidth * channels.size(), 0.5f);
+    ImageWriter writer(folder / "big.exr", kWidth, kHeight, channels);
+    writer.write_rows(rows);
+    const long before = peak_kilobytes();
+    for (int y = 16; y < kHeight; y += 16) {
+        writer.write_rows(rows);
+    }
+    writer.commit();
+    // The whole picture has 285 MB.
+    EXPECT_LT(peak_kilobytes() - before, 80 * 1024);
+}
+
+}  // namespace
+}  // namespace nearlight
