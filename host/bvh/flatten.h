@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/bvh/sah_builder.h"
+
+namespace nearlight {
+
+/// Moves the nodes of a tree into depth-first order, so that a left child that is an inner node follows its
+/// parent, fetches the triangles, and fills in depth and cost. Takes the tree's memory.
+Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config);
+
+/// A tree without triangles: one leaf that holds a single degenerate triangle far away. Its id is ~0u.
+Bvh empty_bvh();
+
+/// Expected cost of a ray that meets the root's box [MacDonald and Booth, Heuristics for Ray Tracing Using
+/// Space Subdivision, 1990]: each node and triangle counts with the probability that its box is met.
+double sah_cost(const Bvh& bvh, const BvhConfig& config);
+
+}  // namespace nearlight
