@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3 (3)].
 //
-// One work-item a walk. A walk leaves a light and deposits a VPL wherever it lands, up to bounce_count times:
-// slot walk · bounce_count + (depth − 1) of `vpls`, and 1 in the same slot of `flags` if it is to be kept.
+// One work-item a walk, first_walk and on; any work-group size. A walk leaves a light and deposits a VPL wherever
+// it lands, up to bounce_count times: slot (walk − first_walk) · bounce_count + (depth − 1) of `vpls`, and 1 in the
+// same slot of `flags` if it is to be kept.
 // Fractional absorption: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j − 1]; a VPL of
 // depth j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are launched that far, never
 // by how many arrive. With a uniform random shift that is unbiased for every depth.
@@ -24,17 +25,18 @@ inline bool is_close_surface(const global CloseRange* region, const global uint*
 }
 
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
-                         const global uint* restrict close_triangles, uint whole_triangles, uint keep, uint walk_count,
-                         uint bounce_count, const global float* restrict walks_at_depth, float absorption_shift,
+                         const global uint* restrict close_triangles, uint whole_triangles, uint keep, uint first_walk,
+                         uint walk_count, uint bounce_count, const global float* restrict walks_at_depth, float absorption_shift,
                          uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
-    const uint walk = (uint)get_global_id(0);
-    if (walk >= walk_count) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= walk_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        flags[walk * bounce_count + bounce] = 0;
+        flags[index * bounce_count + bounce] = 0;
     }
+    const uint walk = first_walk + index;
     const EmittedParticle particle =
         emit_particle(&scene, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed), sample_2d(walk, 2, seed));
     float3 origin = particle.origin;
@@ -66,8 +68,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
             vpl.flags = is_close ? NEARLIGHT_VPL_CLOSE : 0;
             vpl.power = store3(flux / launched);
             vpl.pad0 = 0.0f;
-            vpls[walk * bounce_count + bounce] = vpl;
-            flags[walk * bounce_count + bounce] = 1;
+            vpls[index * bounce_count + bounce] = vpl;
+            flags[index * bounce_count + bounce] = 1;
         }
         direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(walk, 3 + bounce, seed)), hit.geometric);
     }

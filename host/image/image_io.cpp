@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/image/exr_patch.h"
 #include "host/image/color.h"
 
 namespace nearlight {
@@ -288,7 +289,7 @@ void ImageWriter::write_rows(std::span<const float> values) {
     }
 }
 
-void ImageWriter::commit() {
+void ImageWriter::commit(const std::map<std::string, float>& late) {
     const std::vector<float> zeros(state_->next_row < state_->height
                                        ? static_cast<std::size_t>(state_->width) * state_->channel_count
                                        : 0);
@@ -296,6 +297,11 @@ void ImageWriter::commit() {
         state_->write(1, zeros.data());
     }
     state_->close();
+    if (state_->format == Format::exr) {
+        for (const auto& [name, value] : late) {
+            patch_exr_float(state_->temporary, name, value);
+        }
+    }
     std::error_code error;
     fs::rename(state_->temporary, state_->target, error);
     if (error) {

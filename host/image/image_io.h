@@ -42,8 +42,9 @@ class ImageWriter {
 
     /// The next rows: a multiple of width·channels values.
     void write_rows(std::span<const float> values);
-    /// Fills rows that were not written with zeros, closes the file and moves it into place.
-    void commit();
+    /// Fills rows that were not written with zeros, closes the file and moves it into place. `late` replaces
+    /// values of float metadata that were given at the start (EXR only).
+    void commit(const std::map<std::string, float>& late = {});
 
   private:
     struct State;

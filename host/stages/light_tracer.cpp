@@ -6,26 +6,56 @@
 #include "host/base/random.h"
 
 namespace nearlight {
+namespace {
+
+constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
+
+/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds keep deep light from costing as much
+/// as all the rest (bright rooms), or from being carried by hardly any walk (dark ones).
+std::vector<float> walks_at_each_depth(const LightWalks& walks) {
+    const float survival = std::clamp(walks.mean_albedo, 0.2f, 0.9f);
+    std::vector<float> launched;
+    float count = static_cast<float>(walks.walk_count);
+    for (uint depth = 1; depth <= walks.bounce_count; ++depth, count *= survival) {
+        launched.push_back(count);
+    }
+    return launched;
+}
+
+}  // namespace
 
 LightTracer::LightTracer(Device& device)
-    : device_(&device), program_(device, "light_tracer.cl"), light_tracer_(program_, "light_tracer") {}
+    : device_(&device),
+      program_(device, "light_tracer.cl"),
+      light_tracer_(program_, "light_tracer"),
+      compaction_(device) {}
 
-void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep, const LightWalks& walks,
-                      float mean_albedo, Buffer<Vpl>& vpls, Buffer<uint>& flags) {
-    // Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds keep deep light from costing
-    // as much as all the rest (bright rooms), or from being carried by hardly any walk (dark ones).
-    const float survival = std::clamp(mean_albedo, 0.2f, 0.9f);
-    std::vector<float> walks_at_depth;
-    float launched = static_cast<float>(walks.walk_count);
-    for (uint depth = 1; depth <= walks.bounce_count; ++depth, launched *= survival) {
-        walks_at_depth.push_back(launched);
+std::vector<Vpl> LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
+                                  const LightWalks& walks) {
+    std::vector<Vpl> deposits;
+    if (scene.host_info.emitter_count == 0 || walks.bounce_count == 0) {
+        return deposits;
     }
-    const Buffer<float> launched_buffer(*device_, walks_at_depth);
+    const Buffer<float> walks_at_depth(*device_, walks_at_each_depth(walks));
     const float absorption_shift = Pcg32(walks.seed, 0xab5).uniform();
-    light_tracer_.launch_items(walks.walk_count, scene, region.range, region.triangles,
-                               region.whole_triangles ? 1u : 0u, static_cast<uint>(keep), walks.walk_count,
-                               walks.bounce_count, launched_buffer, absorption_shift, walks.seed, vpls, flags);
-    device_->finish();  // launched_buffer must outlive the kernel
+    const uint batch_size = std::min(walks.walk_count, std::max(1u, kSlotsPerBatch / walks.bounce_count));
+    const std::size_t slot_count = static_cast<std::size_t>(batch_size) * walks.bounce_count;
+    Buffer<Vpl> slots(*device_, slot_count);
+    Buffer<Vpl> kept(*device_, slot_count);
+    Buffer<uint> flags(*device_, slot_count);
+    Buffer<uint> indices(*device_, slot_count);
+    for (uint first = 0; first < walks.walk_count; first += batch_size) {
+        const uint count = std::min(batch_size, walks.walk_count - first);
+        light_tracer_.launch_items(count, scene, region.range, region.triangles, region.whole_triangles ? 1u : 0u,
+                                   static_cast<uint>(keep), first, count, walks.bounce_count, walks_at_depth,
+                                   absorption_shift, walks.seed, slots, flags);
+        const std::size_t kept_count =
+            compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
+        compaction_.gather(slots, indices, kept_count, kept);
+        deposits.resize(deposits.size() + kept_count);
+        kept.download(std::span(deposits).last(kept_count));
+    }
+    return deposits;
 }
 
 }  // namespace nearlight

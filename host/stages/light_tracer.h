@@ -2,7 +2,10 @@
 // Sparse quasi-random light tracing over the whole scene.
 #pragma once
 
+#include <vector>
+
 #include "host/cl/kernel.h"
+#include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
 
 namespace nearlight {
@@ -17,9 +20,11 @@ struct CloseRegion {
     bool whole_triangles = false;  ///< true: a selected triangle belongs to it whole (policy `paper`)
 };
 
+/// How walks are launched. Any value of `mean_albedo` is unbiased.
 struct LightWalks {
     uint walk_count = 0;
-    uint bounce_count = 1;  ///< most VPLs a walk deposits
+    uint bounce_count = 1;     ///< most VPLs a walk deposits
+    float mean_albedo = 0.5f;  ///< sets how many walks go on to each depth
     uint seed = 0;
 };
 
@@ -27,15 +32,15 @@ class LightTracer {
   public:
     explicit LightTracer(Device& device);
 
-    /// Fills walk_count · bounce_count slots of `vpls` and `flags` (1: holds a VPL to keep).
-    /// `mean_albedo` in (0, 1) sets how many walks go on to each depth; any value is unbiased.
-    void run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep, const LightWalks& walks,
-             float mean_albedo, Buffer<Vpl>& vpls, Buffer<uint>& flags);
+    /// All deposits to keep, in the order of walks and depths. Works in batches, so that device memory stays small.
+    std::vector<Vpl> run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
+                         const LightWalks& walks);
 
   private:
     Device* device_;
     Program program_;
     Kernel light_tracer_;
+    Compaction compaction_;
 };
 
 }  // namespace nearlight

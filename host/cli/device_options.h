@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options by which a command takes its OpenCL device.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/cl/device.h"
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+struct DeviceChoice {
+    std::string device;  ///< see choose_devices()
+    DeviceOptions options;
+};
+
+/// --device, --kernel-dir and --cache-dir.
+void add_device_options(CLI::App& command, DeviceChoice& choice);
+
+/// The one device that a command works on. Where several match, the first is taken and the rest are named in a
+/// warning. Throws Error(ExitCode::no_device).
+std::unique_ptr<Device> open_device(const DeviceChoice& choice);
+
+}  // namespace nearlight

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+/// `nearlight devices`: what OpenCL offers here, what is used, and why.
+void add_devices_command(CommandLine& line);
+
+}  // namespace nearlight

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/render_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host/base/hash.h"
+#include "host/base/log.h"
+#include "host/base/memory.h"
+#include "host/base/stopwatch.h"
+#include "host/cli/device_options.h"
+#include "host/cli/interrupt.h"
+#include "host/cli/output.h"
+#include "host/cli/picture_files.h"
+#include "host/cli/progress_bar.h"
+#include "host/cli/scene_options.h"
+#include "host/render/renderer.h"
+
+namespace nearlight {
+namespace {
+
+struct RenderOptions {
+    SceneOptions scene;
+    PictureOptions picture;
+    DeviceChoice device;
+    RenderSettings settings;
+    ImageSize size;
+    std::string close_fraction = "auto";
+    std::string range = "auto";
+    std::string clamp_radius = "auto";
+};
+
+const std::map<std::string, SamplerKind> kSamplers{{"close-range", SamplerKind::close_range},
+                                                   {"instant-radiosity", SamplerKind::instant_radiosity}};
+const std::map<std::string, Policy> kPolicies{{"partition", Policy::partition}, {"paper", Policy::paper}};
+const std::map<std::string, GatherKernel> kGatherKernels{
+    {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
+
+/// "auto", or a number in [low, high].
+std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low, float high) {
+    if (text == "auto") {
+        return std::nullopt;
+    }
+    float value = NAN;
+    std::size_t used = 0;
+    try {
+        value = std::stof(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used != text.size() || !(value >= low) || !(value <= high)) {
+        throw Error(ExitCode::usage,
+                    fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'", option, low, high, text));
+    }
+    return value;
+}
+
+RenderSettings settled(const RenderOptions& options) {
+    RenderSettings settings = options.settings;
+    settings.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
+    settings.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
+    settings.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
+    if (options.size.width > 0) {
+        settings.width = options.size.width;
+        settings.height = options.size.height;
+    }
+    return settings;
+}
+
+Metadata metadata_of(const Scene& scene, const RenderSettings& settings, const RenderReport& report, const View& view,
+                     const DeviceEntry& device) {
+    Metadata metadata = camera_metadata(view.scene_camera);
+    metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
+    metadata["nearlight:sampler"] = to_string(settings.sampler);
+    metadata["nearlight:policy"] = settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
+    metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:clampRadius"] = report.clamp_radius;
+    metadata["nearlight:range"] = report.range;
+    metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
+    metadata["nearlight:seed"] = static_cast<int>(settings.seed);
+    metadata["nearlight:device"] = device.name;
+    metadata["nearlight:driver"] = device.driver;
+    metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
+    return metadata;
+}
+
+nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSettings& settings, const RenderReport& report,
+                               const DeviceEntry& device, double load_seconds) {
+    nlohmann::ordered_json json;
+    json["scene"] = options.scene.file.string();
+    json["width"] = report.width;
+    json["height"] = report.height;
+    json["sampler"] = to_string(settings.sampler);
+    json["policy"] = settings.sampler == SamplerKind::close_range ? nlohmann::ordered_json(to_string(settings.policy)) : nullptr;
+    json["vpls"] = {{"requested", settings.vpl_count}, {"close", report.close_vpls}, {"distant", report.distant_vpls}};
+    json["close_fraction"] = report.close_fraction;
+    json["range"] = report.range;
+    json["clamp_radius"] = report.clamp_radius;
+    json["max_depth"] = report.max_depth;
+    json["seed"] = settings.seed;
+    json["device"] = {device.name};
+    json["seconds"] = {{"load", load_seconds},
+                       {"build_bvh", report.seconds.build_bvh},
+                       {"compile", report.seconds.compile},
+                       {"generate", report.seconds.generate},
+                       {"gather", report.seconds.gather},
+                       {"total", load_seconds + report.seconds.total}};
+    json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
+    json["outputs"] = options.picture.outputs;
+    json["image_hash"] = hex_digits(report.image_hash);
+    json["interrupted"] = report.interrupted;
+    return json;
+}
+
+void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
+    spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
+                 report.distant_vpls, seconds);
+    for (const auto& output : options.picture.outputs) {
+        spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
+    }
+}
+
+ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
+    const RenderSettings settings = settled(options);
+    check_outputs(options.picture);
+    const Stopwatch total;
+    Stopwatch watch;
+    const Scene scene = load_scene(options.scene);
+    const double load_seconds = watch.lap();
+    const auto device = open_device(options.device);
+
+    catch_interrupts();
+    ProgressBar bar("gathering", global);
+    PictureFiles files(options.picture);
+    const RenderReport report = render(
+        *device, scene, settings,
+        [&](const RenderReport& started, const View& view) {
+            files.open(started.width, started.height, metadata_of(scene, settings, started, view, device->entry()));
+        },
+        [&](std::span<const float> rows) { files.write_rows(rows); },
+        [&](const std::string&, double fraction) {
+            bar.update(fraction);
+            return !interrupted();
+        });
+    bar.clear();
+    files.commit(total.seconds());
+    if (global.json) {
+        print_json(to_json(options, settings, report, device->entry(), load_seconds));
+    }
+    tell(options, report, total.seconds());
+    return report.interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+void add_method_options(CLI::App& command, RenderOptions& options) {
+    RenderSettings& settings = options.settings;
+    command.add_option("--sampler", settings.sampler, "Where VPLs come from: close-range or instant-radiosity")
+        ->transform(CLI::Transformer(kSamplers, CLI::ignore_case))
+        ->type_name("NAME")
+        ->default_str("close-range");
+    command.add_option("--policy", settings.policy, "Of close-range: partition (unbiased) or paper (loses bounces)")
+        ->transform(CLI::Transformer(kPolicies, CLI::ignore_case))
+        ->type_name("NAME")
+        ->default_str("partition");
+    command.add_option("--vpls", settings.vpl_count, "Virtual point lights to aim at")
+        ->check(CLI::Range(0u, 50'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--close-fraction", options.close_fraction, "Share of them in the close range, 0 to 1, or auto")
+        ->type_name("F")
+        ->capture_default_str();
+    command.add_option("--range", options.range, "How far from the camera the close range reaches, scene units, or auto")
+        ->type_name("R")
+        ->capture_default_str();
+    command
+        .add_option("--clamp-radius", options.clamp_radius,
+                    "VPLs nearer than this light as if they were so far, scene units, or auto")
+        ->type_name("R")
+        ->capture_default_str();
+    command.add_option("--max-depth", settings.max_depth, "Longest light path as Mitsuba counts: 2 is direct light only (default: the scene's, or 8)")
+        ->check(CLI::Range(1u, 1024u))
+        ->type_name("N");
+    command.add_option("--seed", settings.seed, "Another seed, another noise")->type_name("N")->capture_default_str();
+    command.add_option("--gather", settings.gather_kernel, "Gather kernel: auto, packets or rays")
+        ->transform(CLI::Transformer(kGatherKernels, CLI::ignore_case))
+        ->type_name("NAME")
+        ->default_str("auto");
+}
+
+}  // namespace
+
+void add_render_command(CommandLine& line) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App& command = line.add_command(
+        "render", "Render a scene with virtual point lights",
+        [options](const GlobalOptions& global) { return run_render(*options, global); });
+    add_scene_options(command, options->scene);
+    add_picture_options(command, options->picture);
+    add_size_option(command, options->size);
+    command.add_option("--spp", options->settings.samples_per_pixel, "Camera samples a pixel (anti-aliasing)")
+        ->check(CLI::Range(1u, 65536u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--direct-samples", options->settings.direct_samples_per_pixel,
+                    "Shadow rays a pixel for area and environment lights")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    add_method_options(command, *options);
+    add_device_options(command, options->device);
+}
+
+}  // namespace nearlight

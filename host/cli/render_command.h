@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+/// `nearlight render SCENE -o OUT`: a picture by virtual point lights.
+void add_render_command(CommandLine& line);
+
+}  // namespace nearlight

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/plan.h"
+
+#include <algorithm>
+
+namespace nearlight {
+namespace {
+
+/// Enough work for a launch to keep the device busy, little enough for memory and for a smooth progress bar.
+std::size_t receivers_per_batch(const Device& device) {
+    const std::size_t wanted = device.is_cpu() ? std::size_t{1} << 18u : std::size_t{1} << 21u;
+    // The largest buffer of a batch is that of the camera vertices.
+    const std::size_t largest = device.entry().max_allocation_bytes / (2 * sizeof(CameraVertex));
+    return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
+}
+
+}  // namespace
+
+std::vector<CameraBand> RenderPlan::batches(uint index) const {
+    const uint first_row = index * tile_rows_per_band;
+    std::vector<CameraBand> result;
+    for (uint sample = 0; sample < samples_per_pixel; sample += samples_per_batch) {
+        result.push_back({.first_tile_row = first_row,
+                          .tile_row_count = std::min(tile_rows_per_band, tile_row_count - first_row),
+                          .first_sample = sample,
+                          .sample_count = std::min(samples_per_batch, samples_per_pixel - sample),
+                          .samples_per_pixel = samples_per_pixel,
+                          .branch_count = branch_count});
+    }
+    return result;
+}
+
+std::size_t RenderPlan::max_packets(uint width) const {
+    return packet_count({.tile_row_count = tile_rows_per_band, .sample_count = samples_per_batch, .branch_count = branch_count},
+                        width);
+}
+
+RenderPlan make_plan(const Device& device, uint width, uint height, uint samples_per_pixel, uint branch_count) {
+    const std::size_t budget = receivers_per_batch(device);
+    const std::size_t per_row_sample = static_cast<std::size_t>((width + 7) / 8) * NEARLIGHT_PACKET_SIZE * branch_count;
+    RenderPlan plan;
+    plan.tile_row_count = (height + 7) / 8;
+    plan.samples_per_pixel = samples_per_pixel;
+    plan.branch_count = branch_count;
+    plan.samples_per_batch = static_cast<uint>(std::clamp<std::size_t>(budget / per_row_sample, 1, samples_per_pixel));
+    plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(budget / (per_row_sample * plan.samples_per_batch), 1,
+                                                      std::max(plan.tile_row_count, 1u)));
+    return plan;
+}
+
+}  // namespace nearlight

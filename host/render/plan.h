@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a picture is cut into bands and batches of samples that fit a device.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/cl/device.h"
+#include "host/stages/camera_pass.h"
+
+namespace nearlight {
+
+/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. No cut changes any bit
+/// of the picture.
+struct RenderPlan {
+    uint tile_rows_per_band = 1;
+    uint tile_row_count = 0;
+    uint samples_per_batch = 1;
+    uint samples_per_pixel = 1;
+    uint branch_count = 1;
+
+    [[nodiscard]] uint band_count() const { return (tile_row_count + tile_rows_per_band - 1) / tile_rows_per_band; }
+    /// The batches of band `index`, in order.
+    [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
+    /// Most packets that any batch has.
+    [[nodiscard]] std::size_t max_packets(uint width) const;
+};
+
+/// Bytes of one receiver in all the buffers of a batch.
+inline constexpr std::size_t kBytesPerReceiver =
+    (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
+
+RenderPlan make_plan(const Device& device, uint width, uint height, uint samples_per_pixel, uint branch_count);
+
+}  // namespace nearlight

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The main path: a scene becomes a picture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "host/render/settings.h"
+#include "host/render/view.h"
+#include "host/scene/scene.h"
+
+namespace nearlight {
+
+/// Stage ("gathering") and how far it is, 0 to 1. Returns false to stop.
+using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
+/// Finished rows, top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, channels as layer_channels()
+/// names them.
+using RowSink = std::function<void(std::span<const float> rows)>;
+
+struct RenderSeconds {
+    double build_bvh = 0;
+    double compile = 0;
+    double generate = 0;  ///< upload, pilot and VPLs
+    double gather = 0;    ///< camera pass, direct light, gather, film
+    double total = 0;
+};
+
+struct RenderReport {
+    int width = 0;
+    int height = 0;
+    float range = 0;
+    float clamp_radius = 0;
+    uint max_depth = 0;
+    std::size_t close_vpls = 0;
+    std::size_t distant_vpls = 0;
+    float close_fraction = 0;
+    RenderSeconds seconds;
+    std::size_t device_bytes = 0;  ///< most at any time
+    std::uint64_t image_hash = 0;  ///< of the beauty's bits; equal pictures have equal hashes
+    bool interrupted = false;      ///< rows that are missing were not sent
+};
+
+/// Called when all settings are decided and before the first row, so that files can be opened with the right size
+/// and metadata.
+using RenderStart = std::function<void(const RenderReport&, const View&)>;
+
+RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
+                    const RowSink& sink, const RenderProgress& progress);
+
+}  // namespace nearlight

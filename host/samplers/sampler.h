@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one interface of all samplers: a task in, a set of virtual point lights out. A sampler knows no images.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/samplers/sampler_stages.h"
+#include "host/stages/device_scene.h"
+#include "host/stages/pilot_view.h"
+
+namespace nearlight {
+
+enum class SamplerKind {
+    instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
+    close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
+};
+/// What becomes of sparse deposits in the close range; see docs/method.md.
+enum class Policy {
+    paper,      ///< dropped, whatever their depth: loses multi-bounce light
+    partition,  ///< those of depth 2 and more are kept: unbiased
+};
+std::string to_string(SamplerKind kind);
+std::string to_string(Policy policy);
+
+struct SamplingTask {
+    const DeviceScene& scene;
+    const PilotView& view;  ///< a few receivers of the picture
+    SamplerKind sampler = SamplerKind::close_range;
+    Policy policy = Policy::partition;
+    uint vpl_count = 1000;                 ///< to aim at; walks decide how many there are exactly
+    uint bounce_count = 6;                 ///< deepest VPL
+    std::optional<float> close_fraction;   ///< share of the budget for the close range, [0, 1]; empty: by pilot
+    CloseRange close_range{};
+    float clamp_radius = 0.0f;
+    uint seed = 0;
+};
+
+/// Ready to be gathered: powers add up to the scene's reflected flux in expectation.
+struct VplSet {
+    std::vector<Vpl> vpls;
+    std::size_t close_count = 0;     ///< placed on close-range patches
+    std::size_t distant_count = 0;   ///< deposited by light walks
+    std::size_t close_triangles = 0; ///< triangles that patches were placed on
+    float close_fraction = 0.0f;     ///< that was used
+};
+
+VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
+
+VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
+
+}  // namespace nearlight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages that samplers draw on, compiled once for a device.
+#pragma once
+
+#include "host/stages/compaction.h"
+#include "host/stages/direct_light.h"
+#include "host/stages/light_tracer.h"
+#include "host/stages/light_visibility.h"
+#include "host/stages/morton_sort.h"
+#include "host/stages/patch_vpls.h"
+#include "host/stages/triangle_classifier.h"
+#include "host/stages/vpl_contribution.h"
+#include "host/stages/vpl_placement.h"
+
+namespace nearlight {
+
+struct SamplerStages {
+    explicit SamplerStages(Device& on_device)
+        : device(on_device),
+          triangle_classifier(device),
+          light_visibility(device),
+          compaction(device),
+          morton_sort(device),
+          vpl_placement(device),
+          patch_vpls(device),
+          direct_light(device),
+          light_tracer(device),
+          vpl_contribution(device) {}
+
+    Device& device;
+    TriangleClassifier triangle_classifier;
+    LightVisibility light_visibility;
+    Compaction compaction;
+    MortonSort morton_sort;
+    VplPlacement vpl_placement;
+    PatchVpls patch_vpls;
+    DirectLight direct_light;
+    LightTracer light_tracer;
+    VplContribution vpl_contribution;
+};
+
+}  // namespace nearlight

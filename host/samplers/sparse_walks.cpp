@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/samplers/sparse_walks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearlight {
+namespace {
+
+constexpr uint kPilotWalks = 512;
+/// Where hardly a walk lands (a light outside that shines past the scene), more would take for ever.
+constexpr uint kMostWalksPerVpl = 256;
+constexpr uint kPilotSeed = 0x9107u;
+
+}  // namespace
+
+CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
+    const CloseRange nothing{};
+    CloseRegion region;
+    region.range = Buffer<CloseRange>(stages.device, std::span(&nothing, 1));
+    region.triangles = Buffer<uint>(stages.device, scene.host_info.triangle_count);
+    region.triangles.fill_zero();
+    return region;
+}
+
+std::vector<Vpl> trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
+                             KeepDeposits keep, uint wanted) {
+    if (wanted == 0) {
+        return {};
+    }
+    LightWalks walks{.walk_count = kPilotWalks,
+                     .bounce_count = task.bounce_count,
+                     .mean_albedo = task.scene.mean_albedo,
+                     .seed = task.seed ^ kPilotSeed};
+    const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
+    const double deposits_per_walk = static_cast<double>(pilot_deposits) / kPilotWalks;
+    const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMostWalksPerVpl);
+    walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, 1e8));
+    walks.seed = task.seed;
+    return stages.light_tracer.run(task.scene, region, keep, walks);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/compaction.h"
+
+#include "host/stages/chunks.h"
+
+namespace nearlight {
+
+Compaction::Compaction(Device& device)
+    : device_(&device),
+      program_(device, "compaction.cl"),
+      count_(program_, "compaction_count"),
+      write_(program_, "compaction_write"),
+      gather_(program_, "compaction_gather"),
+      scan_(device) {}
+
+std::size_t Compaction::scratch_bytes(std::size_t count) const {
+    const std::size_t chunk_count = split_into_chunks(*device_, count).count;
+    return chunk_count * sizeof(uint) + scan_.scratch_bytes(chunk_count);
+}
+
+std::size_t Compaction::list_set(const Buffer<uint>& flags, std::size_t count, Buffer<uint>& indices) {
+    if (count == 0) {
+        return 0;
+    }
+    const uint n = to_kernel_count(count, "flags");
+    const Chunks chunks = split_into_chunks(*device_, count);
+    const std::size_t local_size = chunk_local_size(*device_);
+    if (chunk_counts_.count() < chunks.count) {
+        chunk_counts_ = Buffer<uint>(*device_, chunks.count);
+    }
+    count_.launch(chunks.count, local_size, flags, chunk_counts_, n, chunks.size, chunks.count);
+    scan_.exclusive(chunk_counts_, chunk_counts_, chunks.count);
+    write_.launch(chunks.count, local_size, flags, chunk_counts_, indices, n, chunks.size, chunks.count);
+    return scan_.total().download_one(0);
+}
+
+}  // namespace nearlight

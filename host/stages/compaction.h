@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeping the elements whose flag is set, in order. Kernels: compaction.cl.
+#pragma once
+
+#include "host/cl/buffer.h"
+#include "host/cl/kernel.h"
+#include "host/stages/prefix_scan.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+class Compaction {
+  public:
+    explicit Compaction(Device& device);
+
+    /// Writes the indices i < count of the flags that are not 0, ascending, to `indices` (room for all of
+    /// them: `count` always suffices) and returns how many there are. Waits for the device.
+    std::size_t list_set(const Buffer<uint>& flags, std::size_t count, Buffer<uint>& indices);
+
+    /// gathered[i] = elements[indices[i]], for i < count.
+    template <typename T>
+    void gather(const Buffer<T>& elements, const Buffer<uint>& indices, std::size_t count,
+                Buffer<T>& gathered) {
+        static_assert(sizeof(T) % sizeof(uint) == 0, "elements are moved in words of 4 bytes");
+        gather_.launch_items(count, elements, indices, gathered, static_cast<uint>(sizeof(T) / sizeof(uint)),
+                             static_cast<uint>(count));
+    }
+
+    /// Device memory that list_set() keeps for itself.
+    [[nodiscard]] std::size_t scratch_bytes(std::size_t count) const;
+
+  private:
+    Device* device_;
+    Program program_;
+    Kernel count_;
+    Kernel write_;
+    Kernel gather_;
+    PrefixScan<uint> scan_;
+    Buffer<uint> chunk_counts_;
+};
+
+}  // namespace nearlight

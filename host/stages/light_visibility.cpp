@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/light_visibility.h"
+
+namespace nearlight {
+
+LightVisibility::LightVisibility(Device& device)
+    : program_(device, "light_visibility.cl"), light_visibility_(program_, "light_visibility") {}
+
+void LightVisibility::run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed,
+                          Buffer<uint>& selected) {
+    light_visibility_.launch_items(id_count, scene, ids, static_cast<uint>(id_count), seed, selected);
+}
+
+}  // namespace nearlight

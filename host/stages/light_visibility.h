@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which triangles the light can reach.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "host/stages/device_scene.h"
+
+namespace nearlight {
+
+class LightVisibility {
+  public:
+    explicit LightVisibility(Device& device);
+
+    /// Sets selected[id] = 1 for those of the first `id_count` triangle ids that any light seems to reach.
+    void run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed, Buffer<uint>& selected);
+
+  private:
+    Program program_;
+    Kernel light_visibility_;
+};
+
+}  // namespace nearlight

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/morton_sort.h"
+
+#include "host/stages/chunks.h"
+
+namespace nearlight {
+namespace {
+
+constexpr std::size_t kDigitCount = 256;
+constexpr uint kDigitBits = 8;
+constexpr uint kKeyBits = 32;
+static_assert(kKeyBits / kDigitBits % 2 == 0, "an even number of passes ends in the buffers it began with");
+static_assert(sizeof(Aabb) == 6 * sizeof(float));
+
+/// Runs long enough that their 256 counters are worth having.
+Chunks split_for_sort(const Device& device, std::size_t count) {
+    return split_into_chunks(device, count, device.is_cpu() ? 4096 : 256);
+}
+
+template <typename T>
+void ensure_room(Buffer<T>& buffer, Device& device, std::size_t count) {
+    if (buffer.count() < count) {
+        buffer = Buffer<T>(device, count);
+    }
+}
+
+}  // namespace
+
+MortonSort::MortonSort(Device& device)
+    : device_(&device),
+      program_(device, "morton_sort.cl"),
+      bounds_(program_, "morton_bounds"),
+      codes_kernel_(program_, "morton_codes"),
+      count_(program_, "sort_count"),
+      scatter_(program_, "sort_scatter"),
+      scan_(device) {}
+
+MortonSort::BoundsRun MortonSort::begin_bounds(std::size_t count) {
+    to_kernel_count(count, "points");
+    const Chunks chunks = split_into_chunks(*device_, count);
+    ensure_room(boxes_, *device_, std::max(chunks.count, 1u));
+    return {chunks.size, chunks.count, chunk_local_size(*device_)};
+}
+
+Aabb MortonSort::finish_bounds(uint chunk_count) const {
+    std::vector<Aabb> boxes(chunk_count);
+    boxes_.download(boxes);
+    Aabb box;
+    for (const Aabb& part : boxes) {
+        box.extend(part);
+    }
+    return box;
+}
+
+std::size_t MortonSort::sort_scratch_bytes(std::size_t count) const {
+    const std::size_t position_count = kDigitCount * split_for_sort(*device_, count).count;
+    return (2 * count + position_count) * sizeof(uint) + scan_.scratch_bytes(position_count);
+}
+
+void MortonSort::sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count) {
+    if (count < 2) {
+        return;
+    }
+    const uint n = to_kernel_count(count, "keys");
+    const Chunks chunks = split_for_sort(*device_, count);
+    const std::size_t local_size = chunk_local_size(*device_);
+    const std::size_t position_count = kDigitCount * chunks.count;
+    ensure_room(other_keys_, *device_, count);
+    ensure_room(other_values_, *device_, count);
+    ensure_room(positions_, *device_, position_count);
+
+    const auto pass = [&](const Buffer<uint>& from_keys, const Buffer<uint>& from_values,
+                          Buffer<uint>& to_keys, Buffer<uint>& to_values, uint shift) {
+        count_.launch(chunks.count, local_size, from_keys, positions_, shift, n, chunks.size, chunks.count);
+        scan_.exclusive(positions_, positions_, position_count);
+        scatter_.launch(chunks.count, local_size, from_keys, from_values, positions_, to_keys, to_values,
+                        shift, n, chunks.size, chunks.count);
+    };
+    for (uint shift = 0; shift < kKeyBits; shift += 2 * kDigitBits) {
+        pass(keys, values, other_keys_, other_values_, shift);
+        pass(other_keys_, other_values_, keys, values, shift + kDigitBits);
+    }
+}
+
+}  // namespace nearlight

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Order along the Morton curve, and the radix sort behind it. Kernels: morton_sort.cl.
+#pragma once
+
+#include "host/base/math.h"
+#include "host/cl/buffer.h"
+#include "host/cl/kernel.h"
+#include "host/stages/prefix_scan.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+/// Elements are structs that begin with their position (Vec3, Vpl, SurfaceSample, …).
+class MortonSort {
+  public:
+    explicit MortonSort(Device& device);
+
+    /// Indices of the elements along the Morton curve through their bounds; of equal codes the lower index
+    /// first. `order` has room for `count`. Waits for the device.
+    template <typename T>
+    void order(const Buffer<T>& elements, std::size_t count, Buffer<uint>& order) {
+        if (codes_.count() < count) {
+            codes_ = Buffer<uint>(*device_, count);
+        }
+        codes(elements, count, bounds(elements, count), codes_, order);
+        sort(codes_, order, count);
+    }
+
+    /// Box of the positions that are finite; empty where there is none. Waits for the device.
+    template <typename T>
+    Aabb bounds(const Buffer<T>& elements, std::size_t count) {
+        const BoundsRun run = begin_bounds(count);
+        bounds_.launch(run.chunk_count, run.local_size, elements, boxes_, stride_of<T>(),
+                       static_cast<uint>(count), run.chunk_size, run.chunk_count);
+        return finish_bounds(run.chunk_count);
+    }
+    /// 30-bit codes of the positions, in cubic cells of which 1024 span the longest side of the box, and
+    /// values[i] = i. Positions outside count as the nearest cell.
+    template <typename T>
+    void codes(const Buffer<T>& elements, std::size_t count, const Aabb& box, Buffer<uint>& codes,
+               Buffer<uint>& values) {
+        const float longest = max_component(box.size());
+        codes_kernel_.launch_items(count, elements, codes, values, stride_of<T>(), box.min.x, box.min.y,
+                                   box.min.z, longest > 0.0f ? kCells / longest : 0.0f,
+                                   static_cast<uint>(count));
+    }
+    /// Sorts the first `count` pairs by key, ascending, pairs of equal keys in the order they were in.
+    void sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count);
+
+    /// Device memory that sort() keeps for itself.
+    [[nodiscard]] std::size_t sort_scratch_bytes(std::size_t count) const;
+
+  private:
+    static constexpr float kCells = 1024.0f;  ///< NEARLIGHT_MORTON_CELLS of kernels/lib/morton.cl
+
+    struct BoundsRun {
+        uint chunk_size, chunk_count;
+        std::size_t local_size;
+    };
+    template <typename T>
+    static uint stride_of() {
+        static_assert(sizeof(T) % sizeof(float) == 0 && sizeof(T) >= sizeof(Vec3));
+        return static_cast<uint>(sizeof(T) / sizeof(float));
+    }
+    BoundsRun begin_bounds(std::size_t count);
+    Aabb finish_bounds(uint chunk_count) const;
+
+    Device* device_;
+    Program program_;
+    Kernel bounds_;
+    Kernel codes_kernel_;
+    Kernel count_;
+    Kernel scatter_;
+    PrefixScan<uint> scan_;
+    Buffer<Aabb> boxes_;  ///< of the runs
+    Buffer<uint> codes_;
+    Buffer<uint> other_keys_;
+    Buffer<uint> other_values_;
+    Buffer<uint> positions_;
+};
+
+}  // namespace nearlight

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/pilot_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/pinhole_camera.h"
+
+namespace nearlight {
+namespace {
+
+constexpr double kPixelCount = 1024;
+
+std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
+    std::vector<float> distances;
+    for (const ReceiverPacket& packet : packets) {
+        for (int lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
+            const float distance = length(Vec3{packet.px[lane], packet.py[lane], packet.pz[lane]} - origin);
+            if (!is_zero(normal) && std::isfinite(distance)) {
+                distances.push_back(distance);
+            }
+        }
+    }
+    std::sort(distances.begin(), distances.end());
+    return distances;
+}
+
+}  // namespace
+
+PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene, const SceneCamera& camera,
+                        uint seed) {
+    const double aspect = static_cast<double>(camera.width) / camera.height;
+    const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
+    const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
+    const PinholeCamera pinhole = make_pinhole_camera(camera, width, height);
+    const CameraBand band{.tile_row_count = static_cast<uint>(height + 7) / 8, .samples_per_pixel = 2};
+
+    PilotView view;
+    view.packet_count = static_cast<uint>(packet_count(band, pinhole.width));
+    view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
+    view.vertices = Buffer<CameraVertex>(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
+    const Buffer<PinholeCamera> camera_buffer(device, std::span(&pinhole, 1));
+    const CloseRange nothing{};
+    const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
+    camera_pass.run(scene, camera_buffer, pinhole.width, close_range, band, seed, view.receivers, view.vertices);
+    view.distances = receiver_distances(view.receivers.download(), pinhole.origin);
+    return view;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// VPLs in an order in which neighbours are neighbours in space, so that the gather finds its nodes in the cache.
+#pragma once
+
+#include <span>
+
+#include "host/stages/compaction.h"
+#include "host/stages/morton_sort.h"
+
+namespace nearlight {
+
+class VplOrder {
+  public:
+    explicit VplOrder(Device& device) : device_(&device), morton_sort_(device), compaction_(device) {}
+
+    /// Along the Morton curve through their bounds.
+    Buffer<Vpl> upload_sorted(std::span<const Vpl> vpls) {
+        const Buffer<Vpl> unsorted(*device_, vpls);
+        Buffer<uint> order(*device_, vpls.size());
+        Buffer<Vpl> sorted(*device_, vpls.size());
+        morton_sort_.order(unsorted, vpls.size(), order);
+        compaction_.gather(unsorted, order, vpls.size(), sorted);
+        device_->finish();  // `unsorted` must outlive the kernel
+        return sorted;
+    }
+
+  private:
+    Device* device_;
+    MortonSort morton_sort_;
+    Compaction compaction_;
+};
+
+}  // namespace nearlight

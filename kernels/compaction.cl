@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stable compaction: the indices of the flags that are set, in ascending order, and the gathering of elements
+// by index. Between the two first kernels the host scans the counts of the runs. [paper section 3: the
+// triangles that are kept]
+//
+// Memory: `flags` holds `count` uint, anything but 0 is set; `chunk_counts` one uint a run; `indices` room
+// for every set flag. Work-group size: any.
+
+#include "lib/chunk.cl"
+
+/// Work-item i counts the set flags of run i.
+kernel void compaction_count(const global uint* restrict flags, global uint* restrict chunk_counts,
+                             uint count, uint chunk_size, uint chunk_count) {
+    const uint chunk = (uint)get_global_id(0);
+    if (chunk >= chunk_count) {
+        return;
+    }
+    const uint end = chunk_begin(chunk + 1, chunk_size, count);
+    uint set = 0;
+    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+        set += flags[i] != 0;
+    }
+    chunk_counts[chunk] = set;
+}
+
+/// Work-item i writes the indices of run i from chunk_offsets[i] on.
+kernel void compaction_write(const global uint* restrict flags, const global uint* restrict chunk_offsets,
+                             global uint* restrict indices, uint count, uint chunk_size, uint chunk_count) {
+    const uint chunk = (uint)get_global_id(0);
+    if (chunk >= chunk_count) {
+        return;
+    }
+    const uint end = chunk_begin(chunk + 1, chunk_size, count);
+    uint at = chunk_offsets[chunk];
+    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+        if (flags[i] != 0) {
+            indices[at++] = i;
+        }
+    }
+}
+
+/// gathered[i] = elements[indices[i]], for elements of `words` × 4 bytes. One work-item an element.
+kernel void compaction_gather(const global uint* restrict elements, const global uint* restrict indices,
+                              global uint* restrict gathered, uint words, uint count) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const global uint* restrict from = elements + (size_t)indices[i] * words;
+    global uint* restrict to = gathered + (size_t)i * words;
+    for (uint word = 0; word < words; ++word) {
+        to[word] = from[word];
+    }
+}

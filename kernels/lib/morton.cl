@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// 30-bit Morton codes: ten bits an axis, interleaved, x highest.
+#ifndef NEARLIGHT_LIB_MORTON
+#define NEARLIGHT_LIB_MORTON
+
+#define NEARLIGHT_MORTON_CELLS 1024.0f  // along each axis
+
+/// Two zero bits before each of the low ten bits.
+inline uint spread_bits(uint x) {
+    x = (x | (x << 16)) & 0x030000ffu;
+    x = (x | (x << 8)) & 0x0300f00fu;
+    x = (x | (x << 4)) & 0x030c30c3u;
+    return (x | (x << 2)) & 0x09249249u;
+}
+
+/// Coordinates outside [0, NEARLIGHT_MORTON_CELLS) count as the cell at that end; NaN as 0.
+inline uint morton_code(float3 cell) {
+    const float last = NEARLIGHT_MORTON_CELLS - 1.0f;
+    const uint x = (uint)fmin(fmax(cell.x, 0.0f), last);
+    const uint y = (uint)fmin(fmax(cell.y, 0.0f), last);
+    const uint z = (uint)fmin(fmax(cell.z, 0.0f), last);
+    return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);
+}
+
+#endif

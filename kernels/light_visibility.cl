@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which close-range triangles the light can reach [paper §3, "visible to the light source"].
+//
+// One work-item a triangle of `ids`, any work-group size: selected[id] = 1 if any of a few points of it, on any
+// side that reflects, sees any light; entries of other triangles are left alone. This only steers where VPLs are
+// placed: a triangle that is missed here is left to light tracing, so nothing is lost (docs/method.md).
+
+#include "lib/emitter.cl"
+#include "lib/material.cl"
+
+#define POINTS_PER_TRIANGLE 8u
+#define LIGHTS_PER_POINT 2u
+
+inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
+    const global Emitter* emitter = scene->emitters + index;
+    if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+        return true;  // to find the one window of a room takes more rays than it is worth
+    }
+    const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE ? triangle_irradiance(scene, emitter, x, n, u)
+                                                                 : delta_irradiance(scene, emitter, x, n);
+    return !is_black(e);
+}
+
+inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {
+    const uint emitter_count = scene->info->emitter_count;
+    const bool ask_all = emitter_count <= LIGHTS_PER_POINT;
+    const uint tries = ask_all ? emitter_count : LIGHTS_PER_POINT;
+    for (uint i = 0; i < tries; ++i) {
+        const float2 choice = sample_2d(point * LIGHTS_PER_POINT + i, 1, key);
+        const uint index = ask_all ? i : choose_emitter(scene, choice.x);
+        if (reached_by(scene, index, x, n, sample_2d(point * LIGHTS_PER_POINT + i, 2, key))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, uint id_count, uint seed,
+                             global uint* restrict selected) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= id_count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const uint id = ids[index];
+    const global Material* material = scene.materials + scene.triangles[id].material;
+    const uint key = random_uint4((uint4)(id, seed, 0x715u, 0x1u)).x;
+    const bool two_sided = reflects(material, 0);
+    for (uint i = 0; i < POINTS_PER_TRIANGLE; ++i) {
+        float3 normal;
+        const float3 point = triangle_point(&scene, id, square_to_triangle(sample_2d(i, 0, key)), &normal);
+        if (point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key) ||
+            (two_sided && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
+            selected[id] = 1;
+            return;
+        }
+    }
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Array sizes at which parallel primitives tend to break.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace nearlight::test {
+
+/// 0, 1, around work-group sizes, around the lengths at which arrays are split, and one large one.
+inline std::vector<std::size_t> awkward_sizes() {
+    std::vector<std::size_t> sizes{0, 1, 2, 3};
+    for (const std::size_t size : {8, 32, 64, 256, 1024, 4096, 8192, 65536, 262144}) {
+        sizes.insert(sizes.end(), {size - 1, size, size + 1});
+    }
+    sizes.push_back(10'000'000);
+    return sizes;
+}
+
+}  // namespace nearlight::test
