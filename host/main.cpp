@@ -6,8 +6,11 @@
 
 #include "host/base/error.h"
 #include "host/cli/command.h"
+#include "host/cli/bench_command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
+#include "host/cli/info_command.h"
+#include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
 
 namespace {
@@ -24,8 +27,11 @@ int main(int argc, char** argv) {
     try {
         nearlight::CommandLine line;
         nearlight::add_render_command(line);
+        nearlight::add_reference_command(line);
         nearlight::add_diff_command(line);
+        nearlight::add_bench_command(line);
         nearlight::add_devices_command(line);
+        nearlight::add_info_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
         return fail(error.what(), error.code());
