@@ -58,7 +58,9 @@ RayFamily grazing_rays(const Scene& scene, std::size_t count, Pcg32& random) {
 
 Scene make_triangle_soup(std::size_t triangle_count, std::uint64_t seed) {
     Scene scene;
-    scene.materials.push_back({});
+    Material material{};
+    material.base_texture = -1;
+    scene.materials.push_back(material);
     Pcg32 random(seed);
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const Vec3 a = point_in_cube(random);
