@@ -49,7 +49,8 @@ PathTracerSettings make_settings(const ReferenceOptions& options, const Scene& s
     PathTracerSettings settings;
     settings.width = options.size.width;
     settings.height = options.size.height;
-    settings.spp = options.spp.value_or(scene.samples_per_pixel > 0 ? scene.samples_per_pixel : kDefaultSpp);
+    const int scene_spp = scene.samples_per_pixel > 0 ? scene.samples_per_pixel : kDefaultSpp;
+    settings.spp = rounded_spp(options.spp.value_or(scene_spp));
     settings.max_depth = options.max_depth.value_or(scene.max_depth);
     settings.clamp_radius = options.clamp_radius;
     settings.indirect_only = options.indirect_only;

@@ -204,11 +204,16 @@ int samples_per_batch(int spp) {
     return spp < 32 ? 1 : spp < 256 ? 4 : 16;
 }
 
+int rounded_spp(int spp) {
+    const int batch_size = samples_per_batch(spp);
+    return (spp + batch_size - 1) / batch_size * batch_size;
+}
+
 Image trace_paths(const Scene& scene, const PathTracerSettings& wanted, const Progress& progress) {
     const PathTracerSettings settings = checked(wanted, scene.camera);
     const PathTracer tracer(scene, settings);
     const int batch_size = samples_per_batch(settings.spp);
-    const int batch_count = (settings.spp + batch_size - 1) / batch_size;
+    const int batch_count = rounded_spp(settings.spp) / batch_size;
     std::vector<PixelStatistics> pixels(static_cast<std::size_t>(settings.width) *
                                         static_cast<std::size_t>(settings.height));
     ProgressGate gate(progress, double(pixels.size()) * batch_count);

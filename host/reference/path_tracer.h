@@ -14,7 +14,7 @@ namespace nearlight {
 struct PathTracerSettings {
     int width = 0;               ///< pixels; 0: the camera's
     int height = 0;              ///< pixels; 0: the camera's, or in proportion where only the width is given
-    int spp = 64;                ///< samples per pixel, rounded up to whole batches; see samples_per_batch
+    int spp = 64;                ///< samples per pixel, rounded up to whole batches; see rounded_spp
     int max_depth = 0;           ///< 1: emission, 2: direct light too, 3: one bounce, …; 0: no limit
     float clamp_radius = 0.0f;   ///< R of the bounded geometry term, m; 0: unbounded
     bool indirect_only = false;  ///< beauty is the indirect light alone
@@ -25,6 +25,8 @@ struct PathTracerSettings {
 /// Samples that are stratified together: 1 below 32 samples per pixel, 4 below 256, else 16. The variance is
 /// estimated from the means of batches, of which there are therefore at least eight from 8 spp on.
 int samples_per_batch(int spp);
+/// What is traced when `spp` is asked for: whole batches.
+int rounded_spp(int spp);
 
 /// Told the fraction that is done, by one thread at a time; returns false to stop.
 using Progress = std::function<bool(double fraction)>;

@@ -9,7 +9,8 @@
 namespace nearlight {
 namespace {
 
-/// VPLs that are summed by themselves before they are added to the irradiance; launches end at multiples of it.
+/// VPLs that are summed by themselves before they are added to the irradiance; launches end at multiples of
+/// it.
 constexpr std::size_t kChunk = 256;
 
 /// Packets of a launch: enough to keep every core or lane busy until the end; more VPLs are better than more
@@ -17,13 +18,16 @@ constexpr std::size_t kChunk = 256;
 constexpr std::size_t kCpuPackets = 1024;
 constexpr std::size_t kGpuPackets = 16384;
 
+/// Pairs of a launch at most, however fast the device is.
+constexpr double kMostLaunchPairs = 0x1p40;
+
 GatherConfig resolved(GatherConfig config, const Device& device) {
     if (config.kernel == GatherKernel::automatic) {
         config.kernel = device.is_cpu() ? GatherKernel::packets : GatherKernel::rays;
     }
     if (config.packet_width != 16 && config.packet_width != 32 && config.packet_width != 64) {
-        throw Error(ExitCode::usage, "a gather packet has 16, 32 or 64 lanes, not " +
-                                         std::to_string(config.packet_width));
+        throw Error(ExitCode::usage,
+                    "a gather packet has 16, 32 or 64 lanes, not " + std::to_string(config.packet_width));
     }
     return config;
 }
@@ -48,12 +52,12 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
 Kernel Gatherer::make_kernel(bool recording) const {
     Defines defines{{"GATHER_CHUNK", std::to_string(kChunk)}};
     if (recording) {
-        defines["GATHER_RECORD"] = "1";
+        defines.emplace("GATHER_RECORD", "1");
     }
     if (config_.kernel == GatherKernel::rays) {
         return {Program(*device_, "gather_rays.cl", defines), "gather_rays"};
     }
-    defines["GATHER_PACKET_WIDTH"] = std::to_string(config_.packet_width);
+    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(config_.packet_width));
     return {Program(*device_, "gather_packets.cl", defines), "gather_packets"};
 }
 
@@ -71,8 +75,8 @@ Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done,
     }
     const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_packet - part.first_packet));
     part.first_vpl = part.end_vpl;
-    part.end_vpl = std::min<std::uint64_t>(input.vpl_count,
-                                           part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
+    part.end_vpl = std::min<std::uint64_t>(
+        input.vpl_count, part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
     return part;
 }
 
@@ -92,7 +96,7 @@ bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradi
                       const GatherProgress& progress) {
     using Clock = std::chrono::steady_clock;
     const std::uint64_t total = std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE;
-    double budget = static_cast<double>(config_.first_launch_pairs);
+    double budget = std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs);
     std::uint64_t done = 0;
     Part part;
     part.end_vpl = input.vpl_count;
@@ -104,7 +108,7 @@ bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradi
         const double seconds = std::max(1e-6, std::chrono::duration<double>(Clock::now() - start).count());
         // At most four times as much, because neighbouring parts may differ in cost.
         const double fitting = static_cast<double>(part.pairs()) * config_.launch_seconds / seconds;
-        budget = std::clamp(fitting, 1.0, std::max(budget, 1.0) * 4.0);
+        budget = std::clamp(fitting, 1.0, std::min(budget * 4.0, kMostLaunchPairs));
         done += part.pairs();
         if (progress && !progress(done, total)) {
             return false;

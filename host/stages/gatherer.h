@@ -13,8 +13,8 @@
 
 namespace nearlight {
 
-/// Which kernel does the work. Both compute the same sum; visibility may differ for rays that meet an edge of a
-/// triangle within rounding.
+/// Which kernel does the work. Both compute the same sum; visibility may differ for rays that meet an edge of
+/// a triangle within rounding.
 enum class GatherKernel {
     automatic,  ///< packets on CPUs, rays elsewhere
     packets,    ///< gather_packets.cl: one work-item, 64 receivers in vector registers
@@ -24,10 +24,10 @@ enum class GatherKernel {
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
     uint packet_width = NEARLIGHT_PACKET_SIZE;  ///< of `packets`: 16, 32 or 64 receivers a tree traversal
-    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the time
-    /// it took. The result does not depend on it.
+    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
+    /// time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
-    double launch_seconds = 0.2;  ///< how long a launch should take; infinity: everything in the first launch
+    double launch_seconds = 0.2;  ///< how long a launch should take
 };
 
 /// What is gathered. The tree is the one of opaque surfaces. Counts may be smaller than the buffers'.
@@ -56,10 +56,11 @@ class Gatherer {
     /// Compiles the kernel. Throws Error(ExitCode::kernel_build).
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
-    /// irradiance[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0, vpl_count), in
-    /// W/m², for each packet p of [0, packet_count). Sums are formed in a fixed order: the same bits for any
-    /// division into launches and any number of threads. Pairs with NaN or infinity in them contribute nothing.
-    /// Returns when done; false if `progress` cancelled, and then only part of the VPLs is summed.
+    /// irradiance[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
+    /// vpl_count), in W/m², for each packet p of [0, packet_count). Sums are formed in a fixed order: the
+    /// same bits for any division into launches and any number of threads. Pairs with NaN or infinity in them
+    /// contribute nothing. Returns when done; false if `progress` cancelled, and then only part of the VPLs
+    /// is summed.
     bool gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                 const GatherProgress& progress = {});
 

@@ -33,12 +33,13 @@ class Reference : public testing::Test {
 };
 
 TEST_F(Reference, WritesAllLayersAndTellsOfThemInJson) {
-    const ProgramResult result = run_program("reference --json --spp 40 --seed 7 " + files());
+    const ProgramResult result = run_program("reference --json --spp 257 --seed 7 " + files());
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const nlohmann::json json = nlohmann::json::parse(result.output);
     EXPECT_EQ(json["width"], 8);
     EXPECT_EQ(json["height"], 6);
     EXPECT_EQ(json["max_depth"], 2);
+    EXPECT_EQ(json["samples_per_pixel"], 272);
     EXPECT_EQ(json["seed"], 7);
     EXPECT_EQ(json["complete"], true);
     const Image image = read_image(output_);

@@ -8,7 +8,7 @@
 
 #include "host/base/random.h"
 #include "host/reference/brute_force.h"
-#include "tests/reference/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight {
 namespace {

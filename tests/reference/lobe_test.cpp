@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/random.h"
-#include "tests/reference/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "host/base/random.h"
 #include "host/reference/path_tracer.h"
-#include "tests/reference/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight {
 namespace {

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bench/gather_workload.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/random.h"
+#include "host/scene/distribution.h"
+#include "host/scene/emitters.h"
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr int kTile = 8;  // kTile² = NEARLIGHT_PACKET_SIZE
+constexpr uint kMaxDepth = 5;
+
+struct SurfacePoint {
+    Vec3 position;  ///< stands off
+    Vec3 normal;
+};
+
+uint spread_bits(uint x) {
+    x = (x | (x << 16u)) & 0x030000ffu;
+    x = (x | (x << 8u)) & 0x0300f00fu;
+    x = (x | (x << 4u)) & 0x030c30c3u;
+    return (x | (x << 2u)) & 0x09249249u;
+}
+
+/// 30 bits; `unit` lies in [0, 1]³.
+uint morton_code(Vec3 unit) {
+    const auto cell = [](float x) { return static_cast<uint>(std::clamp(x * 1024.0f, 0.0f, 1023.0f)); };
+    return spread_bits(cell(unit.x)) | (spread_bits(cell(unit.y)) << 1u) | (spread_bits(cell(unit.z)) << 2u);
+}
+
+Vec3 triangle_normal(const Scene& scene, const Triangle& triangle) {
+    const Vec3 v0 = scene.vertices[triangle.v0].position;
+    return normalize(
+        cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
+}
+
+Vec3 triangle_point(const Scene& scene, const Triangle& triangle, float u, float v) {
+    return scene.vertices[triangle.v0].position * (1.0f - u - v) + scene.vertices[triangle.v1].position * u +
+           scene.vertices[triangle.v2].position * v;
+}
+
+class PointMaker {
+  public:
+    explicit PointMaker(const Scene& scene) : scene_(scene), extent_(max_component(bounds(scene).size())) {}
+
+    /// The side of the surface that `direction` points away from.
+    [[nodiscard]] SurfacePoint at_hit(const BvhHit& hit, Vec3 direction) const {
+        const Triangle& triangle = scene_.triangles[hit.triangle];
+        Vec3 normal = triangle_normal(scene_, triangle);
+        if (dot(normal, direction) > 0.0f) {
+            normal = -normal;
+        }
+        return {stand_off(triangle_point(scene_, triangle, hit.u, hit.v), normal, extent_), normal};
+    }
+    [[nodiscard]] SurfacePoint on_front(const Triangle& triangle, Pcg32& random) const {
+        const float root = std::sqrt(random.uniform());
+        const float u = 1.0f - root;
+        const float v = root * random.uniform();
+        const Vec3 normal = triangle_normal(scene_, triangle);
+        return {stand_off(triangle_point(scene_, triangle, u, v), normal, extent_), normal};
+    }
+
+  private:
+    const Scene& scene_;
+    float extent_;
+};
+
+Vec3 cosine_direction(Vec3 normal, Pcg32& random) {
+    const float r2 = random.uniform();
+    const float phi = 2.0f * kPi * random.uniform();
+    const auto [tangent, bitangent] = orthonormal_basis(normal);
+    return tangent * (std::sqrt(r2) * std::cos(phi)) + bitangent * (std::sqrt(r2) * std::sin(phi)) +
+           normal * std::sqrt(1.0f - r2);
+}
+
+Vec3 sphere_direction(Pcg32& random) {
+    const float z = 1.0f - 2.0f * random.uniform();
+    const float phi = 2.0f * kPi * random.uniform();
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+Vpl make_vpl(const SurfacePoint& point, uint depth) {
+    // Equal powers: the work does not depend on them.
+    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
+}
+
+struct WalkStart {
+    Vec3 origin;
+    Vec3 direction;
+};
+
+WalkStart start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
+    if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
+        const SurfacePoint point = points.on_front(scene.triangles[emitter.triangle], random);
+        return {point.position, cosine_direction(point.normal, random)};
+    }
+    return {emitter.position, sphere_direction(random)};
+}
+
+/// Emitters that walks start from; the environment is left out.
+std::vector<Emitter> lamps(const EmitterTable& table) {
+    std::vector<Emitter> result;
+    for (const Emitter& emitter : table.emitters) {
+        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT) {
+            result.push_back(emitter);
+        }
+    }
+    return result;
+}
+
+void deposit_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, const WalkStart& start,
+                  std::size_t count, Pcg32& random, std::vector<Vpl>& vpls) {
+    Vec3 origin = start.origin;
+    Vec3 direction = start.direction;
+    for (uint depth = 1; depth <= kMaxDepth && vpls.size() < count; ++depth) {
+        const BvhHit hit = closest_hit(bvh, origin, direction, 0.0f, kInfinity);
+        if (hit.triangle == ~0u) {
+            return;
+        }
+        const SurfacePoint point = points.at_hit(hit, direction);
+        vpls.push_back(make_vpl(point, depth));
+        const Material& material = scene.materials[scene.triangles[hit.triangle].material];
+        if (random.uniform() >= max_component(light_albedo(scene, material, 0.0f, 0.0f))) {
+            return;
+        }
+        origin = point.position;
+        direction = cosine_direction(point.normal, random);
+    }
+}
+
+std::vector<Vpl> trace_walks(const Scene& scene, const Bvh& bvh, std::span<const Emitter> emitters,
+                             std::size_t count, Pcg32& random) {
+    const PointMaker points(scene);
+    std::vector<double> weights;
+    for (const Emitter& emitter : emitters) {
+        weights.push_back(emitter.probability);
+    }
+    const std::vector<float> cdf = cumulative_distribution(weights);
+    std::vector<Vpl> vpls;
+    // A lamp in the open may hit nothing at all.
+    for (std::size_t walk = 0; walk < 100 * count && vpls.size() < count; ++walk) {
+        const Emitter& emitter = emitters[select(cdf, random.uniform())];
+        deposit_walk(scene, bvh, points, start_walk(scene, points, emitter, random), count, random, vpls);
+    }
+    return vpls;
+}
+
+std::vector<Vpl> spread_over_surfaces(const Scene& scene, std::size_t count, Pcg32& random) {
+    const PointMaker points(scene);
+    std::vector<double> cumulative;
+    double area = 0.0;
+    for (const Triangle& triangle : scene.triangles) {
+        cumulative.push_back(area += triangle_area(scene, triangle));
+    }
+    std::vector<Vpl> vpls;
+    for (std::size_t i = 0; i < count && area > 0.0; ++i) {
+        const double wanted = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count) * area;
+        const auto at =
+            std::upper_bound(cumulative.begin(), cumulative.end() - 1, wanted) - cumulative.begin();
+        vpls.push_back(make_vpl(points.on_front(scene.triangles[static_cast<std::size_t>(at)], random), 1));
+    }
+    return vpls;
+}
+
+Vec3 camera_direction(const SceneCamera& camera, int width, int height, int x, int y) {
+    const double tan_x = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
+    const double tan_y = tan_x * height / width;
+    const double film_x = 1.0 - 2.0 * (x + 0.5) / width;
+    const double film_y = 1.0 - 2.0 * (y + 0.5) / height;
+    const Vec3 local{static_cast<float>(film_x * tan_x), static_cast<float>(film_y * tan_y), 1.0f};
+    return normalize(transform_vector(camera.to_world, local));
+}
+
+struct Tile {
+    int x = 0;
+    int y = 0;
+};
+
+std::vector<Tile> tiles_in_morton_order(int width, int height) {
+    std::vector<Tile> tiles;
+    for (int y = 0; y < height; y += kTile) {
+        for (int x = 0; x < width; x += kTile) {
+            tiles.push_back({x, y});
+        }
+    }
+    const auto code = [](const Tile& tile) {
+        return spread_bits(static_cast<uint>(tile.x / kTile)) |
+               (spread_bits(static_cast<uint>(tile.y / kTile)) << 1u);
+    };
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [&](const Tile& a, const Tile& b) { return code(a) < code(b); });
+    return tiles;
+}
+
+}  // namespace
+
+std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh& bvh, int width, int height) {
+    const PointMaker points(scene);
+    const Vec3 origin = transform_point(scene.camera.to_world, {0, 0, 0});
+    std::vector<ReceiverPacket> packets;
+    for (const Tile& tile : tiles_in_morton_order(width, height)) {
+        ReceiverPacket& packet = packets.emplace_back();
+        for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+            const int x = tile.x + i % kTile;
+            const int y = tile.y + i / kTile;
+            const Vec3 direction = camera_direction(scene.camera, width, height, x, y);
+            const BvhHit hit = closest_hit(bvh, origin, direction, 0.0f, kInfinity);
+            if (x >= width || y >= height || hit.triangle == ~0u) {
+                continue;
+            }
+            const SurfacePoint point = points.at_hit(hit, direction);
+            packet.px[i] = point.position.x;
+            packet.py[i] = point.position.y;
+            packet.pz[i] = point.position.z;
+            packet.nx[i] = point.normal.x;
+            packet.ny[i] = point.normal.y;
+            packet.nz[i] = point.normal.z;
+        }
+    }
+    return packets;
+}
+
+std::vector<Vpl> make_traced_vpls(const Scene& scene, const Bvh& bvh, std::size_t count, std::uint64_t seed) {
+    Pcg32 random(seed);
+    const std::vector<Emitter> emitters = lamps(build_emitter_table(scene));
+    std::vector<Vpl> vpls =
+        emitters.empty() ? std::vector<Vpl>{} : trace_walks(scene, bvh, emitters, count, random);
+    if (vpls.empty()) {
+        vpls = spread_over_surfaces(scene, count, random);
+    }
+    const Aabb box = bounds(scene);
+    const float scale = 1.0f / std::max(1e-30f, max_component(box.size()));
+    std::stable_sort(vpls.begin(), vpls.end(), [&](const Vpl& a, const Vpl& b) {
+        return morton_code((a.position - box.min) * scale) < morton_code((b.position - box.min) * scale);
+    });
+    return vpls;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene of any size for measuring, when no file is at hand.
+#pragma once
+
+#include "host/scene/scene.h"
+
+namespace nearlight {
+
+/// A room of 8 × 4 × 8 m with a lamp under its ceiling and a floor full of spheres whose surface is rough
+/// noise, about `triangle_count` triangles in all. The same for the same arguments on any machine.
+Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed = 1);
+
+}  // namespace nearlight

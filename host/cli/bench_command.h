@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight bench gather SCENE: how fast the parts are, beside the best that others offer.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_bench_command(CommandLine& line);
+
+}  // namespace nearlight
