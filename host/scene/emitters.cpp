@@ -97,6 +97,23 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     return emitters;
 }
 
+void add_distributions(const EnvironmentLight& environment, EnvironmentTable& table) {
+    std::vector<double> row_weights;
+    std::vector<double> weights(static_cast<std::size_t>(environment.width));
+    const Vec3* pixel = environment.radiance.data();
+    for (int row = 0; row < environment.height; ++row) {
+        double sum = 0;
+        for (double& weight : weights) {
+            weight = std::max(luminance(*pixel++), 0.0f);
+            sum += weight;
+        }
+        row_weights.push_back(sum * row_sine(row, environment.height));
+        const std::vector<float> columns = cumulative_distribution(weights);
+        table.column_cdf.insert(table.column_cdf.end(), columns.begin(), columns.end());
+    }
+    table.row_cdf = cumulative_distribution(row_weights);
+}
+
 }  // namespace
 
 EmitterTable build_emitter_table(const Scene& scene) {
@@ -144,21 +161,11 @@ EnvironmentTable build_environment_table(const Scene& scene) {
     }
     parameters.width = static_cast<uint>(environment.width);
     parameters.height = static_cast<uint>(environment.height);
-    std::vector<double> row_weights;
-    std::vector<double> weights(static_cast<std::size_t>(environment.width));
-    const Vec3* pixel = environment.radiance.data();
-    for (int row = 0; row < environment.height; ++row) {
-        double sum = 0;
-        for (double& weight : weights) {
-            table.pixels.insert(table.pixels.end(), {pixel->x, pixel->y, pixel->z, 1.0f});
-            weight = luminance(*pixel++);
-            sum += std::max(weight, 0.0);
-        }
-        row_weights.push_back(sum * row_sine(row, environment.height));
-        const std::vector<float> columns = cumulative_distribution(weights);
-        table.column_cdf.insert(table.column_cdf.end(), columns.begin(), columns.end());
+    table.pixels.reserve(4 * environment.radiance.size());
+    for (const Vec3 pixel : environment.radiance) {
+        table.pixels.insert(table.pixels.end(), {pixel.x, pixel.y, pixel.z, 1.0f});
     }
-    table.row_cdf = cumulative_distribution(row_weights);
+    add_distributions(environment, table);
     return table;
 }
 

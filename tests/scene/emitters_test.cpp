@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/scene/distribution.h"
+
+namespace nearlight {
+namespace {
+
+constexpr double kPiD = std::numbers::pi;
+
+/// Triangle 0 emits, 1 emits but has no area, 2 is dark.
+Scene area_light_scene(Vec3 radiance) {
+    Scene scene;
+    for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 0, 2}, Vec3{1, 0, 1}}) {
+        scene.vertices.push_back({p, 0, {0, 0, 0}, 0});
+    }
+    scene.materials.resize(2, Material{});
+    scene.materials[1].emission = radiance;
+    scene.triangles = {{0, 1, 2, 1}, {0, 1, 1, 1}, {0, 1, 3, 0}};
+    return scene;
+}
+
+Emitter point_light(Vec3 intensity) {
+    Emitter emitter{};
+    emitter.type = NEARLIGHT_EMITTER_POINT;
+    emitter.radiance = intensity;
+    return emitter;
+}
+
+Emitter spot_light(float beam, float cutoff) {
+    Emitter emitter = point_light({1, 1, 1});
+    emitter.type = NEARLIGHT_EMITTER_SPOT;
+    emitter.beam_angle = beam;
+    emitter.cutoff_angle = cutoff;
+    return emitter;
+}
+
+EnvironmentLight sky(int width, int height) {
+    EnvironmentLight environment;
+    environment.width = width;
+    environment.height = height;
+    for (int i = 0; i < width * height; ++i) {
+        environment.radiance.push_back({0.1f * static_cast<float>(i % 7), static_cast<float>(i % 3), 0.5f});
+    }
+    return environment;
+}
+
+TEST(EmitterTable, ADarkSceneHasNone) {
+    Scene scene = area_light_scene({0, 0, 0});
+    scene.delta_emitters = {point_light({0, 0, 0})};
+    scene.environment = sky(2, 2);
+    scene.environment.radiance.assign(4, {0, 0, 0});
+    const EmitterTable table = build_emitter_table(scene);
+    EXPECT_TRUE(table.emitters.empty());
+    EXPECT_EQ(table.delta_emitter_count, 0u);
+    EXPECT_EQ(table.total_power, 0.0f);
+    EXPECT_TRUE(build_emitter_table(Scene{}).emitters.empty());
+}
+
+TEST(EmitterTable, PowersAreThoseOfTheFormulae) {
+    Scene scene = area_light_scene({3, 2, 1});
+    const float area_luminance = luminance({3, 2, 1});
+    EXPECT_NEAR(build_emitter_table(scene).total_power, kPiD * 2 * area_luminance, 1e-4);
+    scene.materials[1].emission = {0, 0, 0};
+    scene.delta_emitters = {point_light({1, 1, 1})};
+    EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD, 1e-5);
+}
+
+TEST(EmitterTable, OrderProbabilitiesAndContents) {
+    Scene scene = area_light_scene({1, 1, 1});
+    scene.delta_emitters = {point_light({0, 0, 0}), point_light({2, 2, 2}), spot_light(0.2f, 0.4f)};
+    scene.environment = sky(4, 2);
+    const EmitterTable table = build_emitter_table(scene);
+    ASSERT_EQ(table.emitters.size(), 4u);
+    EXPECT_EQ(table.delta_emitter_count, 2u);
+    EXPECT_EQ(table.emitters[0].type, NEARLIGHT_EMITTER_POINT);
+    EXPECT_EQ(table.emitters[1].type, NEARLIGHT_EMITTER_SPOT);
+    EXPECT_EQ(table.emitters[2].type, NEARLIGHT_EMITTER_TRIANGLE);
+    EXPECT_EQ(table.emitters[2].triangle, 0u);
+    EXPECT_FLOAT_EQ(table.emitters[2].area, 2.0f);
+    EXPECT_EQ(table.emitters[3].type, NEARLIGHT_EMITTER_ENVIRONMENT);
+    EXPECT_EQ(table.emitters[3].cdf, 1.0f);
+    EXPECT_NEAR(table.emitters[0].probability, 8 * kPiD / table.total_power, 1e-6);
+    EXPECT_NEAR(table.emitters[2].probability, 2 * kPiD / table.total_power, 1e-6);
+    float sum = 0;
+    for (const Emitter& emitter : table.emitters) {
+        EXPECT_GT(emitter.probability, 0.0f);
+        sum += emitter.probability;
+        EXPECT_EQ(emitter.cdf, sum);  // exact: all are multiples of 2^-24
+    }
+}
+
+TEST(EmitterTable, SpotPowerIsTheIntegralOfItsFalloff) {
+    for (const auto& [beam, cutoff] : {std::pair{0.0f, 0.5f}, {0.3f, 0.35f}, {0.4f, 0.4f}, {1.0f, 1.5f}}) {
+        Scene scene;
+        scene.delta_emitters = {spot_light(beam, cutoff)};
+        double integral = 0;
+        constexpr int kSteps = 200000;
+        for (int i = 0; i < kSteps; ++i) {
+            const double theta = cutoff * (i + 0.5) / kSteps;
+            const double falloff = theta <= beam ? 1.0 : (cutoff - theta) / (cutoff - beam);
+            integral += 2 * kPiD * falloff * std::sin(theta) * cutoff / kSteps;
+        }
+        EXPECT_NEAR(build_emitter_table(scene).total_power, integral, 1e-5 * integral);
+    }
+}
+
+TEST(EmitterTable, EnvironmentPowerIsWhatEntersTheSceneSphere) {
+    Scene scene = area_light_scene({0, 0, 0});
+    const double radius = build_environment_table(scene).parameters.scene_radius;
+    EXPECT_FLOAT_EQ(static_cast<float>(radius), std::sqrt(2.0f));
+    scene.environment = sky(1, 1);
+    scene.environment.radiance = {{2, 2, 2}};
+    // Irradiance π·2 on every point of the sphere from outside.
+    EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD * radius * radius * kPiD * 2, 1e-3);
+    scene.environment = sky(6, 5);
+    const EmitterTable table = build_emitter_table(scene);
+    Vec3 mean{0, 0, 0};
+    for (int row = 0; row < 5; ++row) {  // solid angle of a pixel from the cosines of its edges
+        const double share = (std::cos(kPiD * row / 5) - std::cos(kPiD * (row + 1) / 5)) / (2 * 6);
+        for (int column = 0; column < 6; ++column) {
+            mean += scene.environment.radiance[row * 6 + column] * static_cast<float>(share);
+        }
+    }
+    EXPECT_NEAR(table.emitters[0].radiance.x, mean.x, 1e-6);
+    EXPECT_NEAR(table.emitters[0].radiance.y, mean.y, 1e-6);
+    EXPECT_NEAR(table.emitters[0].radiance.z, mean.z, 1e-6);
+}
+
+TEST(EnvironmentTable, CellsAreInProportionToLuminanceTimesSine) {
+    Scene scene = area_light_scene({0, 0, 0});
+    scene.environment = sky(9, 6);
+    for (int column = 0; column < 9; ++column) {
+        scene.environment.radiance[2 * 9 + column] = {0, 0, 0};  // a dark row
+    }
+    const EnvironmentTable table = build_environment_table(scene);
+    ASSERT_EQ(table.row_cdf.size(), 6u);
+    ASSERT_EQ(table.column_cdf.size(), 54u);
+    double total = 0;
+    const auto weight = [&](int row, int column) {
+        return luminance(scene.environment.radiance[row * 9 + column]) * std::sin(kPiD * (row + 0.5) / 6);
+    };
+    for (int i = 0; i < 54; ++i) {
+        total += weight(i / 9, i % 9);
+    }
+    for (int row = 0; row < 6; ++row) {
+        EXPECT_EQ(table.column_cdf[row * 9 + 8], 1.0f);
+        const double row_step = table.row_cdf[row] - (row > 0 ? table.row_cdf[row - 1] : 0.0f);
+        for (int column = 0; column < 9; ++column) {
+            const int i = row * 9 + column;
+            const double step = table.column_cdf[i] - (column > 0 ? table.column_cdf[i - 1] : 0.0f);
+            EXPECT_NEAR(row_step * step, weight(row, column) / total, 1e-5);
+        }
+    }
+    EXPECT_EQ(table.row_cdf[5], 1.0f);
+    EXPECT_EQ(table.row_cdf[2], table.row_cdf[1]);
+}
+
+TEST(EnvironmentTable, PixelsAndFrame) {
+    Scene scene = area_light_scene({0, 0, 0});
+    scene.environment = sky(2, 1);
+    scene.environment.to_world = rotation(0, 1, 0, 90);
+    const EnvironmentTable table = build_environment_table(scene);
+    EXPECT_EQ(table.parameters.width, 2u);
+    EXPECT_EQ(table.parameters.height, 1u);
+    ASSERT_EQ(table.pixels.size(), 8u);
+    EXPECT_FLOAT_EQ(table.pixels[4], 0.1f);
+    EXPECT_FLOAT_EQ(table.pixels[5], 1.0f);
+    EXPECT_FLOAT_EQ(table.pixels[6], 0.5f);
+    const float* m = table.parameters.world_to_local;  // takes world +X to local +Z
+    EXPECT_NEAR(m[0], 0.0f, 1e-6f);
+    EXPECT_NEAR(m[6], 1.0f, 1e-6f);
+}
+
+TEST(EnvironmentTable, WithoutEnvironmentThereIsOneBlackPixel) {
+    const EnvironmentTable table = build_environment_table(area_light_scene({1, 1, 1}));
+    EXPECT_EQ(table.parameters.width, 0u);
+    EXPECT_EQ(table.pixels, std::vector<float>(4, 0.0f));
+    EXPECT_EQ(table.row_cdf, std::vector<float>{1.0f});
+    EXPECT_EQ(table.column_cdf, std::vector<float>{1.0f});
+    EXPECT_FLOAT_EQ(table.parameters.scene_center.x, 1.0f);
+}
+
+}  // namespace
+}  // namespace nearlight
