@@ -48,7 +48,7 @@ Distance solid_curl(Vec3 center, Vec3 axis, float radius, float turns) {
         const float angle = std::atan2(dot(q, up_), dot(q, side_));
         const float wave = std::sin(angle + from_pole * 4.0f * turns);
         const float fade = std::min(1.0f, from_pole * 3.0f);
-        return distance - radius * (0.93f + 0.09f * fade * wave);
+        return distance - radius * (0.9f + 0.13f * fade * wave);
     };
 }
 

@@ -406,9 +406,9 @@ SceneFiles make_desk() {
     scene.model.place(make_room(room), {0.8f, 0, kWall + 0.5f * room.z});
     scene.model.add(make_desk_furniture());
     add_desk_things(scene.model, random);
-    scene.model.place(make_picture(0.42f, 0.3f), {0.55f, 1.42f, kWall + 0.015f});
+    scene.model.place(make_picture(0.36f, 0.26f), {0.6f, 1.3f, kWall + 0.015f});
     add_far_furniture(scene.model, random);
-    scene.bitmaps["desk_top"] = make_wood_grain({0.72f, 0.52f, 0.35f}, {0.52f, 0.33f, 0.2f}, 14);
+    scene.bitmaps["desk_top"] = make_wood_grain({0.74f, 0.55f, 0.38f}, {0.6f, 0.41f, 0.26f}, 9);
     scene.bitmaps["screen"] = make_screen_picture();
     scene.bitmaps["page_left"] = make_printed_page(5, true);
     scene.bitmaps["page_right"] = make_printed_page(6, false);

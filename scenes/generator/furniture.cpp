@@ -173,7 +173,7 @@ Bitmap make_wood_grain(Vec3 light, Vec3 dark, int rings) {
                 0.5f + 0.5f * std::sin(2.0f * kPi * (v * static_cast<float>(rings) + 2.2f * warp));
             const float pores =
                 0.5f + 0.5f * value_noise({std::cos(u) * 9.0f, std::sin(u) * 9.0f, 200.0f * v});
-            const float t = std::clamp(0.7f * ring * ring + 0.3f * pores, 0.0f, 1.0f);
+            const float t = std::clamp(0.55f * ring * ring + 0.2f * warp + 0.3f * pores, 0.0f, 1.0f);
             bitmap.set(x, y, light * (1.0f - t) + dark * t);
         }
     }

@@ -78,37 +78,51 @@ void carve_mouth(Carving& lion) {
     for (int lock = 0; lock < 5; ++lock) {
         const float place = (static_cast<float>(lock) - 2.0f) / 2.0f;
         lion.add(
-            solid_curl({place * 0.085f, 0.51f + 0.02f * std::abs(place), 0.315f - 0.05f * std::abs(place)},
-                       {0.6f * place, -0.2f, 1}, 0.034f, 1.4f),
+            solid_curl({place * 0.085f, 0.505f + 0.02f * std::abs(place), 0.35f - 0.05f * std::abs(place)},
+                       {0.6f * place, -0.4f, 1}, 0.038f, 1.4f),
             0.006f);
+    }
+}
+
+/// A bulging eye with a drilled pupil between two lids.
+void carve_eye(Carving& lion, float x) {
+    const Vec3 eye{x * 0.088f, 0.768f, 0.293f};
+    lion.cut(solid_ellipsoid(eye + Vec3{0, 0, 0.02f}, {0.05f, 0.038f, 0.03f}), 0.012f);
+    lion.add(solid_ellipsoid(eye, {0.037f, 0.035f, 0.036f}), 0.003f);
+    lion.cut(solid_ellipsoid(eye + Vec3{-0.002f * x, -0.002f, 0.037f}, {0.013f, 0.013f, 0.012f}), 0.003f);
+    for (const float lid : {-1.0f, 1.0f}) {
+        const Vec3 middle = eye + Vec3{0, lid * 0.033f, 0.024f};
+        for (const float side : {-1.0f, 1.0f}) {
+            const Vec3 corner = eye + Vec3{side * 0.045f, lid * 0.006f, side * x > 0 ? -0.004f : 0.022f};
+            lion.add(solid_cone(middle, corner, lid > 0 ? 0.013f : 0.009f, 0.007f), 0.006f);
+        }
     }
 }
 
 void carve_face(Carving& lion) {
     lion.add(solid_ellipsoid(kHead, {0.18f, 0.165f, 0.17f}), 0.05f);
     carve_mouth(lion);
-    // Broad nose with nostrils.
-    lion.add(solid_cone({0, 0.79f, 0.29f}, {0, 0.725f, 0.375f}, 0.035f, 0.036f), 0.025f);
+    // A broad, short nose.
+    lion.add(solid_cone({0, 0.775f, 0.29f}, {0, 0.74f, 0.365f}, 0.03f, 0.04f), 0.02f);
     lion.add_pair(
         [](float x) {
-            return solid_ellipsoid({x * 0.036f, 0.718f, 0.382f}, {0.027f, 0.023f, 0.026f});
+            return solid_ellipsoid({x * 0.042f, 0.724f, 0.375f}, {0.034f, 0.027f, 0.03f});
         },
-        0.012f);
+        0.01f);
     for (const float x : {-1.0f, 1.0f}) {
-        lion.cut(solid_ellipsoid({x * 0.033f, 0.712f, 0.412f}, {0.012f, 0.009f, 0.014f}), 0.006f);
-        lion.cut(solid_ellipsoid({x * 0.085f, 0.765f, 0.305f}, {0.042f, 0.032f, 0.03f}), 0.015f);
-        lion.add(solid_ellipsoid({x * 0.085f, 0.763f, 0.283f}, {0.034f, 0.034f, 0.034f}), 0.004f);
-        lion.cut(solid_ellipsoid({x * 0.087f, 0.762f, 0.32f}, {0.011f, 0.011f, 0.012f}), 0.004f);
-        // Heavy brows of three bosses that end in a curl.
+        lion.cut(solid_ellipsoid({x * 0.042f, 0.716f, 0.408f}, {0.015f, 0.011f, 0.016f}), 0.006f);
+        carve_eye(lion, x);
+        // Heavy brows of bosses that end in a curl.
         for (int boss = 0; boss < 4; ++boss) {
             const float s = static_cast<float>(boss);
-            lion.add(solid_curl({x * (0.03f + 0.037f * s), 0.812f + 0.008f * s - 0.006f * s * s,
-                                 0.305f - 0.017f * s},
-                                {x * 0.2f * s, 0.3f, 1}, 0.027f, 1.3f),
-                     0.006f);
+            lion.add(solid_curl({x * (0.028f + 0.041f * s), 0.826f + 0.012f * s - 0.009f * s * s,
+                                 0.318f - 0.02f * s},
+                                {x * 0.2f * s, 0.25f, 1}, 0.03f, 1.5f),
+                     0.005f);
         }
-        lion.add(solid_cone({x * 0.16f, 0.8f, 0.13f}, {x * 0.225f, 0.83f, 0.12f}, 0.05f, 0.028f), 0.02f);
-        lion.cut(solid_ellipsoid({x * 0.2f, 0.815f, 0.165f}, {0.028f, 0.02f, 0.026f}), 0.01f);
+        lion.add(solid_curl({x * 0.125f, 0.66f, 0.31f}, {x, 0, 0.6f}, 0.034f, 1.5f), 0.008f);
+        lion.add(solid_cone({x * 0.16f, 0.81f, 0.14f}, {x * 0.24f, 0.855f, 0.13f}, 0.055f, 0.026f), 0.02f);
+        lion.cut(solid_ellipsoid({x * 0.212f, 0.838f, 0.18f}, {0.03f, 0.023f, 0.026f}), 0.01f);
     }
 }
 
@@ -132,15 +146,15 @@ void carve_mane(Carving& lion) {
         }
     }
     for (int row = 0; row < 4; ++row) {
-        const float y = 0.57f - 0.068f * static_cast<float>(row);
-        for (int i = 0; i < 10; ++i) {
-            const float around =
-                kPi * (static_cast<float>(i) + 0.5f * static_cast<float>(row % 2) - 0.75f) / 8.0f;
+        const float down = static_cast<float>(row), spread = 1.35f - 0.12f * down;
+        constexpr int kCount = 13;
+        for (int i = 0; i < kCount; ++i) {
+            const float place =
+                (static_cast<float>(i) + 0.5f * static_cast<float>(row % 2)) / (kCount - 0.5f);
+            const float around = 0.5f * kPi + spread * kPi * (place - 0.5f);
             const Vec3 out = normalize({std::cos(around), -0.1f, -std::sin(around)});
-            const Vec3 place{
-                out.x * 0.195f, y,
-                0.02f - 0.05f * static_cast<float>(row) + out.z * (0.2f - 0.01f * static_cast<float>(row))};
-            lion.add(solid_curl(place, out, 0.046f, 1.7f), 0.006f);
+            const Vec3 center{0, 0.575f - 0.062f * down, 0.035f - 0.045f * down};
+            lion.add(solid_curl(center + Vec3{out.x * 0.2f, 0, out.z * 0.2f}, out, 0.046f, 1.7f), 0.006f);
         }
     }
 }

@@ -81,7 +81,8 @@ void fill_shelf(Model& scene, const ShelfPlan& plan, float y, Pcg32& random) {
         const float x =
             -0.5f * inner + pitch * (static_cast<float>(i) + 0.5f) + between(random, -0.01f, 0.01f);
         const bool plate = plan.pots[i] == Pot::plate;
-        const float size = plate ? 1.1f : between(random, 1.08f, 1.26f);
+        const bool wide = plate || plan.pots[i] == Pot::bowl;
+        const float size = wide ? 1.1f : between(random, 1.24f, 1.4f);
         Model pot;
         pot.add(make_pot(plan.pots[i], glaze, trim), scaling(size, size, size));
         scene.place(pot, {x, y, plate ? -0.1f : between(random, -0.03f, 0.07f)},

@@ -10,24 +10,24 @@ namespace nearlight::scenes {
 namespace {
 
 constexpr float kTable = 0.76f;
-constexpr float kLionScale = 0.5f;
+constexpr float kLionScale = 0.55f;
 
 /// The lion on its plinth of three courses, about 0.6 high.
 Model make_statue(float detail) {
     Model statue;
-    statue.add("plinth", box({0.4f, 0.035f, 0.5f}, 0.006f, 3));
-    statue.add("plinth", moved(box({0.36f, 0.05f, 0.46f}, 0.016f, 4), {0, 0.033f, 0}));
-    statue.add("plinth", moved(box({0.38f, 0.025f, 0.48f}, 0.008f, 3), {0, 0.08f, 0}));
+    statue.add("plinth", box({0.42f, 0.035f, 0.52f}, 0.006f, 3));
+    statue.add("plinth", moved(box({0.38f, 0.05f, 0.48f}, 0.016f, 4), {0, 0.033f, 0}));
+    statue.add("plinth", moved(box({0.4f, 0.025f, 0.5f}, 0.008f, 3), {0, 0.08f, 0}));
     // Carved bosses around the middle course.
     for (int side = 0; side < 4; ++side) {
-        const float half = side % 2 == 0 ? 0.23f : 0.18f, extent = side % 2 == 0 ? 0.14f : 0.19f;
+        const float half = side % 2 == 0 ? 0.24f : 0.19f, extent = side % 2 == 0 ? 0.15f : 0.2f;
         for (int i = 0; i < 7; ++i) {
             const float x = extent * (static_cast<float>(i) - 3.0f) / 3.0f;
             statue.add("plinth", turned(moved(ellipsoid({0.017f, 0.017f, 0.008f}, 24), {x, 0.058f, half}),
                                         {0, 1, 0}, 90.0f * static_cast<float>(side)));
         }
     }
-    Model lion("lion", make_guardian_lion(0.0044f / detail));
+    Model lion("lion", make_guardian_lion(0.0042f / detail));
     statue.add(lion, translation(0, 0.105, -0.01) * scaling(kLionScale, kLionScale, kLionScale));
     return statue;
 }
@@ -113,6 +113,39 @@ Mesh make_runner(float width, float table_depth) {
     return sheet(surface, 60, 160, 0.002f);
 }
 
+/// A chest with a lid, iron straps and a round lock plate.
+Model make_chest(Vec3 size) {
+    Model chest("chest", box({size.x, 0.74f * size.y, size.z}, 0.012f));
+    chest.add("chest",
+              moved(box({size.x + 0.05f, 0.27f * size.y, size.z + 0.05f}, 0.05f, 4), {0, 0.73f * size.y, 0}));
+    for (const float place : {-0.36f, 0.0f, 0.36f}) {
+        chest.add("brass",
+                  moved(box({0.05f, 0.97f * size.y, size.z + 0.062f}, 0.006f), {place * size.x, 0.035f, 0}));
+    }
+    chest.add("brass", moved(turned(cylinder(0.09f, 0.03f, 0.006f), {1, 0, 0}, 90),
+                             {0, 0.66f * size.y, 0.5f * size.z + 0.01f}));
+    return chest;
+}
+
+/// A cloth on a rod, its border and ornament of golden rings.
+Model make_hanging(float width, float height) {
+    Model hanging("hanging", moved(box({width, height, 0.05f}, 0.015f), {0, 0, 0}));
+    hanging.add("brass",
+                transformed(cylinder(0.035f, width + 0.3f),
+                            translation(-0.5 * width - 0.15, height - 0.02, 0) * rotation(0, 0, 1, -90)));
+    for (const float sign : {-1.0f, 1.0f}) {
+        hanging.add("brass", moved(box({0.05f, height - 0.25f, 0.064f}, 0.006f),
+                                   {sign * (0.5f * width - 0.12f), 0.1f, 0}));
+    }
+    for (const float radius : {0.2f, 0.36f, 0.52f}) {
+        for (const float y : {0.22f, 0.6f}) {
+            hanging.add("brass",
+                        moved(turned(torus(radius, 0.028f, 64, 10), {1, 0, 0}, 90), {0, y * height, 0.026f}));
+        }
+    }
+    return hanging;
+}
+
 void add_hall(Model& scene) {
     const Vec3 room{16.0f, 6.5f, 14.0f};
     scene.place(make_room(room), {1.0f, 0, 1.5f});
@@ -122,8 +155,8 @@ void add_hall(Model& scene) {
         scene.add("column", moved(column, {x, 0, 6.6f}));
     }
     for (const float x : {-3.15f, 0.0f, 3.25f}) {
-        scene.add("hanging", moved(box({1.7f, 3.6f, 0.06f}, 0.02f), {x, 1.3f, -5.4f}));
-        scene.add("chest", moved(box({1.5f, 0.8f, 0.6f}, 0.03f), {x, 0, -4.9f}));
+        scene.place(make_hanging(1.7f, 3.6f), {x, 1.25f, -5.4f});
+        scene.place(make_chest({1.5f, 0.8f, 0.6f}), {x, 0, -4.9f});
     }
     for (const float z : {-1.5f, 2.5f, 5.0f}) {
         scene.add("chest", moved(box({0.9f, 1.6f, 1.4f}, 0.03f), {-6.4f, 0, z}));
@@ -138,18 +171,18 @@ SceneFiles make_stone_and_tea(float detail) {
     Model& model = scene.model;
     add_hall(model);
     model.add("table", make_table({1.7f, kTable, 0.95f}));
-    model.add("runner", moved(make_runner(0.62f, 0.95f), {0.3f, kTable, 0}));
+    model.add("runner", moved(make_runner(0.62f, 0.95f), {0.29f, kTable, 0}));
     const auto put = [&](const Model& thing, float x, float z, float degrees, float lift = 0.0f) {
         model.place(thing, {x, kTable + lift, z}, degrees);
     };
-    put(make_statue(detail), -0.38f, -0.08f, 24);
+    put(make_statue(detail), -0.34f, -0.1f, 24);
     const float cloth = 0.0034f;
-    put(make_tea_tray(), 0.3f, 0.06f, -6, cloth);
-    put(make_tea_caddy("caddy", "brass"), 0.14f, -0.27f, 0, cloth);
+    put(make_tea_tray(), 0.28f, 0.05f, -6, cloth);
+    put(make_tea_caddy("caddy", "brass"), 0.03f, -0.29f, 0, cloth);
     put(make_mandarin(30), -0.06f, 0.3f, 0);
     put(make_mandarin(160), -0.15f, 0.335f, 40);
     put(make_mandarin(250), -0.1f, 0.255f - 0.035f, 10);
-    put(make_tea_spoon(), 0.42f, 0.32f, 68, cloth);
+    put(make_tea_spoon(), 0.36f, 0.3f, 74, cloth);
     scene.bitmaps["table"] = make_wood_grain({0.55f, 0.36f, 0.22f}, {0.36f, 0.21f, 0.12f}, 12);
     return scene;
 }
