@@ -123,6 +123,35 @@ std::vector<TubeRing> tube_rings(const Curve& curve, const TubeShape& shape) {
     return rings;
 }
 
+/// The surface moved along its normals, which point away from the middle of the sheet.
+void add_sheet_side(Mesh& mesh, const std::function<Vec3(float, float)>& surface, int u_steps, int v_steps,
+                    float offset) {
+    constexpr float h = 1e-3f;
+    for (int j = 0; j <= v_steps; ++j) {
+        for (int i = 0; i <= u_steps; ++i) {
+            const float u = static_cast<float>(i) / static_cast<float>(u_steps);
+            const float v = static_cast<float>(j) / static_cast<float>(v_steps);
+            const Vec3 du = surface(u + h, v) - surface(u - h, v);
+            const Vec3 dv = surface(u, v + h) - surface(u, v - h);
+            const Vec3 up = normalize(cross(dv, du));
+            mesh.add_vertex(surface(u, v) + up * offset, offset > 0 ? up : -up, u, v);
+        }
+    }
+}
+
+/// A strip between the upper edge from a to b and the lower one, with a normal of its own.
+void add_sheet_rim(Mesh& mesh, uint a, uint b, uint below) {
+    const std::array<Vertex, 4> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[below + b],
+                                        mesh.vertices[below + a]};
+    const Vec3 origin = corners[0].position;
+    const Vec3 normal = normalize(cross(corners[1].position - origin, corners[3].position - origin));
+    const auto first = static_cast<uint>(mesh.vertices.size());
+    for (const Vertex& corner : corners) {
+        mesh.add_vertex(corner.position, normal, corner.u, corner.v);
+    }
+    mesh.add_quad(first, first + 1, first + 2, first + 3);
+}
+
 /// The triangles with only the vertices that they use.
 Mesh compacted(const std::vector<Vertex>& vertices, const std::vector<std::array<uint, 3>>& triangles) {
     constexpr uint kUnused = ~0u;
@@ -224,23 +253,10 @@ Mesh tube(const Curve& curve, const TubeShape& shape) {
 
 Mesh sheet(const std::function<Vec3(float, float)>& surface, int u_steps, int v_steps, float thickness) {
     Mesh mesh;
-    const int stride = u_steps + 1;
-    const auto coordinate = [](int i, int steps) {
-        return static_cast<float>(i) / static_cast<float>(steps);
-    };
-    for (const float side : {0.5f, -0.5f}) {
-        for (int j = 0; j <= v_steps; ++j) {
-            for (int i = 0; i <= u_steps; ++i) {
-                const float u = coordinate(i, u_steps), v = coordinate(j, v_steps), h = 1e-3f;
-                const Vec3 du = surface(u + h, v) - surface(u - h, v);
-                const Vec3 dv = surface(u, v + h) - surface(u, v - h);
-                const Vec3 up = normalize(cross(dv, du));
-                mesh.add_vertex(surface(u, v) + up * (side * thickness), side > 0 ? up : -up, u, v);
-            }
-        }
-    }
-    const auto below = static_cast<uint>(stride * (v_steps + 1));
-    const auto index = [&](int i, int j) { return static_cast<uint>(j * stride + i); };
+    add_sheet_side(mesh, surface, u_steps, v_steps, 0.5f * thickness);
+    add_sheet_side(mesh, surface, u_steps, v_steps, -0.5f * thickness);
+    const auto below = static_cast<uint>(mesh.vertices.size() / 2);
+    const auto index = [&](int i, int j) { return static_cast<uint>(j * (u_steps + 1) + i); };
     for (int j = 0; j < v_steps; ++j) {
         for (int i = 0; i < u_steps; ++i) {
             const uint a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
@@ -248,24 +264,13 @@ Mesh sheet(const std::function<Vec3(float, float)>& surface, int u_steps, int v_
             mesh.add_quad(below + a, below + b, below + c, below + d);
         }
     }
-    const auto rim = [&](uint a, uint b) {
-        const Vertex corners[4] = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[below + b],
-                                   mesh.vertices[below + a]};
-        const Vec3 normal = normalize(
-            cross(corners[1].position - corners[0].position, corners[3].position - corners[0].position));
-        uint indices[4];
-        for (int k = 0; k < 4; ++k) {
-            indices[k] = mesh.add_vertex(corners[k].position, normal, corners[k].u, corners[k].v);
-        }
-        mesh.add_quad(indices[0], indices[1], indices[2], indices[3]);
-    };
     for (int i = 0; i < u_steps; ++i) {
-        rim(index(i, 0), index(i + 1, 0));
-        rim(index(i + 1, v_steps), index(i, v_steps));
+        add_sheet_rim(mesh, index(i, 0), index(i + 1, 0), below);
+        add_sheet_rim(mesh, index(i + 1, v_steps), index(i, v_steps), below);
     }
     for (int j = 0; j < v_steps; ++j) {
-        rim(index(0, j + 1), index(0, j));
-        rim(index(u_steps, j), index(u_steps, j + 1));
+        add_sheet_rim(mesh, index(0, j + 1), index(0, j), below);
+        add_sheet_rim(mesh, index(u_steps, j), index(u_steps, j + 1), below);
     }
     return mesh;
 }

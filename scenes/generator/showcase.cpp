@@ -64,20 +64,20 @@ struct ShelfPlan {
     int first_color;
 };
 
-const std::vector<std::array<std::string, 2>>& glazes() {
-    static const std::vector<std::array<std::string, 2>> pairs{
-        {"glaze_cobalt", "glaze_cream"},     {"glaze_celadon", "glaze_iron"},
-        {"glaze_red", "glaze_cream"},        {"glaze_cream", "glaze_cobalt"},
-        {"glaze_honey", "glaze_iron"},       {"glaze_turquoise", "glaze_honey"},
-        {"glaze_terracotta", "glaze_cream"}, {"glaze_plum", "glaze_celadon"}};
-    return pairs;
+/// Glaze and trim.
+std::vector<std::array<std::string, 2>> glazes() {
+    return {{"glaze_cobalt", "glaze_cream"},     {"glaze_celadon", "glaze_iron"},
+            {"glaze_red", "glaze_cream"},        {"glaze_cream", "glaze_cobalt"},
+            {"glaze_honey", "glaze_iron"},       {"glaze_turquoise", "glaze_honey"},
+            {"glaze_terracotta", "glaze_cream"}, {"glaze_plum", "glaze_celadon"}};
 }
 
 void fill_shelf(Model& scene, const ShelfPlan& plan, float y, Pcg32& random) {
     const float inner = kWidth - 2 * kBoard - 0.06f;
     const float pitch = inner / static_cast<float>(plan.pots.size());
+    const auto colors = glazes();
     for (size_t i = 0; i < plan.pots.size(); ++i) {
-        const auto& [glaze, trim] = glazes()[(static_cast<size_t>(plan.first_color) + i) % glazes().size()];
+        const auto& [glaze, trim] = colors[(static_cast<size_t>(plan.first_color) + i) % colors.size()];
         const float x =
             -0.5f * inner + pitch * (static_cast<float>(i) + 0.5f) + between(random, -0.01f, 0.01f);
         const bool plate = plan.pots[i] == Pot::plate;

@@ -142,6 +142,25 @@ TEST_P(SceneTest, XmlNamesEveryFileThatIsMadeAndNoOther) {
     EXPECT_GE(named.size(), scene_.model.parts().size() + scene_.bitmaps.size());
 }
 
+TEST_P(SceneTest, PointLightsHangFreeInTheRoom) {
+    const std::string xml = bytes_of(fs::path(NEARLIGHT_SOURCE_DIR) / "scenes" / GetParam() / "scene.xml");
+    const std::regex pattern("<point name=\"position\" x=\"([^\"]+)\" y=\"([^\"]+)\" z=\"([^\"]+)\"");
+    const auto& floor = scene_.model.parts().at("floor");
+    const auto room = bounds(floor);
+    for (std::sregex_iterator match(xml.begin(), xml.end(), pattern), end; match != end; ++match) {
+        const Vec3 light{std::stof((*match)[1]), std::stof((*match)[2]), std::stof((*match)[3])};
+        EXPECT_TRUE(light.x > room.min.x && light.x < room.max.x && light.z > room.min.z &&
+                    light.z < room.max.z);
+        float nearest = 1e9f;
+        for (const auto& [part, mesh] : scene_.model.parts()) {
+            for (const auto& vertex : mesh.vertices) {
+                nearest = std::min(nearest, length(vertex.position - light));
+            }
+        }
+        EXPECT_GT(nearest, 0.03f) << match->str();
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneTest, testing::ValuesIn(kNames), [](const auto& parameter) {
     std::string name = parameter.param;
     std::ranges::replace(name, '-', '_');
