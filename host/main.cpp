@@ -6,7 +6,9 @@
 
 #include "host/base/error.h"
 #include "host/cli/command.h"
+#include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
+#include "host/cli/render_command.h"
 
 namespace {
 
@@ -21,7 +23,9 @@ int main(int argc, char** argv) {
     using nearlight::ExitCode;
     try {
         nearlight::CommandLine line;
+        nearlight::add_render_command(line);
         nearlight::add_diff_command(line);
+        nearlight::add_devices_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
         return fail(error.what(), error.code());

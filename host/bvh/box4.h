@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of four lanes, which compilers turn into vector instructions. The fourth lane is free.
+// Boxes of four lanes, one vector instruction a corner. The fourth lane is free.
 #pragma once
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #include <limits>
 
@@ -19,21 +23,24 @@ struct alignas(16) Box4 {
                 {-kInfinity, -kInfinity, -kInfinity, -kInfinity}};
     }
 
-    void extend(const Box4& b) {
-        for (int i = 0; i < 4; ++i) {
-            low[i] = b.low[i] < low[i] ? b.low[i] : low[i];
-        }
-        for (int i = 0; i < 4; ++i) {
-            high[i] = b.high[i] > high[i] ? b.high[i] : high[i];
-        }
-    }
+    void extend(const Box4& b) { extend(b.low, b.high); }
     /// By the middle of b; halved before the sum, which could overflow.
     void extend_by_center(const Box4& b) {
+        alignas(16) float center[4];
+        b.get_center(center);
+        extend(center, center);
+    }
+    /// The same arithmetic whichever way it is compiled. `center` is aligned to 16 bytes.
+    void get_center(float* center) const {
+#ifdef __SSE__
+        const __m128 half = _mm_set1_ps(0.5f);
+        _mm_store_ps(center,
+                     _mm_add_ps(_mm_mul_ps(half, _mm_load_ps(low)), _mm_mul_ps(half, _mm_load_ps(high))));
+#else
         for (int i = 0; i < 4; ++i) {
-            const float c = 0.5f * b.low[i] + 0.5f * b.high[i];
-            low[i] = c < low[i] ? c : low[i];
-            high[i] = c > high[i] ? c : high[i];
+            center[i] = 0.5f * low[i] + 0.5f * high[i];
         }
+#endif
     }
     [[nodiscard]] float half_area() const {
         const float x = high[0] - low[0];
@@ -47,8 +54,25 @@ struct alignas(16) Box4 {
         const float z = high[2] - low[2];
         return x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
     }
-    [[nodiscard]] Vec3 min() const { return {low[0], low[1], low[2]}; }
-    [[nodiscard]] Vec3 max() const { return {high[0], high[1], high[2]}; }
+    [[nodiscard]] Vec3 min() const {
+        return {low[0], low[1], low[2]};
+    }
+    [[nodiscard]] Vec3 max() const {
+        return {high[0], high[1], high[2]};
+    }
+
+  private:
+    void extend(const float* other_low, const float* other_high) {
+#ifdef __SSE__
+        _mm_store_ps(low, _mm_min_ps(_mm_load_ps(other_low), _mm_load_ps(low)));
+        _mm_store_ps(high, _mm_max_ps(_mm_load_ps(other_high), _mm_load_ps(high)));
+#else
+        for (int i = 0; i < 4; ++i) {
+            low[i] = other_low[i] < low[i] ? other_low[i] : low[i];
+            high[i] = other_high[i] > high[i] ? other_high[i] : high[i];
+        }
+#endif
+    }
 };
 
 }  // namespace nearlight

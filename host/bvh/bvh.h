@@ -13,22 +13,24 @@
 namespace nearlight {
 
 struct Bvh {
-    std::vector<BvhNode> nodes;               ///< at least one; node 0 is the root
-    std::vector<BvhTriangle> triangles;       ///< at least one (a degenerate one far away if there is none)
-    std::vector<uint> triangle_ids;           ///< for each of those, its index in Scene::triangles
-    int depth = 0;                            ///< of the deepest leaf; at most NEARLIGHT_MAX_BVH_DEPTH
-    double sah_cost = 0;                      ///< expected cost of a ray through the root, with the costs below
+    std::vector<BvhNode> nodes;          ///< at least one; node 0 is the root
+    std::vector<BvhTriangle> triangles;  ///< at least one (a degenerate one far away if there is none)
+    std::vector<uint> triangle_ids;      ///< for each of those, its index in Scene::triangles
+    int depth = 0;                       ///< of the deepest leaf; at most NEARLIGHT_MAX_BVH_DEPTH
+    double sah_cost = 0;                 ///< expected cost of a ray through the root, with the costs below
 };
 
 struct BvhConfig {
-    int bin_count = 32;
-    uint max_leaf_triangles = 4;
+    int bin_count = 32;              ///< an axis; 8 to 64, clamped
+    uint max_leaf_triangles = 4;     ///< 1 to 16, clamped; below it the cost decides
     float traversal_cost = 1.0f;     ///< of one node (both child boxes)
     float intersection_cost = 1.0f;  ///< of one triangle
 };
 
 /// Top-down binned SAH [Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007] over those
 /// triangles of the scene that `ids` names, in parallel. The result does not depend on the number of threads.
+/// Boxes are two ulps of their largest coordinate larger than need be, so that slab tests never miss a flat
+/// one. Needs 100 bytes a triangle while building. Error(out_of_memory) beyond 2^27 − 1 triangles.
 Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config = {});
 
 /// The two trees of a scene: what light and camera see, and the glass that only the camera sees.
@@ -45,11 +47,13 @@ std::vector<std::string> check_bvh(const Bvh& bvh, const Scene& scene, std::span
 
 struct BvhHit {
     float t = std::numeric_limits<float>::infinity();
-    float u = 0.0f;  ///< weight of v1
-    float v = 0.0f;  ///< weight of v2
+    float u = 0.0f;       ///< weight of v1
+    float v = 0.0f;       ///< weight of v2
     uint triangle = ~0u;  ///< index in Scene::triangles
 };
-/// Closest hit with t in (t_min, t_max), both sides. The plain host traversal that kernels are compared with.
+/// Closest hit with t in (t_min, t_max), both sides; the direction may have any length, t is in units of it.
+/// A ray with a number that is not finite (other than t_max) hits nothing. The plain host traversal that
+/// kernels are compared with.
 BvhHit closest_hit(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
 bool occluded(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
 

@@ -70,7 +70,7 @@ struct RangeBounds {
     }
 };
 
-/// Maps centres to bins, on all three axes at once.
+/// Maps centres to bins.
 class BinMapping {
   public:
     BinMapping(const Box4& centers, int bin_count) : last_(static_cast<float>(bin_count - 1)) {
@@ -81,8 +81,8 @@ class BinMapping {
             scale_[axis] = size > 0.0f && std::isfinite(size) ? static_cast<float>(bin_count) / size : 0.0f;
         }
     }
-    [[nodiscard]] int operator()(const Box4& box, int axis) const {
-        const float x = (0.5f * box.low[axis] + 0.5f * box.high[axis] - low_[axis]) * scale_[axis];
+    [[nodiscard]] int operator()(const float* center, int axis) const {
+        const float x = (center[axis] - low_[axis]) * scale_[axis];
         return x > 0.0f ? static_cast<int>(std::min(x, last_)) : 0;  // not-a-number goes to 0 as well
     }
 
@@ -110,8 +110,10 @@ struct Bins {
         }
     }
     void add(const Reference& reference, const BinMapping& mapping) {
+        alignas(16) float center[4];
+        reference.get_center(center);
         for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins[axis][mapping(reference, axis)];
+            Bin& bin = bins[axis][mapping(center, axis)];
             bin.box.extend(reference);
             ++bin.count;
         }
@@ -128,28 +130,27 @@ struct Bins {
     std::array<std::array<Bin, kMaxBins>, 3> bins;  // those beyond bin_count are never touched
 };
 
-/// Folds a range of references into a copy of `empty`. Minima, maxima and counts do not depend on the order
-/// in which threads come by, so neither does the result.
+/// Folds a range of references into `sum`, which is empty. Minima, maxima and counts do not depend on the
+/// order in which threads come by, so neither does the result.
 template <typename Sum, typename Add>
-Sum fold(std::span<const Reference> range, const Sum& empty, const Add& add) {
+void fold(std::span<const Reference> range, Sum& sum, const Add& add) {
     if (range.size() < kParallelLoop) {
-        Sum sum = empty;
         for (const Reference& reference : range) {
             add(sum, reference);
         }
-        return sum;
+        return;
     }
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, range.size(), kLoopGrain), empty,
-        [&](const tbb::blocked_range<std::size_t>& part, Sum sum) {
+    sum = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, range.size(), kLoopGrain), sum,
+        [&](const tbb::blocked_range<std::size_t>& part, Sum partial) {
             for (std::size_t i = part.begin(); i < part.end(); ++i) {
-                add(sum, range[i]);
+                add(partial, range[i]);
             }
-            return sum;
+            return partial;
         },
-        [](Sum a, const Sum& b) {
-            a.add(b);
-            return a;
+        [](Sum left, const Sum& right) {
+            left.add(right);
+            return left;
         });
 }
 
@@ -207,7 +208,8 @@ class SahBuilder {
     Subtree build(std::size_t first, std::size_t end, int depth) {
         const std::size_t count = end - first;
         const auto range = references_.subspan(first, count);
-        const RangeBounds bounds = fold<RangeBounds>(range, {}, [](auto& sum, const auto& r) { sum.add(r); });
+        RangeBounds bounds;
+        fold(range, bounds, [](RangeBounds& sum, const Reference& r) { sum.add(r); });
         const Subtree leaf{bounds.box, leaf_reference(static_cast<uint>(first), static_cast<uint>(count)), 0,
                            depth};
         if (count == 1) {
@@ -234,8 +236,8 @@ class SahBuilder {
             range.size(), kMinBins,
             static_cast<std::size_t>(std::clamp(config_.bin_count, kMinBins, kMaxBins))));
         const BinMapping mapping(bounds.centers, bin_count);
-        const Bins bins =
-            fold(range, Bins(bin_count), [&](Bins& sum, const Reference& r) { sum.add(r, mapping); });
+        Bins bins(bin_count);
+        fold(range, bins, [&](Bins& sum, const Reference& r) { sum.add(r, mapping); });
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
             best = better_split(bins, axis, best);
@@ -247,7 +249,9 @@ class SahBuilder {
             return 0;
         }
         const auto right = std::partition(range.begin(), range.end(), [&](const Reference& reference) {
-            return mapping(reference, best.axis) <= best.last_left_bin;
+            alignas(16) float center[4];
+            reference.get_center(center);
+            return mapping(center, best.axis) <= best.last_left_bin;
         });
         return static_cast<std::size_t>(right - range.begin());
     }

@@ -55,6 +55,14 @@ void linearize(Image& image) {
     }
 }
 
+/// A broken header may promise any size. Deflate, the densest of the compressions in use, packs about 1000
+/// to 1.
+bool fits_in_file(const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
+    constexpr std::uintmax_t kDensest = 2000;
+    constexpr std::uintmax_t kAlwaysFine = 64u << 20u;
+    return spec.image_bytes(true) <= kAlwaysFine + kDensest * file_size;
+}
+
 Image read(const fs::path& file, bool decode_srgb) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
@@ -71,6 +79,9 @@ Image read(const fs::path& file, bool decode_srgb) {
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail("cannot read image", file, "it is not a plain two-dimensional image");
+    }
+    if (!fits_in_file(spec, fs::file_size(file, ignored))) {
+        fail("cannot read image", file, "its header promises more pixels than it can hold");
     }
     Image image = make_image(spec.width, spec.height, spec.channelnames);
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()) ||

@@ -1,23 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/pinhole_camera.h"
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "host/base/error.h"
+
 namespace nearlight {
 
 PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int height) {
-    const auto tan_x = static_cast<float>(std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0));
-    const float tan_y = tan_x * static_cast<float>(height) / static_cast<float>(width);
-    // +X of the camera points to the left of the picture, so the left edge is at +tan_x.
-    const Vec3 left = transform_vector(camera.to_world, {tan_x, 0, 0});
-    const Vec3 up = transform_vector(camera.to_world, {0, tan_y, 0});
-    const Vec3 forward = transform_vector(camera.to_world, {0, 0, 1});
-    return {.origin = transform_point(camera.to_world, {0, 0, 0}),
-            .width = static_cast<uint>(width),
-            .corner = forward + left + up,
-            .height = static_cast<uint>(height),
-            .step_x = left * (-2.0f / static_cast<float>(width)),
-            .pad0 = 0,
-            .step_y = up * (-2.0f / static_cast<float>(height)),
-            .pad1 = 0};
+    if (width <= 0 || height <= 0) {
+        throw Error(ExitCode::usage, "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                                         " pixels is empty; give a --size of at least 1x1");
+    }
+    if (!(camera.fov_x_degrees > 0.0 && camera.fov_x_degrees < 180.0)) {
+        throw Error(ExitCode::usage, "a field of view of " + std::to_string(camera.fov_x_degrees) +
+                                         " degrees is not between 0 and 180; correct the scene's camera");
+    }
+    // On the plane at distance 1, where +X points to the left of the picture and +Y up.
+    const double half_width = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
+    const double pixel = 2.0 * half_width / width;
+    const double half_height = 0.5 * pixel * height;
+    const auto to_world = [&](double x, double y, double z) {
+        return transform_vector(camera.to_world,
+                                {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+    };
+    PinholeCamera pinhole{};
+    pinhole.origin = transform_point(camera.to_world, {0, 0, 0});
+    pinhole.width = static_cast<uint>(width);
+    pinhole.height = static_cast<uint>(height);
+    pinhole.corner = to_world(half_width, half_height, 1.0);
+    pinhole.step_x = to_world(-pixel, 0.0, 0.0);
+    pinhole.step_y = to_world(0.0, -pixel, 0.0);
+    return pinhole;
 }
 
 }  // namespace nearlight

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera as kernels take it.
+// From the scene's camera to the struct that ray generation uses.
 #pragma once
 
 #include "host/scene/scene.h"
 
 namespace nearlight {
 
-/// For a film of width × height pixels; the horizontal field of view is the scene camera's, the vertical one follows.
+/// The camera for a picture of width × height pixels. The horizontal field of view holds for any aspect;
+/// pixels are square. Throws Error(ExitCode::usage) for a picture without pixels or a field of view that is
+/// not between 0 and 180 degrees.
 PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int height);
 
 }  // namespace nearlight

@@ -8,14 +8,17 @@
 namespace nearlight {
 namespace {
 
-/// Through the camera, its normal on the side that `inside` points to.
-void set_plane(float (&plane)[4], Vec3 normal, Vec3 inside, Vec3 origin) {
-    Vec3 n = normalize(normal);
-    n = dot(n, inside) < 0.0f ? -n : n;
-    plane[0] = n.x;
-    plane[1] = n.y;
-    plane[2] = n.z;
-    plane[3] = -dot(n, origin);
+/// Through `origin`, spanned by `a` and `b`, facing the side of `inside`.
+void set_plane(float (&plane)[4], Vec3 origin, Vec3 a, Vec3 b, Vec3 inside) {
+    Vec3 normal = normalize(cross(normalize(a), normalize(b)));
+    if (dot(normal, inside) < 0.0f) {
+        normal = -normal;
+    }
+    plane[0] = normal.x;
+    plane[1] = normal.y;
+    plane[2] = normal.z;
+    plane[3] = static_cast<float>(
+        -(double{normal.x} * origin.x + double{normal.y} * origin.y + double{normal.z} * origin.z));
 }
 
 }  // namespace
@@ -25,15 +28,15 @@ CloseRange make_close_range(const PinholeCamera& camera, float range) {
     const Vec3 down = camera.step_y * static_cast<float>(camera.height);
     const std::array<Vec3, 4> corners{camera.corner, camera.corner + across, camera.corner + across + down,
                                       camera.corner + down};
-    const Vec3 center = camera.corner + across * 0.5f + down * 0.5f;
-    CloseRange region{};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        set_plane(region.planes[i], cross(corners[i], corners[(i + 1) % 4]), center, camera.origin);
+    const Vec3 center = camera.corner + (across + down) * 0.5f;
+    CloseRange close{};
+    close.origin = camera.origin;
+    close.range = range;
+    for (std::size_t i = 0; i < 4; ++i) {
+        set_plane(close.planes[i], camera.origin, corners[i], corners[(i + 1) % 4], center);
     }
-    set_plane(region.planes[4], cross(across, down), center, camera.origin);
-    region.origin = camera.origin;
-    region.range = range;
-    return region;
+    set_plane(close.planes[4], camera.origin, across, down, center);
+    return close;
 }
 
 }  // namespace nearlight

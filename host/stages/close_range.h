@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region near and before the camera (kernels/lib/close_range.cl tests points against it).
+// The close range of a camera: what it sees, up to a distance. Its predicate on points is in
+// kernels/lib/close_range.cl.
 #pragma once
 
 #include "kernels/shared/types.h"
 
 namespace nearlight {
 
-/// The view frustum of the camera up to `range` (m) from its origin. Planes have unit normals that point inside.
+/// The four sides of the view frustum, then the plane through the camera that faces forward; `range` in
+/// metres, may be infinite.
 CloseRange make_close_range(const PinholeCamera& camera, float range);
 
 }  // namespace nearlight

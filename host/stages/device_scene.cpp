@@ -80,6 +80,9 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     on_device.has_lobes = std::any_of(scene.materials.begin(), scene.materials.end(), divides_camera_paths);
     on_device.mean_albedo = estimate_mean_albedo(scene);
     on_device.total_power = emitters.total_power;
+    for (const Triangle& triangle : scene.triangles) {
+        on_device.total_area += triangle_area(scene, triangle);
+    }
 
     const auto put = [&]<typename T>(const std::vector<T>& values) { return Buffer<T>(device, std::span<const T>(values)); };
     on_device.nodes = put(bvhs.opaque.nodes);

@@ -32,6 +32,7 @@ struct DeviceScene {
     bool has_lobes = false;     ///< some material gives camera paths two ways on (a coat or glass)
     float mean_albedo = 0.5f;   ///< luminance that light transport sees, averaged over area
     float total_power = 0.0f;   ///< luminance of all emitted flux, W
+    double total_area = 0.0;    ///< of all triangles, m²
 
     /// In the order of SCENE_PARAMETERS.
     template <typename Visitor>

@@ -20,10 +20,10 @@ inline float3 square_to_cone(float2 u, float cos_max) {
     return (float3)(r * cos(phi), r * sin(phi), z);
 }
 
-/// Weights of v1 and v2 of a uniform point in a triangle.
+/// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that stratified points
+/// of the square are so in the triangle. [Heitz, A Low-Distortion Map Between Triangle and Square, 2019]
 inline float2 square_to_triangle(float2 u) {
-    const float r = sqrt(u.x);
-    return (float2)(r * (1.0f - u.y), r * u.y);
+    return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
 }
 
 /// The visible normals of GGX: a microfacet normal seen from `wo` (wo.z > 0), in the frame of the surface.

@@ -220,6 +220,37 @@ TEST(ImageIo, ReadingNamesTheFileAndTheReason) {
     error_of(ExitCode::file, [&] { read_image(folder / "what.ever"); });
 }
 
+TEST(ImageIo, HeadersThatPromiseTooMuchAreErrors) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.ppm", "P6 60000 60000 255\nabc");
+    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder / "a.ppm"); }).find("promises more"),
+              std::string::npos);
+}
+
+TEST(ImageIo, BrokenBytesNeverBreakTheReader) {
+    const TemporaryFolder folder;
+    Pcg32 random(11);
+    for (const char* name : {"a.exr", "a.png"}) {
+        write_image(folder / name, noise(13, 9, {"R", "G", "B"}));
+        const std::string whole = read_text(folder / name);
+        for (int i = 0; i < 100; ++i) {
+            std::string broken = whole;
+            for (int change = 0; change < 3; ++change) {
+                broken[random.next() % broken.size()] = static_cast<char>(random.next());
+            }
+            write_text(folder / name, broken);
+            try {
+                const Image image = read_image(folder / name);
+                EXPECT_EQ(image.values.size(), static_cast<std::size_t>(image.width) *
+                                                   static_cast<std::size_t>(image.height) *
+                                                   image.channel_count());
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ExitCode::file) << error.what();
+            }
+        }
+    }
+}
+
 TEST(ImageIo, RowsInAnyPortions) {
     const TemporaryFolder folder;
     const Image image = noise(9, 23, kLayers);

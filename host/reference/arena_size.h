@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace nearlight {
+
+/// Concurrency of a TBB arena for so many threads; 0, or more than there are cores: one a core.
+inline int arena_size(int threads) {
+    const int cores = tbb::this_task_arena::max_concurrency();
+    return threads > 0 ? std::min(threads, cores) : cores;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/path_tracer.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/reference/arena_size.h"
+#include "host/reference/camera_path.h"
+#include "host/reference/light_sampler.h"
+#include "host/reference/pixel_statistics.h"
+#include "host/reference/sample_batch.h"
+#include "host/reference/surface.h"
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Bounces before Russian roulette may end a walk, and the most it lets live.
+constexpr int kSureBounces = 3;
+constexpr float kMaxSurvival = 0.95f;
+constexpr int kTileSize = 16;
+
+struct Light {
+    Vec3 direct{0, 0, 0};
+    Vec3 indirect{0, 0, 0};
+};
+
+class PathTracer {
+  public:
+    PathTracer(const Scene& scene, const PathTracerSettings& settings)
+        : scene_(scene),
+          settings_(settings),
+          embree_(scene),
+          lights_(scene),
+          camera_(scene.camera, settings.width, settings.height) {}
+
+    void trace_batch(int x, int y, int batch, int batch_size, PixelStatistics& pixel) const;
+
+  private:
+    [[nodiscard]] Light gather(const Receiver& receiver, SampleBatch& batch, int sample) const;
+    /// Direct light at a vertex of a walk (irradiance ÷ π), and the ray on which the walk goes on.
+    struct Step {
+        Vec3 direct;
+        Vec3 direction;
+        BvhHit hit;
+    };
+    [[nodiscard]] Step step(Vec3 position, Vec3 normal, bool wants_direct, LightRandom light,
+                            Point2 bounce) const;
+
+    const Scene& scene_;
+    PathTracerSettings settings_;
+    EmbreeScene embree_;
+    LightSampler lights_;
+    CameraRays camera_;
+};
+
+struct StepRandom {
+    LightRandom light;
+    Point2 bounce;
+};
+
+StepRandom step_random(SampleBatch& batch, int sample, int bounce) {
+    if (bounce == 0) {
+        return {{batch.number(Decision::receiver_light_pick, sample),
+                 batch.point(Decision::receiver_light, sample)},
+                batch.point(Decision::bounce, sample)};
+    }
+    if (bounce == 1) {
+        return {
+            {batch.number(Decision::bounce_light_pick, sample), batch.point(Decision::bounce_light, sample)},
+            batch.point(Decision::second_bounce, sample)};
+    }
+    StepRandom result;
+    for (float* number : {&result.light.pick, &result.light.place.x, &result.light.place.y, &result.bounce.x,
+                          &result.bounce.y}) {
+        *number = batch.random().uniform();
+    }
+    return result;
+}
+
+PathTracer::Step PathTracer::step(Vec3 position, Vec3 normal, bool wants_direct, LightRandom light,
+                                  Point2 bounce) const {
+    Step result{};
+    result.direction = normalize(Frame(normal).to_world(sample_cosine_hemisphere(bounce)));
+    result.hit = embree_.closest_hit(position, result.direction, 0.0f, kInfinity);
+    if (wants_direct) {
+        result.direct = lights_.sampled_irradiance(embree_, position, normal, light) / kPi +
+                        lights_.met_radiance(result.hit, result.direction, normal);
+    }
+    return result;
+}
+
+// What the receiver reflects per unit of albedo. The cosine-distributed ray carries albedo/π · cosθ over its
+// density, which is the albedo, and the bounded geometry term scales it by r²/max(r², R²).
+Light PathTracer::gather(const Receiver& receiver, SampleBatch& batch, int sample) const {
+    Light light;
+    Vec3 weight{1, 1, 1};
+    Vec3 position = receiver.position;
+    Vec3 normal = receiver.normal;
+    for (int bounce = 0;; ++bounce) {
+        const StepRandom random = step_random(batch, sample, bounce);
+        const bool wants_direct = bounce > 0 || !settings_.indirect_only;
+        const Step next = step(position, normal, wants_direct, random.light, random.bounce);
+        (bounce == 0 ? light.direct : light.indirect) += weight * next.direct;
+        const int next_depth = bounce + 3;
+        if (next.hit.triangle == ~0u || (settings_.max_depth > 0 && next_depth > settings_.max_depth)) {
+            return light;
+        }
+        const Surface surface = surface_at(scene_, next.hit, next.direction);
+        if (!surface.reflects()) {
+            return light;
+        }
+        weight *= light_albedo(scene_, *surface.material, surface.u, surface.v);
+        if (bounce == 0 && settings_.clamp_radius > 0.0f) {
+            const float ratio = next.hit.t / settings_.clamp_radius;
+            weight *= std::min(1.0f, ratio * ratio);
+        }
+        if (bounce >= kSureBounces) {
+            const float survival = std::min(kMaxSurvival, max_component(weight));
+            if (batch.random().uniform() >= survival) {
+                return light;
+            }
+            weight *= 1.0f / survival;
+        } else if (is_zero(weight)) {
+            return light;
+        }
+        normal = surface.geometric_normal;
+        position = stand_off(surface.position, normal, lights_.extent());
+    }
+}
+
+void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, PixelStatistics& pixel) const {
+    const auto pixel_index = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) +
+                             static_cast<std::uint64_t>(x);
+    SampleBatch batch(settings_.seed, pixel_index, static_cast<std::uint64_t>(batch_index), batch_size);
+    BatchSum sum;
+    for (int sample = 0; sample < batch_size; ++sample) {
+        const Point2 film = batch.point(Decision::film, sample);
+        const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
+        const CameraPath path = trace_camera_path(scene_, embree_, lights_, ray, batch, sample);
+        Light light;
+        if (!settings_.indirect_only) {
+            light.direct = path.emitted;
+        }
+        if (path.has_receiver && settings_.max_depth != 1) {
+            const Light gathered = gather(path.receiver, batch, sample);
+            const Vec3 reflectance = path.throughput * path.receiver.albedo;
+            light.direct += reflectance * gathered.direct;
+            light.indirect = reflectance * gathered.indirect;
+        }
+        sum.add(light.direct, light.indirect, path);
+    }
+    pixel.add(sum, batch_size);
+}
+
+PathTracerSettings checked(PathTracerSettings settings, const SceneCamera& camera) {
+    if (settings.width <= 0) {
+        settings.width = camera.width;
+        settings.height = camera.height;
+    } else if (settings.height <= 0) {
+        settings.height =
+            std::max(1, static_cast<int>(std::lround(double(settings.width) * camera.height / camera.width)));
+    }
+    if (settings.width <= 0 || settings.height <= 0 || settings.spp <= 0) {
+        throw Error(ExitCode::usage, "the reference needs a picture of at least 1×1 pixels and 1 sample");
+    }
+    if (settings.max_depth < 0 || !(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
+        throw Error(ExitCode::usage, "max depth and clamp radius must be 0 or more");
+    }
+    return settings;
+}
+
+/// Counts what is done and passes it on, one thread at a time.
+class ProgressGate {
+  public:
+    ProgressGate(const Progress& progress, double total) : progress_(progress), total_(total) {}
+    [[nodiscard]] bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
+    void advance(double amount) {
+        const std::scoped_lock lock(mutex_);
+        done_ += amount;
+        if (progress_ && !stopped() && !progress_(std::min(1.0, done_ / total_))) {
+            stopped_ = true;
+        }
+    }
+
+  private:
+    const Progress& progress_;
+    double total_;
+    double done_ = 0;
+    std::mutex mutex_;
+    std::atomic<bool> stopped_ = false;
+};
+
+}  // namespace
+
+int samples_per_batch(int spp) {
+    return spp < 32 ? 1 : spp < 256 ? 4 : 16;
+}
+
+int rounded_spp(int spp) {
+    const int batch_size = samples_per_batch(spp);
+    return (spp + batch_size - 1) / batch_size * batch_size;
+}
+
+Image trace_paths(const Scene& scene, const PathTracerSettings& wanted, const Progress& progress) {
+    const PathTracerSettings settings = checked(wanted, scene.camera);
+    const PathTracer tracer(scene, settings);
+    const int batch_size = samples_per_batch(settings.spp);
+    const int batch_count = rounded_spp(settings.spp) / batch_size;
+    std::vector<PixelStatistics> pixels(static_cast<std::size_t>(settings.width) *
+                                        static_cast<std::size_t>(settings.height));
+    ProgressGate gate(progress, double(pixels.size()) * batch_count);
+    tbb::task_arena arena(arena_size(settings.threads));
+    arena.execute([&] {
+        const tbb::blocked_range2d<int> film(0, settings.height, kTileSize, 0, settings.width, kTileSize);
+        for (int batch = 0; batch < batch_count && !gate.stopped(); ++batch) {
+            tbb::parallel_for(
+                film,
+                [&](const tbb::blocked_range2d<int>& tile) {
+                    if (gate.stopped()) {
+                        return;
+                    }
+                    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
+                        for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
+                            const auto index =
+                                static_cast<std::size_t>(y) * static_cast<std::size_t>(settings.width) +
+                                static_cast<std::size_t>(x);
+                            tracer.trace_batch(x, y, batch, batch_size, pixels[index]);
+                        }
+                    }
+                    gate.advance(double(tile.rows().size()) * double(tile.cols().size()));
+                },
+                tbb::simple_partitioner());
+        }
+    });
+    return to_image(pixels, settings.width, settings.height);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference: a path tracer that computes exactly what docs/method.md defines, on its own code.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "host/image/image.h"
+#include "host/reference/embree_scene.h"
+#include "host/scene/scene.h"
+
+namespace nearlight {
+
+struct PathTracerSettings {
+    int width = 0;               ///< pixels; 0: the camera's
+    int height = 0;              ///< pixels; 0: the camera's, or in proportion where only the width is given
+    int spp = 64;                ///< samples per pixel, rounded up to whole batches; see rounded_spp
+    int max_depth = 0;           ///< 1: emission, 2: direct light too, 3: one bounce, …; 0: no limit
+    float clamp_radius = 0.0f;   ///< R of the bounded geometry term, m; 0: unbounded
+    bool indirect_only = false;  ///< beauty is the indirect light alone
+    std::uint64_t seed = 0;
+    int threads = 0;  ///< 0: as many as there are cores. The picture does not depend on it.
+};
+
+/// Samples that are stratified together: 1 below 32 samples per pixel, 4 below 256, else 16. The variance is
+/// estimated from the means of batches, of which there are therefore at least eight from 8 spp on.
+int samples_per_batch(int spp);
+/// What is traced when `spp` is asked for: whole batches.
+int rounded_spp(int spp);
+
+/// Told the fraction that is done, by one thread at a time; returns false to stop.
+using Progress = std::function<bool(double fraction)>;
+
+/// Channels R, G, B (beauty: direct + indirect), direct.* (with emission), indirect.*, albedo.* (of the
+/// receiver, seen through mirrors and glass), N.X… and P.X… (of the receiver, world space), depth.Z (to the
+/// first surface, m; mean over the samples that met one), variance.* (of the mean of beauty) and
+/// indirectVariance.*. A variance is infinite where a pixel has fewer than two batches. A stopped rendering
+/// has, in each pixel, the mean of the samples it got. Throws Error(ExitCode::usage) on settings that make no
+/// sense, and Embree's errors.
+Image trace_paths(const Scene& scene, const PathTracerSettings& settings, const Progress& progress = {});
+
+}  // namespace nearlight

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the reference keeps per pixel while it renders.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "host/image/image.h"
+#include "host/reference/camera_path.h"
+
+namespace nearlight {
+
+struct Double3 {
+    double x = 0, y = 0, z = 0;
+    void add(Vec3 v) {
+        x += v.x;
+        y += v.y;
+        z += v.z;
+    }
+    void add(const Double3& v) {
+        x += v.x;
+        y += v.y;
+        z += v.z;
+    }
+};
+
+/// Sums over the samples of one batch.
+struct BatchSum {
+    Double3 direct, indirect, albedo, normal, position;
+    double depth = 0;
+    int receivers = 0;
+    int surfaces = 0;  ///< samples that met any surface
+
+    void add(Vec3 direct_light, Vec3 indirect_light, const CameraPath& path);
+};
+
+/// Sums over batches, and of the squares of the batches' means.
+struct PixelStatistics {
+    BatchSum sum;
+    Double3 beauty_square, indirect_square;
+    int samples = 0;
+    int batches = 0;
+
+    void add(const BatchSum& batch, int batch_size);
+};
+
+/// Channels as trace_paths() says. Batches of a pixel are of one size.
+Image to_image(std::span<const PixelStatistics> pixels, int width, int height);
+
+}  // namespace nearlight

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/reference_gather.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "host/reference/arena_size.h"
+#include "host/reference/light_sampler.h"
+
+namespace nearlight {
+namespace {
+
+Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radius, Vec3 position,
+                    Vec3 normal) {
+    const Vec3 segment = position - vpl.position;
+    const float distance2 = dot(segment, segment);
+    if (!(distance2 > 0.0f)) {
+        return {0, 0, 0};
+    }
+    const float scale = 1.0f / distance2;  // both cosines are over the length of the segment
+    const float cosines =
+        std::max(0.0f, -dot(normal, segment)) * std::max(0.0f, dot(vpl.normal, segment)) * scale;
+    if (!(cosines > 0.0f) || embree.blocked(vpl.position, position)) {
+        return {0, 0, 0};
+    }
+    return vpl.power * (cosines / (kPi * std::max(distance2, clamp_radius * clamp_radius)));
+}
+
+/// Sums `term(position, normal, i)` for i < count over every receiver.
+template <typename Term>
+void sum_terms(std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance, int threads,
+               std::size_t count, const Term& term) {
+    tbb::task_arena arena(arena_size(threads));
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, receivers.size() * NEARLIGHT_PACKET_SIZE, [&](std::size_t index) {
+            const ReceiverPacket& packet = receivers[index / NEARLIGHT_PACKET_SIZE];
+            const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
+            const Vec3 position{packet.px[lane], packet.py[lane], packet.pz[lane]};
+            const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
+            double sum[3] = {0, 0, 0};
+            for (std::size_t i = 0; i < count && !is_zero(normal); ++i) {
+                const Vec3 e = term(position, normal, i);
+                sum[0] += e.x;
+                sum[1] += e.y;
+                sum[2] += e.z;
+            }
+            IrradiancePacket& out = irradiance[index / NEARLIGHT_PACKET_SIZE];
+            out.r[lane] = static_cast<float>(sum[0]);
+            out.g[lane] = static_cast<float>(sum[1]);
+            out.b[lane] = static_cast<float>(sum[2]);
+        });
+    });
+}
+
+}  // namespace
+
+void gather_reference(const EmbreeScene& embree, std::span<const Vpl> vpls, float clamp_radius,
+                      std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
+                      int threads) {
+    sum_terms(receivers, irradiance, threads, vpls.size(), [&](Vec3 position, Vec3 normal, std::size_t i) {
+        return vpl_irradiance(embree, vpls[i], clamp_radius, position, normal);
+    });
+}
+
+void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,
+                      std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
+                      int threads) {
+    sum_terms(receivers, irradiance, threads, lights.size(), [&](Vec3 position, Vec3 normal, std::size_t i) {
+        return delta_light_irradiance(embree, lights[i], position, normal);
+    });
+}
+
+}  // namespace nearlight

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random numbers of one pixel's batch of samples.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/base/random.h"
+#include "host/reference/sampling.h"
+
+namespace nearlight {
+
+/// The decisions of a path that are stratified over a batch; what comes later is plain random.
+enum class Decision {
+    film,
+    lobe,
+    lobe_direction,
+    receiver_light,
+    receiver_light_pick,
+    bounce,
+    bounce_light,
+    bounce_light_pick,
+    second_bounce,
+    count,
+};
+
+/// A batch of `size` samples (1, 4 or 16). Each decision has its own square grid of `size` cells with one
+/// random point in each, dealt to the samples in random order: the samples of a batch depend on each other,
+/// those of different batches do not. Every single point is uniform, so each sample alone is unbiased.
+class SampleBatch {
+  public:
+    static constexpr int kMaxSize = 16;
+
+    SampleBatch(std::uint64_t seed, std::uint64_t pixel, std::uint64_t batch, int size);
+
+    [[nodiscard]] Point2 point(Decision decision, int sample) const {
+        return points_[static_cast<std::size_t>(decision)][static_cast<std::size_t>(sample)];
+    }
+    [[nodiscard]] float number(Decision decision, int sample) const { return point(decision, sample).x; }
+    [[nodiscard]] Pcg32& random() { return random_; }
+
+  private:
+    Pcg32 random_;
+    std::array<std::array<Point2, kMaxSize>, static_cast<std::size_t>(Decision::count)> points_;
+};
+
+}  // namespace nearlight

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera and light for files that have none.
+#pragma once
+
+#include "host/scene/note_sink.h"
+#include "host/scene/scene.h"
+
+namespace nearlight {
+
+/// A 640 × 480 camera (45° wide) that frames the bounding box from the front, right and above; y is up.
+SceneCamera default_camera(const Aabb& box);
+
+/// Sets the default camera and, where no material emits and there is no other light, an environment of
+/// radiance 1 and a point light beside the camera; says both in a remark.
+void add_default_view(Scene& scene, NoteSink& notes);
+
+}  // namespace nearlight

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mesh.h"
+
+#include <utility>
+
+#include "host/base/error.h"
+
+namespace nearlight {
+namespace {
+
+using Indices = std::array<uint, 3>;
+
+Vec3 unit_direction(const std::array<double, 3>& v) {
+    const double l = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(l > 0.0) || !std::isfinite(l)) {
+        return {0, 0, 0};
+    }
+    return {static_cast<float>(v[0] / l), static_cast<float>(v[1] / l), static_cast<float>(v[2] / l)};
+}
+
+// The cofactor matrix serves where the inverse transpose does, and also where the transform flattens space.
+Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {
+    const auto cofactor = [&](int r, int c) {
+        const int r1 = (r + 1) % 3;
+        const int r2 = (r + 2) % 3;
+        const int c1 = (c + 1) % 3;
+        const int c2 = (c + 2) % 3;
+        return m(r1, c1) * m(r2, c2) - m(r1, c2) * m(r2, c1);
+    };
+    const auto row = [&](int r) {
+        return sign * (cofactor(r, 0) * n.x + cofactor(r, 1) * n.y + cofactor(r, 2) * n.z);
+    };
+    return unit_direction({row(0), row(1), row(2)});
+}
+
+void check_mesh(const Mesh& mesh) {
+    const auto fail = [&](const std::string& what) {
+        throw Error(ExitCode::file, mesh.source.string() + ": " + what);
+    };
+    if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
+        (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())) {
+        fail("the mesh has not as many normals or texture coordinates as vertices");
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (const uint index : mesh.triangles[i]) {
+            if (index >= mesh.positions.size()) {
+                fail("triangle " + std::to_string(i) + " uses vertex " + std::to_string(index) +
+                     ", but there are only " + std::to_string(mesh.positions.size()));
+            }
+        }
+    }
+}
+
+std::vector<Vec3> world_normals(const Mesh& mesh, const MeshPlacement& placement,
+                                std::span<const Vec3> positions) {
+    if (placement.face_normals) {
+        return {};
+    }
+    if (mesh.normals.empty()) {
+        return smooth_normals(positions, mesh.triangles);
+    }
+    const double sign = linear_determinant(placement.to_world) < 0.0 ? -1.0 : 1.0;
+    std::vector<Vec3> normals;
+    normals.reserve(mesh.normals.size());
+    for (const Vec3 n : mesh.normals) {
+        normals.push_back(transform_normal(placement.to_world, sign, n));
+    }
+    return normals;
+}
+
+// Vertices that no kept triangle uses may still be NaN; nobody looks at them, but they must not spoil hashes.
+void append_vertices(Scene& scene, const Mesh& mesh, std::span<const Vec3> positions,
+                     std::span<const Vec3> normals, bool flip) {
+    scene.vertices.reserve(scene.vertices.size() + positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        Vertex vertex{};
+        vertex.position = is_finite(positions[i]) ? positions[i] : Vec3{0, 0, 0};
+        if (!normals.empty()) {
+            vertex.normal = flip ? -normals[i] : normals[i];
+        }
+        if (!mesh.uvs.empty() && std::isfinite(mesh.uvs[i][0]) && std::isfinite(mesh.uvs[i][1])) {
+            vertex.u = mesh.uvs[i][0];
+            vertex.v = mesh.uvs[i][1];
+        }
+        scene.vertices.push_back(vertex);
+    }
+}
+
+bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
+    const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+    return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
+}
+
+}  // namespace
+
+std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<const Indices> triangles) {
+    std::vector<Vec3> normals(positions.size(), Vec3{0, 0, 0});
+    for (const Indices& t : triangles) {
+        const Vec3 normal =
+            normalize(cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]));
+        if (!is_finite(normal)) {
+            continue;
+        }
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Vec3 a = normalize(positions[t[(corner + 1) % 3]] - positions[t[corner]]);
+            const Vec3 b = normalize(positions[t[(corner + 2) % 3]] - positions[t[corner]]);
+            normals[t[corner]] += normal * std::acos(std::clamp(dot(a, b), -1.0f, 1.0f));
+        }
+    }
+    for (Vec3& normal : normals) {
+        normal = normalize(normal);
+    }
+    return normals;
+}
+
+void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes) {
+    check_mesh(mesh);
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const Vec3 p : mesh.positions) {
+        positions.push_back(transform_point(placement.to_world, p));
+    }
+    const std::vector<Vec3> normals = world_normals(mesh, placement, positions);
+    const bool own_normals = !placement.face_normals && !mesh.normals.empty();
+    const auto first = static_cast<uint>(scene.vertices.size());
+    append_vertices(scene, mesh, positions, normals, placement.flip_normals);
+
+    std::size_t dropped = 0;
+    scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        Indices t = mesh.triangles[i];
+        if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) {
+            ++dropped;
+            continue;
+        }
+        if ((own_normals && winds_against(t, positions, normals)) != placement.flip_normals) {
+            std::swap(t[1], t[2]);
+        }
+        const uint material = placement.materials[mesh.groups.empty() ? 0 : mesh.groups[i]];
+        scene.triangles.push_back({first + t[0], first + t[1], first + t[2], material});
+    }
+    if (dropped > 0) {
+        notes.approximation(mesh.source, 0,
+                            std::to_string(dropped) + " triangles with NaN or infinite corners are left out");
+    }
+}
+
+}  // namespace nearlight

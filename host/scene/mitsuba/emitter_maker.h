@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mitsuba's emitters that are no shapes.
+#pragma once
+
+#include "host/scene/mitsuba/texture_maker.h"
+
+namespace nearlight::mitsuba {
+
+/// Adds a point, spot, constant or envmap light to the scene.
+void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes);
+
+}  // namespace nearlight::mitsuba

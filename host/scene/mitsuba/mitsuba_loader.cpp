@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/mitsuba_loader.h"
+
+#include "host/scene/default_view.h"
+#include "host/scene/mitsuba/emitter_maker.h"
+#include "host/scene/mitsuba/sensor_maker.h"
+#include "host/scene/mitsuba/shape_maker.h"
+#include "host/scene/mitsuba/xml_reader.h"
+
+namespace nearlight {
+namespace mitsuba {
+namespace {
+
+// Mitsuba's −1 stands for "no limit"; light that is left after so many bounces cannot be seen.
+constexpr int kUnlimitedDepth = 64;
+
+void apply_integrator(const Object& integrator, Scene& scene) {
+    const double depth = integrator.number("max_depth", -1.0);
+    if (depth < -1.0 || depth > 1e6) {
+        fail(integrator.find("max_depth")->where, "'max_depth' should be -1 (no limit), or 0 and more");
+    }
+    scene.max_depth = depth < 0.0 ? kUnlimitedDepth : std::max(1, static_cast<int>(depth));
+}
+
+void apply_sensors(const Object& root, Scene& scene, NoteSink& notes) {
+    const std::vector<const Object*> sensors = root.nested("sensor");
+    if (sensors.empty()) {
+        scene.camera = default_camera(bounds(scene));
+        notes.remark(scene.source, root.where.line,
+                     "the scene has no sensor; one that frames everything is used");
+        return;
+    }
+    if (sensors.size() > 1) {
+        notes.remark(*sensors[1]->where.file, sensors[1]->where.line, "the first of several sensors is used");
+    }
+    apply_sensor(*sensors.front(), scene, notes);
+}
+
+void translate(const Object& root, Scene& scene, NoteSink& notes) {
+    TextureMaker textures(scene, notes);
+    MaterialMaker materials(scene, notes, textures);
+    ShapeMaker shapes(scene, notes, textures, materials);
+    for (const Object* medium : root.nested("medium")) {
+        fail(medium->where, "participating media are not supported");
+    }
+    for (const Object* shape : root.nested("shape")) {
+        shapes.add(*shape);
+    }
+    for (const Object* emitter : root.nested("emitter")) {
+        add_emitter(*emitter, scene, textures, notes);
+    }
+    for (const Object* integrator : root.nested("integrator")) {
+        apply_integrator(*integrator, scene);
+    }
+    apply_sensors(root, scene, notes);
+    for (const char* definitions : {"bsdf", "texture", "film", "sampler", "rfilter"}) {
+        root.ignore_nested(definitions);
+    }
+    root.report_unused(notes);
+}
+
+}  // namespace
+}  // namespace mitsuba
+
+Scene load_mitsuba_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    Scene scene;
+    scene.source = file;
+    const std::filesystem::path absolute = std::filesystem::absolute(file);
+    scene.name = file.stem() == "scene" ? absolute.parent_path().filename().string() : file.stem().string();
+    NoteSink notes(scene.notes, options.strict);
+    const mitsuba::Document document = mitsuba::read_xml(file, options.parameters, notes);
+    mitsuba::translate(*document.scene, scene, notes);
+    return scene;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Mitsuba scene file as a tree of plugin objects with typed properties: defaults filled in, names in
+// snake_case, includes read and references resolved.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/base/math.h"
+#include "host/scene/note_sink.h"
+
+namespace nearlight::mitsuba {
+
+struct Location {
+    std::shared_ptr<const std::filesystem::path> file;
+    int line = 0;
+};
+/// Throws Error(ExitCode::file) with "file:line: what".
+[[noreturn]] void fail(const Location& where, const std::string& what);
+
+/// A colour; `<spectrum>` differs as a reflectance (white is 1, 1, 1) and as a light (equal energy is
+/// reddish).
+struct Color {
+    Vec3 reflectance{};
+    Vec3 light{};
+};
+using Triple = std::array<double, 3>;
+using Value = std::variant<bool, double, std::string, Color, Triple, Mat4>;
+
+struct Property {
+    Value value;
+    Location where;
+    mutable bool used = false;
+};
+
+struct Object;
+/// An object nested in another, or a reference to one by id.
+struct Child {
+    std::string name;
+    const Object* object = nullptr;  ///< owned by the Document
+    std::string reference;           ///< id; `object` is filled in once the whole file is read
+    Location where;
+    mutable bool used = false;
+};
+
+struct Object {
+    std::string tag;   ///< "shape", "bsdf", …
+    std::string type;  ///< "obj", "diffuse", …
+    std::string id;
+    Location where;
+    std::map<std::string, Property> properties;
+    std::vector<Child> children;
+
+    /// The property, or `fallback`; fail() where it has another type.
+    [[nodiscard]] double number(const std::string& name, double fallback) const;
+    [[nodiscard]] bool boolean(const std::string& name, bool fallback) const;
+    [[nodiscard]] std::string string(const std::string& name, const std::string& fallback) const;
+    [[nodiscard]] std::string required_string(const std::string& name) const;
+    [[nodiscard]] Triple triple(const std::string& name, const Triple& fallback) const;
+    [[nodiscard]] Mat4 transform(const std::string& name) const;
+    /// A colour or number.
+    [[nodiscard]] std::optional<Color> color(const std::string& name) const;
+    [[nodiscard]] const Property* find(const std::string& name) const;
+    [[nodiscard]] bool has(const std::string& name) const { return properties.contains(name); }
+    /// Marks properties as known though nothing is done with them.
+    void ignore(std::initializer_list<const char*> names) const;
+
+    /// The nested texture called `name`, or null.
+    [[nodiscard]] const Object* texture(const std::string& name) const;
+    /// All nested objects of the tag, in order.
+    [[nodiscard]] std::vector<const Object*> nested(const std::string& tag) const;
+
+    /// Marks all nested objects of the tag as known.
+    void ignore_nested(const std::string& tag) const { static_cast<void>(nested(tag)); }
+
+    /// A note for each property or nested object that nobody has asked for.
+    void report_unused(NoteSink& notes) const;
+};
+
+/// Owns every object of a scene.
+struct Document {
+    std::vector<std::unique_ptr<Object>> objects;
+    const Object* scene = nullptr;
+};
+
+/// fail() with the list of the types that are known.
+[[noreturn]] void fail_unknown_type(const Object& object, const std::string& known);
+
+/// Approximation notes that name the place of `where`.
+void note(NoteSink& notes, const Location& where, const std::string& text);
+
+}  // namespace nearlight::mitsuba

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mitsuba's sensors with their film and sampler.
+#pragma once
+
+#include "host/scene/mitsuba/object.h"
+
+namespace nearlight::mitsuba {
+
+/// Sets the camera, the picture's size and the samples per pixel of the scene.
+void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes);
+
+/// Horizontal field of view of one along `axis` (x, y, diagonal, smaller, larger); aspect = width ÷ height.
+/// fail() for another axis.
+double horizontal_fov(double fov_degrees, const std::string& axis, double aspect, const Location& where);
+
+}  // namespace nearlight::mitsuba

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/shape_maker.h"
+
+#include "host/base/error.h"
+#include "host/scene/file_text.h"
+#include "host/scene/mitsuba/shape_mesh.h"
+#include "host/scene/obj_loader.h"
+#include "host/scene/ply_loader.h"
+
+namespace nearlight::mitsuba {
+namespace {
+
+void flip_v(Mesh& mesh) {
+    for (auto& uv : mesh.uvs) {
+        uv[1] = 1.0f - uv[1];
+    }
+}
+
+Mat4 sphere_placement(const Object& shape) {
+    const Triple center = shape.triple("center", {0, 0, 0});
+    const double radius = shape.number("radius", 1.0);
+    return translation(center[0], center[1], center[2]) * scaling(radius, radius, radius);
+}
+
+// Between the points p0 and p1.
+Mat4 cylinder_placement(const Object& shape) {
+    const Triple p0 = shape.triple("p0", {0, 0, 0});
+    const Triple p1 = shape.triple("p1", {0, 0, 1});
+    const double radius = shape.number("radius", 1.0);
+    const Vec3 axis{static_cast<float>(p1[0] - p0[0]), static_cast<float>(p1[1] - p0[1]),
+                    static_cast<float>(p1[2] - p0[2])};
+    if (is_zero(axis)) {
+        fail(shape.where, "cylinder has the same p0 and p1");
+    }
+    const auto [x, y] = orthonormal_basis(normalize(axis));
+    Mat4 placement = translation(p0[0], p0[1], p0[2]);
+    for (int row = 0; row < 3; ++row) {
+        const auto component = [row](Vec3 v) {
+            return static_cast<double>(row == 0 ? v.x : row == 1 ? v.y : v.z);
+        };
+        placement(row, 0) = component(x) * radius;
+        placement(row, 1) = component(y) * radius;
+        placement(row, 2) = component(axis);
+    }
+    return placement;
+}
+
+Mat4 local_placement(const Object& shape) {
+    return shape.type == "sphere"     ? sphere_placement(shape)
+           : shape.type == "cylinder" ? cylinder_placement(shape)
+                                      : Mat4{};
+}
+
+}  // namespace
+
+void ShapeMaker::add(const Object& shape) {
+    if (shape.type == "shapegroup") {
+        return;
+    }
+    if (shape.type == "instance") {
+        add_instance(shape);
+        return;
+    }
+    add_placed(shape, load(shape), shape.transform("to_world") * local_placement(shape));
+}
+
+void ShapeMaker::add_instance(const Object& instance) {
+    const std::vector<const Object*> groups = instance.nested("shape");
+    if (groups.size() != 1 || groups[0]->type != "shapegroup") {
+        fail(instance.where, "'instance' needs a reference to a shapegroup");
+    }
+    const Mat4 to_world = instance.transform("to_world");
+    for (const Object* shape : groups[0]->nested("shape")) {
+        if (shape->type == "shapegroup" || shape->type == "instance") {
+            fail(shape->where, "a shapegroup holds plain shapes only");
+        }
+        auto found = group_meshes_.find(shape);
+        if (found == group_meshes_.end()) {
+            found = group_meshes_.emplace(shape, load(*shape)).first;
+        }
+        add_placed(*shape, found->second, to_world * shape->transform("to_world") * local_placement(*shape));
+    }
+    instance.report_unused(notes_);
+}
+
+void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world) {
+    const std::vector<const Object*> bsdfs = shape.nested("bsdf");
+    if (!shape.nested("medium").empty() || !shape.nested("subsurface").empty()) {
+        fail(shape.where, "participating media are not supported");
+    }
+    const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emission(shape));
+    append_mesh(scene_, mesh,
+                {.to_world = to_world,
+                 .materials = {&material, 1},
+                 .face_normals = shape.boolean("face_normals", false),
+                 .flip_normals = shape.boolean("flip_normals", false)},
+                notes_);
+    if (shape.has("max_smooth_angle")) {
+        note(notes_, shape.where,
+             "'max_smooth_angle' is not supported; normals are smooth, or flat with face_normals");
+    }
+    shape.ignore({"max_smooth_angle", "collapse", "shape_index"});
+    shape.report_unused(notes_);
+}
+
+Mesh ShapeMaker::load(const Object& shape) {
+    const std::string& type = shape.type;
+    if (type == "obj" || type == "ply") {
+        return load_file(shape);
+    }
+    if (type == "rectangle") {
+        return rectangle_mesh();
+    }
+    if (type == "cube") {
+        return cube_mesh();
+    }
+    if (type == "sphere") {
+        return sphere_mesh();
+    }
+    if (type == "disk") {
+        return disk_mesh();
+    }
+    if (type == "cylinder") {
+        return cylinder_mesh();
+    }
+    fail_unknown_type(shape, "obj, ply, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
+}
+
+// A file's v counts from the bottom of the texture in OBJ and from the top in PLY, unless the scene says
+// otherwise.
+Mesh ShapeMaker::load_file(const Object& shape) {
+    const std::filesystem::path file = resolve_path(*shape.where.file, shape.required_string("filename"));
+    const bool is_obj = shape.type == "obj";
+    try {
+        Mesh mesh = is_obj ? read_obj(file, notes_).mesh : read_ply(file);
+        mesh.groups.clear();
+        if (!shape.boolean("flip_tex_coords", is_obj)) {
+            flip_v(mesh);
+        }
+        return mesh;
+    } catch (const Error& error) {
+        throw Error(error.code(), to_string(Note{*shape.where.file, shape.where.line, error.what()}));
+    }
+}
+
+Vec3 ShapeMaker::emission(const Object& shape) {
+    const std::vector<const Object*> emitters = shape.nested("emitter");
+    if (emitters.empty()) {
+        return {0, 0, 0};
+    }
+    const Object& emitter = *emitters.front();
+    if (emitter.type != "area") {
+        fail_unknown_type(emitter, "area (within a shape)");
+    }
+    if (!emitter.has("radiance") && emitter.texture("radiance") == nullptr) {
+        fail(emitter.where, "an area light needs 'radiance'");
+    }
+    emitter.ignore({"sampling_weight"});
+    const Vec3 radiance = textures_.color(emitter, "radiance", {1, 1, 1}, true);
+    if (radiance.x < 0.0f || radiance.y < 0.0f || radiance.z < 0.0f) {
+        fail(emitter.where, "radiance should not be negative");
+    }
+    emitter.report_unused(notes_);
+    return radiance;
+}
+
+}  // namespace nearlight::mitsuba

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mitsuba's textures.
+#pragma once
+
+#include <map>
+
+#include "host/scene/mitsuba/object.h"
+#include "host/scene/texture_loader.h"
+
+namespace nearlight::mitsuba {
+
+/// Mitsuba counts v from the top row of a bitmap, nearlight from the bottom; shapes and textures both
+/// convert.
+class TextureMaker {
+  public:
+    TextureMaker(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes), loader_(scene, notes) {}
+
+    /// A reflectance: one colour, or a texture.
+    struct Reflectance {
+        Vec3 color{};
+        int texture = -1;  ///< into Scene::textures; `color` is then 1
+    };
+    /// The property or nested texture called `name`, within [0, 1].
+    Reflectance reflectance(const Object& owner, const std::string& name, Vec3 fallback);
+    /// The same where only one colour will do: textures are replaced by their mean, with a note.
+    Vec3 mean_reflectance(const Object& owner, const std::string& name, Vec3 fallback);
+    /// Any colour that is no reflectance, mean of a texture included; `light`: spectra are those of a light.
+    Vec3 color(const Object& owner, const std::string& name, Vec3 fallback, bool light);
+
+  private:
+    Vec3 clamp_reflectance(Vec3 color, const Location& where, const std::string& name);
+    int texture_index(const Object& texture);
+    int make_bitmap(const Object& texture);
+    int make_checkerboard(const Object& texture);
+    Vec3 mean(const Object& texture);
+
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader loader_;
+    std::map<const Object*, int> made_;
+};
+
+}  // namespace nearlight::mitsuba

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/xml_file.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "host/scene/file_text.h"
+#include "host/scene/mitsuba/values.h"
+
+namespace nearlight::mitsuba {
+
+XmlFile::XmlFile(const std::filesystem::path& file)
+    : file_(std::make_shared<const std::filesystem::path>(file)), line_starts_{0} {
+    const std::string text = read_file_text(file);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\n') {
+            line_starts_.push_back(static_cast<std::ptrdiff_t>(i) + 1);
+        }
+    }
+    // Without conversion of encodings, so that offsets are those of the file.
+    const pugi::xml_parse_result result =
+        document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+    if (!result) {
+        fail(location(result.offset), std::string("broken XML: ") + result.description());
+    }
+}
+
+Location XmlFile::location(std::ptrdiff_t offset) const {
+    const auto next =
+        std::upper_bound(line_starts_.begin(), line_starts_.end(), std::max<std::ptrdiff_t>(offset, 0));
+    return {file_, static_cast<int>(next - line_starts_.begin())};
+}
+
+std::string Element::text(const char* attribute) const {
+    std::string value = node.attribute(attribute).value();
+    for (std::size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
+        std::size_t end = at + 1;
+        while (end < value.size() &&
+               (std::isalnum(static_cast<unsigned char>(value[end])) || value[end] == '_')) {
+            ++end;
+        }
+        const std::string name = value.substr(at + 1, end - at - 1);
+        const auto found = parameters.find(name);
+        if (found == parameters.end()) {
+            fail(where, "parameter '$" + name + "' has no value: give it one, or a <default>");
+        }
+        value.replace(at, end - at, found->second);
+        at += found->second.size();
+    }
+    return value;
+}
+
+std::string Element::required(const char* attribute) const {
+    if (!has(attribute)) {
+        fail(where, std::string("<") + node.name() + "> needs an attribute '" + attribute + "'");
+    }
+    return text(attribute);
+}
+
+double Element::number(const char* attribute, double fallback) const {
+    return has(attribute) ? parse_number(text(attribute), where) : fallback;
+}
+
+Triple Element::triple(const char* list, double fallback, bool single) const {
+    if (!has(list)) {
+        return {number("x", fallback), number("y", fallback), number("z", fallback)};
+    }
+    const std::vector<double> numbers = parse_numbers(text(list), where);
+    if (numbers.size() == 1 && single) {
+        return {numbers[0], numbers[0], numbers[0]};
+    }
+    if (numbers.size() != 3) {
+        fail(where, "'" + text(list) + "' should be three numbers");
+    }
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+namespace {
+
+Mat4 read_matrix(const Element& element) {
+    const std::vector<double> numbers = parse_numbers(element.required("value"), element.where);
+    const int size = numbers.size() == 16 ? 4 : 3;
+    if (numbers.size() != 16 && numbers.size() != 9) {
+        fail(element.where, "a matrix has 16 or 9 numbers, not " + std::to_string(numbers.size()));
+    }
+    Mat4 matrix;
+    for (int row = 0; row < size; ++row) {
+        for (int column = 0; column < size; ++column) {
+            matrix(row, column) = numbers[static_cast<std::size_t>(row * size + column)];
+        }
+    }
+    return matrix;
+}
+
+Mat4 read_lookat(const Element& element) {
+    const Triple origin = element.triple("origin", 0.0, false);
+    const Triple target = element.triple("target", 0.0, false);
+    const Vec3 forward{static_cast<float>(target[0] - origin[0]), static_cast<float>(target[1] - origin[1]),
+                       static_cast<float>(target[2] - origin[2])};
+    if (is_zero(forward)) {
+        fail(element.where, "lookat has the same origin and target");
+    }
+    if (!element.has("up")) {
+        const auto basis = orthonormal_basis(normalize(forward));
+        return look_at(origin, target, {basis[1].x, basis[1].y, basis[1].z});
+    }
+    const Triple up = element.triple("up", 0.0, false);
+    const Vec3 side =
+        cross({static_cast<float>(up[0]), static_cast<float>(up[1]), static_cast<float>(up[2])}, forward);
+    if (length(side) <= 1e-7f * length(forward)) {
+        fail(element.where, "lookat has an up vector along the line of sight");
+    }
+    return look_at(origin, target, up);
+}
+
+Mat4 read_operation(const Element& element) {
+    const std::string name = element.node.name();
+    if (name == "matrix") {
+        return read_matrix(element);
+    }
+    if (name == "lookat" || name == "lookAt" || name == "look_at") {
+        return read_lookat(element);
+    }
+    if (name == "translate") {
+        const Triple t = element.triple("value", 0.0, false);
+        return translation(t[0], t[1], t[2]);
+    }
+    if (name == "scale") {
+        const Triple s = element.triple("value", 1.0, true);
+        return scaling(s[0], s[1], s[2]);
+    }
+    if (name == "rotate") {
+        const Triple axis = element.triple("value", 0.0, false);
+        if (axis == Triple{0, 0, 0}) {
+            fail(element.where, "rotate needs an axis that is not zero");
+        }
+        return rotation(axis[0], axis[1], axis[2], element.number("angle", 0.0));
+    }
+    fail(element.where,
+         "unknown transform <" + name + ">; known ones are matrix, lookat, translate, rotate, scale");
+}
+
+}  // namespace
+
+Mat4 read_transform(const XmlFile& file, const Element& element) {
+    Mat4 transform;
+    for (const pugi::xml_node& node : element.node.children()) {
+        if (node.type() == pugi::node_element) {
+            transform = read_operation({node, file.location(node), element.parameters}) * transform;
+        }
+    }
+    return transform;
+}
+
+}  // namespace nearlight::mitsuba

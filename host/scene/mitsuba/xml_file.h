@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// One parsed XML file with line numbers.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <pugixml.hpp>
+#include <string>
+#include <vector>
+
+#include "host/scene/mitsuba/object.h"
+
+namespace nearlight::mitsuba {
+
+class XmlFile {
+  public:
+    /// Throws Error(ExitCode::file) where the file is missing or not well-formed.
+    explicit XmlFile(const std::filesystem::path& file);
+
+    [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
+    [[nodiscard]] Location location(const pugi::xml_node& node) const {
+        return location(node.offset_debug());
+    }
+
+  private:
+    [[nodiscard]] Location location(std::ptrdiff_t offset) const;
+
+    std::shared_ptr<const std::filesystem::path> file_;
+    pugi::xml_document document_;
+    std::vector<std::ptrdiff_t> line_starts_;
+};
+
+/// Values of $names.
+using Parameters = std::map<std::string, std::string>;
+
+/// An element whose attributes are read with $names replaced.
+struct Element {
+    pugi::xml_node node;
+    Location where;
+    const Parameters& parameters;
+
+    [[nodiscard]] bool has(const char* attribute) const { return !node.attribute(attribute).empty(); }
+    /// "" where there is no such attribute. fail() for an undefined $name.
+    [[nodiscard]] std::string text(const char* attribute) const;
+    [[nodiscard]] std::string required(const char* attribute) const;
+    [[nodiscard]] double number(const char* attribute, double fallback) const;
+    /// value="x,y,z" (or the attribute called `list`), or x=, y=, z=; one number stands for all three where
+    /// `single` is allowed.
+    [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;
+};
+
+/// A <transform>: its operations in order of appearance, each after (left of) those before it.
+Mat4 read_transform(const XmlFile& file, const Element& element);
+
+}  // namespace nearlight::mitsuba

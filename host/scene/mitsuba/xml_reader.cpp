@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/xml_reader.h"
+
+#include <algorithm>
+
+#include "host/scene/file_text.h"
+#include "host/scene/mitsuba/values.h"
+#include "host/scene/mitsuba/xml_file.h"
+
+namespace nearlight::mitsuba {
+namespace {
+
+// Deeper nesting than any real scene has; keeps hostile files off the stack.
+constexpr int kMaxDepth = 64;
+
+constexpr const char* kObjectTags[] = {"scene",  "shape",  "bsdf",    "texture",   "emitter",
+                                       "sensor", "film",   "sampler", "rfilter",   "integrator",
+                                       "medium", "volume", "phase",   "subsurface"};
+
+bool is_object(const std::string& tag) {
+    return std::find(std::begin(kObjectTags), std::end(kObjectTags), tag) != std::end(kObjectTags);
+}
+
+bool parse_boolean(const std::string& text, const Location& where) {
+    if (text == "true" || text == "True" || text == "1") {
+        return true;
+    }
+    if (text == "false" || text == "False" || text == "0") {
+        return false;
+    }
+    fail(where, "'" + text + "' should be true or false");
+}
+
+class Reader {
+  public:
+    Reader(const std::map<std::string, std::string>& parameters, NoteSink& notes)
+        : parameters_(parameters), notes_(notes) {}
+
+    Document read_scene(const std::filesystem::path& path) {
+        const XmlFile file(path);
+        if (file.root().name() != std::string("scene")) {
+            fail(file.location(file.root()), "not a Mitsuba scene: the outermost element should be <scene>");
+        }
+        document_.scene = read_object(file, file.root(), 0);
+        for (const auto& object : document_.objects) {
+            resolve(*object);
+        }
+        return std::move(document_);
+    }
+
+  private:
+    const Object* read_object(const XmlFile& file, const pugi::xml_node& node, int depth) {
+        const Element element{node, file.location(node), parameters_};
+        if (depth > kMaxDepth) {
+            fail(element.where, "elements are nested too deeply");
+        }
+        Object* object = document_.objects.emplace_back(std::make_unique<Object>()).get();
+        object->tag = node.name();
+        object->where = element.where;
+        object->id = element.text("id");
+        object->type = object->tag == "scene" ? "scene" : element.required("type");
+        read_children(file, node, *object, depth);
+        if (!object->id.empty() && !by_id_.emplace(object->id, object).second) {
+            fail(element.where, "id '" + object->id + "' is used twice");
+        }
+        return object;
+    }
+
+    void read_children(const XmlFile& file, const pugi::xml_node& parent, Object& object, int depth) {
+        for (const pugi::xml_node& node : parent.children()) {
+            if (node.type() == pugi::node_element) {
+                read_child(file, {node, file.location(node), parameters_}, object, depth);
+            }
+        }
+    }
+
+    void read_child(const XmlFile& file, const Element& element, Object& parent, int depth) {
+        const std::string tag = element.node.name();
+        if (tag == "default") {
+            parameters_.emplace(element.required("name"), element.required("value"));
+        } else if (tag == "include") {
+            include(resolve_path(*element.where.file, element.required("filename")), element, parent, depth);
+        } else if (tag == "alias") {
+            add_alias(element);
+        } else if (tag == "ref") {
+            parent.children.push_back(
+                {snake_case(element.text("name")), nullptr, element.required("id"), element.where});
+        } else if (is_object(tag)) {
+            const Object* child = read_object(file, element.node, depth + 1);
+            parent.children.push_back({snake_case(element.text("name")), child, "", element.where});
+        } else {
+            Property property{read_value(file, element, tag), element.where};
+            const std::string name = snake_case(element.required("name"));
+            if (!parent.properties.emplace(name, std::move(property)).second) {
+                fail(element.where, "property '" + name + "' is given twice");
+            }
+        }
+    }
+
+    void include(const std::filesystem::path& path, const Element& element, Object& parent, int depth) {
+        if (depth > kMaxDepth) {
+            fail(element.where, "files include each other without end");
+        }
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(path, ignored)) {
+            fail(element.where, "included file '" + path.string() + "' cannot be read");
+        }
+        const XmlFile file(path);
+        if (file.root().name() == std::string("scene")) {
+            read_children(file, file.root(), parent, depth + 1);
+        } else {
+            read_child(file, {file.root(), file.location(file.root()), parameters_}, parent, depth + 1);
+        }
+    }
+
+    void add_alias(const Element& element) {
+        const auto found = by_id_.find(element.required("id"));
+        if (found == by_id_.end()) {
+            fail(element.where, "alias of the unknown id '" + element.text("id") + "'");
+        }
+        by_id_.emplace(element.required("as"), found->second);
+    }
+
+    Value read_value(const XmlFile& file, const Element& element, const std::string& tag) {
+        if (tag == "float" || tag == "integer") {
+            return parse_number(element.required("value"), element.where);
+        }
+        if (tag == "boolean") {
+            return parse_boolean(element.required("value"), element.where);
+        }
+        if (tag == "string") {
+            return element.required("value");
+        }
+        if (tag == "rgb" || tag == "srgb") {
+            return parse_rgb(element.required("value"), element.where);
+        }
+        if (tag == "spectrum") {
+            return read_spectrum_value(element);
+        }
+        if (tag == "point" || tag == "vector") {
+            return element.triple("value", 0.0, false);
+        }
+        if (tag == "transform") {
+            return read_transform(file, element);
+        }
+        fail(element.where, "unknown element <" + tag + ">");
+    }
+
+    Color read_spectrum_value(const Element& element) {
+        if (element.has("filename")) {
+            return read_spectrum(resolve_path(*element.where.file, element.text("filename")), element.where,
+                                 notes_);
+        }
+        const std::string text = element.required("value");
+        // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB.
+        if (text.find(':') == std::string::npos && text.find_first_of(",#") != std::string::npos) {
+            return parse_rgb(text, element.where);
+        }
+        return parse_spectrum(text, element.where, notes_);
+    }
+
+    void resolve(Object& object) const {
+        for (Child& child : object.children) {
+            if (child.object != nullptr) {
+                continue;
+            }
+            const auto found = by_id_.find(child.reference);
+            if (found == by_id_.end()) {
+                fail(child.where, "nothing has the id '" + child.reference + "'");
+            }
+            child.object = found->second;
+        }
+    }
+
+    Parameters parameters_;
+    NoteSink& notes_;
+    Document document_;
+    std::map<std::string, const Object*> by_id_;
+};
+
+}  // namespace
+
+Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
+                  NoteSink& notes) {
+    return Reader(parameters, notes).read_scene(file);
+}
+
+}  // namespace nearlight::mitsuba

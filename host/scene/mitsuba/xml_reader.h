@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// From XML text to the tree of objects (through pugixml, which only xml_reader.cpp and transform_reader.cpp
+// know).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "host/scene/mitsuba/object.h"
+
+namespace nearlight::mitsuba {
+
+/// The scene as objects, with `parameters` for $names winning over <default>. Throws Error(ExitCode::file)
+/// with file and line for anything missing, broken or unknown.
+Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
+                  NoteSink& notes);
+
+}  // namespace nearlight::mitsuba

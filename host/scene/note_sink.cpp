@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/note_sink.h"
+
+#include "host/base/error.h"
+
+namespace nearlight {
+
+void NoteSink::approximation(const std::filesystem::path& file, int line, const std::string& text) {
+    if (strict_) {
+        throw Error(ExitCode::file, to_string(Note{file, line, text}) + " (an error because of --strict)");
+    }
+    remark(file, line, text);
+}
+
+void NoteSink::remark(const std::filesystem::path& file, int line, const std::string& text) {
+    if (said_.insert(text).second) {
+        notes_.push_back({file, line, text});
+    }
+}
+
+}  // namespace nearlight

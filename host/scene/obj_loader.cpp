@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj_loader.h"
+
+#include <tiny_obj_loader.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <streambuf>
+#include <string_view>
+
+#include "host/base/error.h"
+#include "host/scene/default_view.h"
+#include "host/scene/file_text.h"
+#include "host/scene/material_model.h"
+#include "host/scene/texture_loader.h"
+
+namespace nearlight {
+namespace {
+
+constexpr uint kNone = std::numeric_limits<uint>::max();
+
+// An istream over text in memory, without a copy.
+class TextBuffer : public std::streambuf {
+  public:
+    explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) {
+        return {};
+    }
+    return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
+}
+
+// Calls visit(line number, line) until it returns false.
+template <typename Visit>
+void for_each_line(std::string_view text, Visit visit) {
+    int number = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++number) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        if (!visit(number, text.substr(begin, end - begin))) {
+            return;
+        }
+        begin = end + 1;
+    }
+}
+
+bool starts_with_word(std::string_view line, std::string_view word) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    return line.size() > word.size() && line.starts_with(word) &&
+           (line[word.size()] == ' ' || line[word.size()] == '\t');
+}
+
+// Number of the line `word … value`, 0 where there is none.
+int find_line(std::string_view text, std::string_view word, std::string_view value) {
+    int found = 0;
+    for_each_line(text, [&](int number, std::string_view line) {
+        if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {
+            found = number;
+        }
+        return found == 0;
+    });
+    return found;
+}
+
+int line_of_face(std::string_view text, std::size_t face) {
+    int found = 0;
+    for_each_line(text, [&](int number, std::string_view line) {
+        if (starts_with_word(line, "f") && face-- == 0) {
+            found = number;
+        }
+        return found == 0;
+    });
+    return found;
+}
+
+// Takes tinyobjloader's callbacks and makes one vertex of each distinct (position, texture, normal) triple.
+class ObjBuilder {
+  public:
+    explicit ObjBuilder(ObjFile& obj) : obj_(obj) { obj_.materials.emplace_back(); }
+
+    void add_face(const tinyobj::index_t* corners, int count) {
+        if (count < 3) {
+            ++short_faces_;
+            ++faces_;
+            return;
+        }
+        const uint first = vertex(corners[0]);
+        uint previous = vertex(corners[1]);
+        for (int i = 2; i < count; ++i) {
+            const uint next = vertex(corners[i]);
+            obj_.mesh.triangles.push_back({first, previous, next});
+            obj_.mesh.groups.push_back(group_);
+            previous = next;
+        }
+        ++faces_;
+    }
+    void use_material(const std::string& name) {
+        const auto found = std::find(obj_.materials.begin(), obj_.materials.end(), name);
+        group_ = static_cast<uint>(found - obj_.materials.begin());
+        if (found == obj_.materials.end()) {
+            obj_.materials.push_back(name);
+        }
+    }
+    void finish() {
+        if (!any_normal_) {
+            obj_.mesh.normals.clear();
+        }
+        if (!any_uv_) {
+            obj_.mesh.uvs.clear();
+        }
+    }
+
+    std::vector<Vec3> positions, normals;
+    std::vector<std::array<float, 2>> uvs;
+    [[nodiscard]] std::size_t short_faces() const { return short_faces_; }
+
+  private:
+    struct Corner {
+        uint uv, normal, vertex, next;
+    };
+
+    // OBJ counts from 1, or back from the last; 0 is "not given", which only a position may not be.
+    uint resolve(int index, std::size_t count, const char* what, bool required) const {
+        const auto signed_count = static_cast<long long>(count);
+        const long long at = index > 0 ? index - 1LL : signed_count + index;
+        if (index == 0 && !required) {
+            return kNone;
+        }
+        if (index == 0 || at < 0 || at >= signed_count) {
+            throw Error(ExitCode::file, obj_.mesh.source.string() + ":" +
+                                            std::to_string(line_of_face(obj_.text, faces_)) +
+                                            ": face refers to " + what + " " + std::to_string(index) +
+                                            ", but there are only " + std::to_string(count) + " so far");
+        }
+        return static_cast<uint>(at);
+    }
+
+    uint vertex(const tinyobj::index_t& index) {
+        const uint p = resolve(index.vertex_index, positions.size(), "vertex", true);
+        const uint t = resolve(index.texcoord_index, uvs.size(), "texture coordinate", false);
+        const uint n = resolve(index.normal_index, normals.size(), "normal", false);
+        if (chains_.size() < positions.size()) {
+            chains_.resize(positions.size(), kNone);
+        }
+        for (uint c = chains_[p]; c != kNone; c = corners_[c].next) {
+            if (corners_[c].uv == t && corners_[c].normal == n) {
+                return corners_[c].vertex;
+            }
+        }
+        const auto made = static_cast<uint>(obj_.mesh.positions.size());
+        corners_.push_back({t, n, made, chains_[p]});
+        chains_[p] = static_cast<uint>(corners_.size() - 1);
+        obj_.mesh.positions.push_back(positions[p]);
+        obj_.mesh.uvs.push_back(t == kNone ? std::array<float, 2>{0, 0} : uvs[t]);
+        obj_.mesh.normals.push_back(n == kNone ? Vec3{0, 0, 0} : normals[n]);
+        any_uv_ = any_uv_ || t != kNone;
+        any_normal_ = any_normal_ || n != kNone;
+        return made;
+    }
+
+    ObjFile& obj_;
+    std::vector<uint> chains_;  // by position: its first corner
+    std::vector<Corner> corners_;
+    std::size_t faces_ = 0, short_faces_ = 0;
+    uint group_ = 0;
+    bool any_uv_ = false, any_normal_ = false;
+};
+
+tinyobj::callback_t make_callbacks() {
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = [](void* user, float x, float y, float z, float) {
+        static_cast<ObjBuilder*>(user)->positions.push_back({x, y, z});
+    };
+    callbacks.normal_cb = [](void* user, float x, float y, float z) {
+        static_cast<ObjBuilder*>(user)->normals.push_back({x, y, z});
+    };
+    callbacks.texcoord_cb = [](void* user, float x, float y, float) {
+        static_cast<ObjBuilder*>(user)->uvs.push_back({x, y});
+    };
+    callbacks.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
+        static_cast<ObjBuilder*>(user)->add_face(corners, count);
+    };
+    callbacks.usemtl_cb = [](void* user, const char* name, int) {
+        static_cast<ObjBuilder*>(user)->use_material(trimmed(name));
+    };
+    return callbacks;
+}
+
+// A material library, with its text for line numbers.
+struct MaterialLibrary {
+    std::filesystem::path file;
+    std::string text;
+    std::map<std::string, int> names;
+    std::vector<tinyobj::material_t> materials;
+};
+
+std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
+    std::vector<MaterialLibrary> libraries;
+    for (const std::string& name : obj.libraries) {
+        MaterialLibrary library;
+        library.file = resolve_path(obj.mesh.source, name);
+        try {
+            library.text = read_file_text(library.file);
+        } catch (const Error&) {
+            notes.approximation(obj.mesh.source, find_line(obj.text, "mtllib", name),
+                                "material library '" + name + "' cannot be read; its materials are grey");
+            continue;
+        }
+        TextBuffer buffer(library.text);
+        std::istream stream(&buffer);
+        std::string warning;
+        std::string error;
+        tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
+        libraries.push_back(std::move(library));
+    }
+    return libraries;
+}
+
+Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
+    return {c[0], c[1], c[2]};
+}
+
+Material grey_material() {
+    Material material = diffuse_material({0.5f, 0.5f, 0.5f});
+    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
+    return material;
+}
+
+Material make_material(Scene& scene, const MaterialLibrary& library, const tinyobj::material_t& source,
+                       TextureLoader& textures, NoteSink& notes) {
+    const int line = find_line(library.text, "newmtl", source.name);
+    const auto clamped = [](Vec3 c) { return min(max(c, {0, 0, 0}), {1, 1, 1}); };
+    Material material = diffuse_material(clamped(to_vec3(source.diffuse)));
+    if (source.illum == 5 || source.illum == 3) {
+        notes.approximation(library.file, line,
+                            "a reflecting material (illum 3 or 5) is taken for a perfect mirror");
+        material = conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.specular)), 0.0f);
+    } else if (source.illum == 7 || source.illum == 4 || source.illum == 6 || source.dissolve < 0.5f) {
+        notes.approximation(library.file, line, "a transparent material is taken for a thin pane of glass");
+        material = glass_material(source.ior > 1.0f ? source.ior : 1.5f, true);
+    } else if (!source.diffuse_texname.empty()) {
+        const int image =
+            textures.load(resolve_path(library.file, source.diffuse_texname), false, library.file,
+                          find_line(library.text, "map_Kd", source.diffuse_texname));
+        // Many writers leave Kd black beside a texture, which then alone gives the colour.
+        const Vec3 tint = is_zero(material.base) ? Vec3{1, 1, 1} : material.base;
+        material.base = image < 0 ? Vec3{0.5f, 0.5f, 0.5f} : tint;
+        if (image >= 0) {
+            material.base_texture = static_cast<int>(scene.textures.size());
+            scene.textures.push_back(plain_texture(image));
+        }
+    }
+    material.emission = max(to_vec3(source.emission), {0, 0, 0});
+    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
+    return material;
+}
+
+std::vector<uint> make_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
+    const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
+    TextureLoader textures(scene, notes);
+    std::vector<uint> indices;
+    for (const std::string& name : obj.materials) {
+        Material material = grey_material();
+        bool found = false;
+        for (const MaterialLibrary& library : libraries) {
+            if (const auto entry = library.names.find(name); entry != library.names.end() && !found) {
+                material =
+                    make_material(scene, library, library.materials[static_cast<std::size_t>(entry->second)],
+                                  textures, notes);
+                found = true;
+            }
+        }
+        if (!found && !name.empty()) {
+            notes.approximation(obj.mesh.source, find_line(obj.text, "usemtl", name),
+                                "material '" + name + "' is not defined; it is grey");
+        }
+        indices.push_back(static_cast<uint>(scene.materials.size()));
+        scene.materials.push_back(material);
+    }
+    return indices;
+}
+
+}  // namespace
+
+ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text) {
+    ObjFile obj;
+    obj.mesh.source = file;
+    obj.text = read_file_text(file);
+    for_each_line(obj.text, [&](int, std::string_view line) {
+        if (starts_with_word(line, "mtllib")) {
+            obj.libraries.push_back(trimmed(line.substr(line.find("mtllib") + 6)));
+        }
+        return true;
+    });
+    ObjBuilder builder(obj);
+    TextBuffer buffer(obj.text);
+    std::istream stream(&buffer);
+    std::string warning;
+    std::string error;
+    if (!tinyobj::LoadObjWithCallback(stream, make_callbacks(), &builder, nullptr, &warning, &error)) {
+        throw Error(ExitCode::file, file.string() + ": not a valid OBJ file: " + trimmed(error));
+    }
+    builder.finish();
+    if (builder.short_faces() > 0) {
+        notes.approximation(
+            file, 0,
+            std::to_string(builder.short_faces()) + " faces of fewer than three corners are left out");
+    }
+    if (!keep_text) {
+        obj.text = {};
+    }
+    return obj;
+}
+
+Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    Scene scene;
+    scene.source = file;
+    scene.name = file.stem().string();
+    NoteSink notes(scene.notes, options.strict);
+    {
+        const ObjFile obj = read_obj(file, notes, true);
+        const std::vector<uint> materials = make_materials(scene, obj, notes);
+        append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
+    }
+    add_default_view(scene, notes);
+    return scene;
+}
+
+}  // namespace nearlight

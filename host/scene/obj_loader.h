@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront OBJ (through tinyobjloader, which only obj_loader.cpp knows).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/scene/mesh.h"
+#include "host/scene/scene_loader.h"
+
+namespace nearlight {
+
+struct ObjFile {
+    Mesh mesh;                           ///< groups refer to `materials`
+    std::vector<std::string> materials;  ///< names after `usemtl`; the first is "" (none named yet)
+    std::vector<std::string> libraries;  ///< names after `mtllib`
+    std::string text;                    ///< the file itself, to find lines in; empty unless kept
+};
+
+/// Reads the geometry: polygons become fans, negative indices count back. Throws Error(ExitCode::file) with
+/// file and line for an index out of range. Faces of fewer than three corners are left out, with a note.
+ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text = false);
+
+/// An OBJ file with its materials as a whole scene, with a camera and, where nothing emits, light made up.
+Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options);
+
+}  // namespace nearlight

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stanford PLY: ASCII and binary of either byte order.
+#pragma once
+
+#include <filesystem>
+
+#include "host/scene/mesh.h"
+
+namespace nearlight {
+
+/// Reads positions, normals (nx, ny, nz), texture coordinates (u, v or s, t) and faces, which become fans;
+/// other elements and properties are skipped. `uvs` are as in the file. Throws Error(ExitCode::file) where
+/// the file is missing, truncated or not understood.
+Mesh read_ply(const std::filesystem::path& file);
+
+}  // namespace nearlight

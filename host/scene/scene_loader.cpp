@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/scene_loader.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "host/base/error.h"
+#include "host/scene/mitsuba/mitsuba_loader.h"
+#include "host/scene/obj_loader.h"
+
+namespace nearlight {
+namespace {
+
+std::string lower_case_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return extension;
+}
+
+bool has_light(const Scene& scene) {
+    return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
+           std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
+               return !is_zero(scene.materials[triangle.material].emission);
+           });
+}
+
+// Odd, yet a correct black picture.
+void remark_emptiness(Scene& scene) {
+    if (scene.triangles.empty()) {
+        scene.notes.push_back({scene.source, 0, "the scene has no triangles"});
+    }
+    if (!has_light(scene)) {
+        scene.notes.push_back(
+            {scene.source, 0, "nothing in the scene emits light; the picture will be black"});
+    }
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        throw Error(ExitCode::file, file.string() + ": no such scene file");
+    }
+    if (std::filesystem::is_directory(file, ignored)) {
+        throw Error(ExitCode::file, file.string() + ": is a directory; name the scene file in it");
+    }
+    const std::string extension = lower_case_extension(file);
+    if (extension != ".xml" && extension != ".obj") {
+        throw Error(ExitCode::file, file.string() + ": unknown scene format '" + extension +
+                                        "'; known ones are .xml (Mitsuba) and .obj");
+    }
+    Scene scene = extension == ".xml" ? load_mitsuba_scene(file, options) : load_obj_scene(file, options);
+    remark_emptiness(scene);
+    return scene;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which triangles reach into the close range, with their areas and centroids. A triangle does if some point
+// of it lies in the view frustum and nearer to the camera than the range: the triangle is clipped by the five
+// planes, and the nearest point of what is left decides, not the centroid. [paper section 3: classification]
+//
+// The answer errs towards "yes", by a margin as large as the rounding of in_close_range() can be, so that no
+// point that passes that test lies on a triangle that was left out. Glass carries no VPLs and is left out,
+// and so are triangles without area.
+//
+// Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) a
+// triangle. One work-item a triangle; work-group size: any.
+
+#include "lib/math.cl"
+#include "lib/polygon.cl"
+
+/// Of the coordinates' size: what rounding can move a point by, and more.
+#define ROUNDING_MARGIN 4e-6f
+
+inline bool carries_vpls(const global Material* material) {
+    return material->lobe != NEARLIGHT_LOBE_DIELECTRIC && material->lobe != NEARLIGHT_LOBE_THIN_DIELECTRIC;
+}
+
+inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c, float3 normal) {
+    const float3 origin = load3(region->origin);
+    const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
+    const float margin = ROUNDING_MARGIN * max_component(reach);
+    // Relative to the camera, through which all planes go: small numbers where accuracy matters.
+    Polygon polygon;
+    polygon.vertices[0] = a - origin;
+    polygon.vertices[1] = b - origin;
+    polygon.vertices[2] = c - origin;
+    polygon.count = 3;
+    for (int i = 0; i < 5; ++i) {
+        const global float* plane = region->planes[i];
+        clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), margin);
+    }
+    const float range = region->range + margin;
+    return squared_distance_to_polygon(&polygon, normal) < range * range;
+}
+
+kernel void classify_triangles(const global Vertex* restrict vertices,
+                               const global Triangle* restrict triangles,
+                               const global Material* restrict materials,
+                               const global CloseRange* restrict region, global uint* restrict flags,
+                               global float* restrict areas, uint triangle_count) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= triangle_count) {
+        return;
+    }
+    const Triangle triangle = triangles[i];
+    const float3 a = load3(vertices[triangle.v0].position);
+    const float3 b = load3(vertices[triangle.v1].position);
+    const float3 c = load3(vertices[triangle.v2].position);
+    const float3 normal = cross(b - a, c - a);
+    const float area = 0.5f * sqrt(dot(normal, normal));
+    areas[i] = area;
+    flags[i] =
+        area > 0.0f && carries_vpls(materials + triangle.material) && reaches_into(region, a, b, c, normal);
+}
+
+/// centroids[i] is that of triangle ids[i].
+kernel void triangle_centroids(const global Vertex* restrict vertices,
+                               const global Triangle* restrict triangles, const global uint* restrict ids,
+                               global Vec3* restrict centroids, uint count) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const Triangle triangle = triangles[ids[i]];
+    centroids[i] = store3((load3(vertices[triangle.v0].position) + load3(vertices[triangle.v1].position) +
+                           load3(vertices[triangle.v2].position)) *
+                          (1.0f / 3.0f));
+}

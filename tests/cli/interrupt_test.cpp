@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/interrupt.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace nearlight {
+namespace {
+
+// Each in a process of its own: signals are the process's.
+
+[[noreturn]] void interrupt_once(int signal) {
+    catch_interrupts();
+    const bool before = interrupted();
+    std::raise(signal);
+    std::_Exit(!before && interrupted() ? 7 : 8);
+}
+
+[[noreturn]] void interrupt_twice() {
+    catch_interrupts();
+    std::raise(SIGINT);
+    std::raise(SIGINT);
+    std::_Exit(7);
+}
+
+TEST(InterruptDeathTest, FirstSignalIsOnlyNoted) {
+    EXPECT_EXIT(interrupt_once(SIGINT), testing::ExitedWithCode(7), "");
+    EXPECT_EXIT(interrupt_once(SIGTERM), testing::ExitedWithCode(7), "");
+}
+
+TEST(InterruptDeathTest, SecondSignalEndsTheProcess) {
+    EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
+}
+
+}  // namespace
+}  // namespace nearlight

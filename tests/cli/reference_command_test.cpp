@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_io.h"
+#include "tests/cli/run_program.h"
+
+namespace nearlight {
+namespace {
+
+/// A floor 1 m below a point light of 1 W/sr, which is seen from above.
+constexpr const char* kLitFloor = R"(<scene version="3.0.0">
+  <integrator type="path"><integer name="max_depth" value="2"/></integrator>
+  <sensor type="perspective">
+    <float name="fov" value="0.1"/>
+    <transform name="to_world"><lookat origin="0, 0, 3" target="0, 0, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="6"/></film>
+  </sensor>
+  <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, 0.125"/></bsdf></shape>
+  <emitter type="point"><point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1, 1, 1"/></emitter>
+</scene>)";
+
+class Reference : public testing::Test {
+  protected:
+    Reference() { std::ofstream(scene_) << kLitFloor; }
+    [[nodiscard]] std::string files() const { return quoted(scene_) + " -o " + quoted(output_); }
+
+    TemporaryFolder folder_;
+    std::filesystem::path scene_ = folder_ / "scene.xml";
+    std::filesystem::path output_ = folder_ / "reference.exr";
+};
+
+TEST_F(Reference, WritesAllLayersAndTellsOfThemInJson) {
+    const ProgramResult result = run_program("reference --json --spp 257 --seed 7 " + files());
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["width"], 8);
+    EXPECT_EQ(json["height"], 6);
+    EXPECT_EQ(json["max_depth"], 2);
+    EXPECT_EQ(json["samples_per_pixel"], 272);
+    EXPECT_EQ(json["seed"], 7);
+    EXPECT_EQ(json["complete"], true);
+    const Image image = read_image(output_);
+    for (const char* channel : {"indirect.B", "albedo.G", "N.Z", "P.X", "depth.Z", "variance.R"}) {
+        EXPECT_GE(image.find_channel(channel), 0) << channel;
+    }
+    EXPECT_NEAR(image.at(4, 3, static_cast<std::size_t>(image.find_channel("R"))), 0.5 / 3.14159265, 1e-4);
+    EXPECT_NEAR(image.at(4, 3, static_cast<std::size_t>(image.find_channel("direct.B"))), 0.125 / 3.14159265,
+                1e-4);
+    EXPECT_NEAR(image.at(4, 3, static_cast<std::size_t>(image.find_channel("depth.Z"))), 3.0, 1e-4);
+}
+
+TEST_F(Reference, IndirectOnlyAndSizeAreObeyed) {
+    const ProgramResult result = run_program("reference --spp 4 --indirect-only --size 5x3 " + files());
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.output, "");
+    const Image image = read_image(output_);
+    EXPECT_EQ(image.width, 5);
+    EXPECT_EQ(image.height, 3);
+    EXPECT_EQ(image.at(2, 1, static_cast<std::size_t>(image.find_channel("R"))), 0.0f);
+}
+
+TEST_F(Reference, AnUnwritableOutputFailsBeforeTheWork) {
+    const ProgramResult result = run_program("reference --spp 16777216 " + quoted(scene_) + " -o " +
+                                             quoted(folder_ / "nowhere" / "a.exr"));
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.errors.find("nowhere"), std::string::npos);
+    EXPECT_EQ(run_program("reference " + files() + " --spp 0").exit_code, 2);
+    EXPECT_EQ(run_program("reference " + files() + " --clamp-radius -1").exit_code, 2);
+}
+
+TEST_F(Reference, CtrlCSavesWhatIsThere) {
+    const std::string line = std::string("timeout --preserve-status --signal=INT 1 ") + NEARLIGHT_PROGRAM +
+                             " reference --quiet --spp 16777216 " + files();
+    const int status = std::system(line.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    const Image image = read_image(output_);
+    EXPECT_NEAR(image.at(4, 3, static_cast<std::size_t>(image.find_channel("G"))), 0.25 / 3.14159265, 1e-4);
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <host/image/image_io.h>
+
+#include <iostream>
+
+int main(int, char** argv) {
+    const nearlight::Image image = nearlight::read_image(argv[1]);
+    std::cout << image.width << "x" << image.height << " " << image.at(2, 1, 2) << "\n";
+}

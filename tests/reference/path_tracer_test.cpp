@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/path_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "host/base/error.h"
+#include "host/base/random.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight {
+namespace {
+
+using namespace small_scenes;
+
+/// Every surface has albedo ρ and emits radiance 1, so paths of each depth d bring exactly ρ^d.
+Scene furnace(float albedo) {
+    Scene scene;
+    Material wall = lambertian({albedo, albedo, albedo});
+    wall.emission = {1, 1, 1};
+    add_inward_sphere(scene, 2.0f, 1, add_material(scene, wall));
+    set_camera(scene, {0.3, 0.2, 0}, {0, 0, 1}, 60);
+    return scene;
+}
+
+TEST(PathTracer, FurnaceSumsTheGeometricSeries) {
+    constexpr float kAlbedo = 0.6f;
+    const Scene scene = furnace(kAlbedo);
+    double expected = 0;
+    for (int depth = 1; depth <= 6; ++depth) {
+        expected += std::pow(kAlbedo, depth - 1);
+        const Image image =
+            trace_paths(scene, {.width = 12, .height = 12, .spp = 64, .max_depth = depth, .threads = 2});
+        EXPECT_NEAR(channel_mean(image, "R"), expected, 4.5 * standard_error(image) + 2e-4)
+            << "max depth " << depth;
+        EXPECT_NEAR(channel_mean(image, "direct.G") + channel_mean(image, "indirect.G"),
+                    channel_mean(image, "G"), 1e-5);
+    }
+    const Image unlimited = trace_paths(scene, {.width = 12, .height = 12, .spp = 256, .threads = 2});
+    EXPECT_NEAR(channel_mean(unlimited, "R"), 1 / (1 - kAlbedo), 4.5 * standard_error(unlimited) + 5e-4);
+}
+
+TEST(PathTracer, PointLightInASphereBouncesEvenly) {
+    // Inside a sphere every point sees every other alike: each bounce brings the irradiance of the last times
+    // ρ.
+    constexpr float kAlbedo = 0.5f;
+    constexpr float kRadius = 2.0f;
+    Scene scene;
+    add_inward_sphere(scene, kRadius, 3, add_material(scene, lambertian({kAlbedo, kAlbedo, kAlbedo})));
+    add_point_light(scene, {0, 0, 0}, {1, 1, 1});
+    set_camera(scene, {0, 0.1, 0}, {0, 0, 1}, 50);
+    const double irradiance = 1.0 / (kRadius * kRadius);
+    const Image image = trace_paths(scene, {.width = 12, .height = 12, .spp = 64, .max_depth = 4});
+    EXPECT_NEAR(channel_mean(image, "direct.R"), kAlbedo / kPi * irradiance,
+                0.01 * irradiance * kAlbedo / kPi);
+    const double indirect = kAlbedo / kPi * irradiance * (kAlbedo + kAlbedo * kAlbedo);
+    EXPECT_NEAR(channel_mean(image, "indirect.R"), indirect, 4.5 * standard_error(image) + 0.01 * indirect);
+}
+
+/// Two squares of side 2, facing each other at distance 1, and a point light between them.
+Scene facing_squares(float albedo) {
+    Scene scene;
+    const uint material = add_material(scene, lambertian({albedo, albedo, albedo}));
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, material);
+    add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, material);
+    add_point_light(scene, {0.2f, 0.6f, 0.1f}, {1, 1, 1});
+    set_camera(scene, {0.0, 0.5, 0.0}, {0.3, 0.0, 0.2}, 0.05);
+    return scene;
+}
+
+/// Indirect radiance of the lower square at (0.3, 0, 0.2) after one bounce off the upper one, by quadrature.
+double bounced_radiance(double albedo, double clamp_radius) {
+    constexpr int kSteps = 600;
+    double irradiance = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps; ++j) {
+            const double x = -1 + 2 * (i + 0.5) / kSteps;
+            const double z = -1 + 2 * (j + 0.5) / kSteps;
+            const double light2 = (x - 0.2) * (x - 0.2) + 0.4 * 0.4 + (z - 0.1) * (z - 0.1);
+            const double radiance = albedo / kPi * 0.4 / std::pow(light2, 1.5);
+            const double r2 = (x - 0.3) * (x - 0.3) + 1 + (z - 0.2) * (z - 0.2);
+            irradiance += radiance / r2 / std::max(r2, clamp_radius * clamp_radius);
+        }
+    }
+    return albedo / kPi * irradiance * 4 / (double(kSteps) * kSteps);
+}
+
+TEST(PathTracer, ClampBoundsTheLastConnectionOnly) {
+    const Scene scene = facing_squares(0.8f);
+    double previous = std::numeric_limits<double>::infinity();
+    for (const float radius : {0.0f, 1.2f, 2.0f}) {
+        const Image image = trace_paths(scene, {.width = 4,
+                                                .height = 4,
+                                                .spp = 4096,
+                                                .max_depth = 3,
+                                                .clamp_radius = radius,
+                                                .indirect_only = true});
+        const double expected = bounced_radiance(0.8, radius);
+        EXPECT_LT(expected, previous);
+        previous = expected;
+        EXPECT_NEAR(channel_mean(image, "R"), expected, 4.5 * standard_error(image) + 1e-3 * expected)
+            << "R " << radius;
+        EXPECT_EQ(channel_mean(image, "direct.R"), 0.0);
+    }
+}
+
+TEST(PathTracer, AreaLightLightsAsLambertsFormulaSays) {
+    // Irradiance below the corner of a rectangle a × b at height h, parallel to it.
+    Scene scene;
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = {2, 2, 2};
+    add_quad(scene, {0, 0.5f, 0}, {1, 0, 0}, {0, 0, 0.7f}, add_material(scene, lamp));
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    set_camera(scene, {-1, 0.4, -1}, {0, 0, 0}, 0.02);
+    const double x = 1 / 0.5;
+    const double y = 0.7 / 0.5;
+    const double form = (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
+                         y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
+                        (2 * kPi);
+    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 1024, .max_depth = 2});
+    EXPECT_NEAR(channel_mean(image, "R"), 0.5 * 2 * form, 4.5 * standard_error(image) + 1e-3 * form);
+}
+
+TEST(PathTracer, EnvironmentLightsAsItsPixelsSay) {
+    Scene scene;
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    set_camera(scene, {0.3, 1, 0.1}, {0, 0, 0}, 1);
+    scene.environment.width = 8;
+    scene.environment.height = 6;
+    scene.environment.to_world = rotation(1, 2, 0.5, 50);
+    Pcg32 random(5);
+    for (int i = 0; i < 48; ++i) {
+        const float value = i == 11 ? 30.0f : random.uniform();
+        scene.environment.radiance.push_back({value, value, value});
+    }
+    double irradiance = 0;
+    constexpr int kSteps = 960;
+    for (int row = 0; row < kSteps; ++row) {
+        for (int column = 0; column < kSteps; ++column) {
+            const double theta = std::numbers::pi * (row + 0.5) / kSteps;
+            const double phi = 2 * std::numbers::pi * (column + 0.5) / kSteps;
+            const Vec3 local{static_cast<float>(std::sin(theta) * std::sin(phi)),
+                             static_cast<float>(std::cos(theta)),
+                             static_cast<float>(-std::sin(theta) * std::cos(phi))};
+            const Vec3 direction = transform_vector(scene.environment.to_world, local);
+            const int pixel = row * 6 / kSteps * 8 + column * 8 / kSteps;
+            irradiance += scene.environment.radiance[static_cast<std::size_t>(pixel)].x *
+                          std::max(0.0f, direction.y) * std::sin(theta) * (std::numbers::pi / kSteps) *
+                          (2 * std::numbers::pi / kSteps);
+        }
+    }
+    const Image image = trace_paths(scene, {.width = 8, .height = 8, .spp = 1024, .max_depth = 2});
+    const double expected = irradiance / std::numbers::pi;
+    EXPECT_NEAR(channel_mean(image, "R"), expected, 4.5 * standard_error(image) + 1e-3 * expected);
+    EXPECT_LT(standard_error(image), 0.01 * expected);
+}
+
+TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
+    // Seen along +Z, +X is on the left. At 90° the film is 2 wide at z = 1.
+    Scene scene;
+    Material red = lambertian({0, 0, 0});
+    red.emission = {1, 0, 0};
+    red.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    add_quad(scene, {0.5f, -1, 1}, {0, 2, 0}, {0.5f, 0, 0},
+             add_material(scene, red));  // front faces the camera
+    Material blue = red;
+    blue.emission = {0, 0, 1};
+    add_quad(scene, {-1, 0.25f, 1}, {0, 0.25f, 0}, {1, 0, 0}, add_material(scene, blue));
+    scene.camera.fov_x_degrees = 90;
+    const Image image = trace_paths(scene, {.width = 8, .height = 4, .spp = 4});
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            EXPECT_EQ(image.at(x, y, 0), x < 2 ? 1.0f : 0.0f) << x << ' ' << y;
+            EXPECT_EQ(image.at(x, y, 2), x >= 4 && y == 0 ? 1.0f : 0.0f) << x << ' ' << y;
+        }
+    }
+}
+
+TEST(PathTracer, SameBitsForAnyThreadCountOtherBitsForAnotherSeed) {
+    const Scene scene = facing_squares(0.7f);
+    PathTracerSettings settings{.width = 40, .height = 24, .spp = 8, .seed = 3, .threads = 1};
+    const Image one = trace_paths(scene, settings);
+    settings.threads = 4;
+    EXPECT_EQ(one.values, trace_paths(scene, settings).values);
+    settings.seed = 4;
+    EXPECT_NE(one.values, trace_paths(scene, settings).values);
+}
+
+TEST(PathTracer, VarianceIsWhatRepeatedRenderingsShow) {
+    const Scene scene = facing_squares(0.7f);
+    constexpr int kRuns = 60;
+    constexpr int kPixels = 36;
+    std::vector<double> sum(kPixels), square(kPixels);
+    double estimated = 0;
+    for (int run = 0; run < kRuns; ++run) {
+        const Image image = trace_paths(scene, {.width = 6,
+                                                .height = 6,
+                                                .spp = 64,
+                                                .max_depth = 4,
+                                                .seed = static_cast<std::uint64_t>(100 + run)});
+        for (int pixel = 0; pixel < kPixels; ++pixel) {
+            const double value = image.at(pixel % 6, pixel / 6, 0);
+            sum[static_cast<std::size_t>(pixel)] += value / kRuns;
+            square[static_cast<std::size_t>(pixel)] += value * value / kRuns;
+        }
+        estimated += channel_mean(image, "variance.R") / kRuns;
+    }
+    double observed = 0;
+    for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
+        observed += (square[pixel] - sum[pixel] * sum[pixel]) * kRuns / (kRuns - 1) / kPixels;
+    }
+    EXPECT_NEAR(estimated / observed, 1.0, 0.2);
+}
+
+TEST(PathTracer, StoppingKeepsTheMeanOfWhatIsThere) {
+    const Scene scene = furnace(0.5f);
+    int calls = 0;
+    const Image image =
+        trace_paths(scene, {.width = 32, .height = 32, .spp = 64, .max_depth = 2, .threads = 1},
+                    [&](double fraction) { return ++calls < 10 && fraction < 1; });
+    EXPECT_EQ(calls, 10);
+    EXPECT_NEAR(channel_mean(image, "R"), 1.5, 0.1);
+}
+
+/// A floor under a point light, seen from above.
+Scene lit_floor() {
+    Scene scene;
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    add_point_light(scene, {0, 1, 0}, {1, 1, 1});
+    set_camera(scene, {0, 3, 0}, {0, 0, 0}, 0.05, {0, 0, 1});
+    return scene;
+}
+
+TEST(PathTracer, APaneDimsTheViewAndNotTheLight) {
+    Scene scene = lit_floor();
+    Material pane = lambertian({0, 0, 0});
+    pane.lobe = NEARLIGHT_LOBE_THIN_DIELECTRIC;
+    pane.transmission = {1, 0.5f, 0.25f};
+    const uint material = add_material(scene, pane);
+    add_quad(scene, {-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, material);     // before the camera
+    add_quad(scene, {-1, 0.5f, -1}, {0, 0, 2}, {2, 0, 0}, material);  // between light and floor
+    const double face = 0.04;
+    const double passed = std::pow(1 - 2 * face / (1 + face), 2);
+    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 1024, .max_depth = 2});
+    EXPECT_NEAR(channel_mean(image, "R"), 0.5 / kPi * passed, 4.5 * standard_error(image));
+    EXPECT_NEAR(channel_mean(image, "B") / channel_mean(image, "R"), 1 / 16.0, 1e-4);
+    EXPECT_NEAR(channel_mean(image, "depth.Z"), 1, 1e-4);
+    EXPECT_NEAR(channel_mean(image, "P.Y"), 0, 1e-3);
+}
+
+TEST(PathTracer, AMirrorShowsTheReceiver) {
+    Scene scene = lit_floor();
+    Material mirror = lambertian({0, 0, 0});
+    mirror.lobe = NEARLIGHT_LOBE_CONDUCTOR;
+    mirror.eta = {0, 0, 0};
+    mirror.k = {1, 1, 1};
+    mirror.specular = {0.9f, 0.9f, 0.9f};
+    add_quad(scene, {1, 2, -1}, {1, -1, 0}, {0, 0, 2}, add_material(scene, mirror));
+    set_camera(scene, {0, 1.5, 0}, {1.5, 1.5, 0}, 0.05);
+    // The mirror at 45° sends the view down to (1.5, 0, 0) on the floor.
+    const double distance2 = 1.5 * 1.5 + 1;
+    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 16, .max_depth = 2});
+    EXPECT_NEAR(channel_mean(image, "N.Y"), 1, 1e-5);
+    EXPECT_NEAR(channel_mean(image, "P.X"), 1.5, 0.01);
+    EXPECT_NEAR(channel_mean(image, "R"), 0.9 * 0.5 / kPi * std::pow(distance2, -1.5), 2e-4);
+}
+
+TEST(PathTracer, TheBackOfAOneSidedSurfaceIsBlack) {
+    Scene scene = lit_floor();
+    set_camera(scene, {0, -3, 0}, {0, 0, 0}, 10, {0, 0, 1});
+    add_point_light(scene, {0, -1, 0}, {1, 1, 1});
+    EXPECT_EQ(channel_mean(trace_paths(scene, {.width = 4, .height = 4, .spp = 4}), "R"), 0.0);
+    scene.materials[0].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    EXPECT_GT(channel_mean(trace_paths(scene, {.width = 4, .height = 4, .spp = 4}), "R"), 0.1);
+}
+
+TEST(PathTracer, SenselessSettingsAreRefused) {
+    EXPECT_THROW(trace_paths(lit_floor(), {.spp = 0}), Error);
+    EXPECT_THROW(trace_paths(lit_floor(), {.clamp_radius = -1}), Error);
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering into an Image, for tests.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/render/renderer.h"
+#include "host/stages/film.h"
+
+namespace nearlight::test {
+
+struct Rendering {
+    Image image;
+    RenderReport report;
+};
+
+inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
+    Rendering rendering;
+    rendering.report = render(
+        device, scene, settings,
+        [&](const RenderReport& report, const View&) {
+            rendering.image = {report.width, report.height, layer_channels(), {}};
+        },
+        [&](std::span<const float> rows) {
+            rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
+        },
+        [](const std::string&, double) { return true; });
+    return rendering;
+}
+
+}  // namespace nearlight::test

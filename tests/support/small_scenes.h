@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of a few triangles, built in code, whose light is known.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "host/image/image.h"
+#include "host/scene/scene.h"
+
+namespace nearlight::small_scenes {
+
+inline Material lambertian(Vec3 albedo) {
+    Material material{};
+    material.base = albedo;
+    material.base_texture = -1;
+    material.specular = {1, 1, 1};
+    material.eta = {1.5f, 0, 0};
+    material.base_scale = 1.0f;
+    material.light_scale = 1.0f;
+    material.transmission = {1, 1, 1};
+    return material;
+}
+
+inline uint add_material(Scene& scene, const Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<uint>(scene.materials.size() - 1);
+}
+
+inline uint add_vertex(Scene& scene, Vec3 position) {
+    scene.vertices.push_back({position, 0, {0, 0, 0}, 0});
+    return static_cast<uint>(scene.vertices.size() - 1);
+}
+
+inline void add_triangle(Scene& scene, Vec3 a, Vec3 b, Vec3 c, uint material) {
+    const uint first = add_vertex(scene, a);
+    add_vertex(scene, b);
+    add_vertex(scene, c);
+    scene.triangles.push_back({first, first + 1, first + 2, material});
+}
+
+/// The parallelogram corner, corner + s, corner + s + t, corner + t; its front is where s × t points.
+inline void add_quad(Scene& scene, Vec3 corner, Vec3 s, Vec3 t, uint material) {
+    const uint first = add_vertex(scene, corner);
+    add_vertex(scene, corner + s);
+    add_vertex(scene, corner + s + t);
+    add_vertex(scene, corner + t);
+    scene.triangles.push_back({first, first + 1, first + 2, material});
+    scene.triangles.push_back({first, first + 2, first + 3, material});
+}
+
+/// A sphere about the origin of 20·4^subdivisions triangles whose fronts face the inside.
+inline void add_inward_sphere(Scene& scene, float radius, int subdivisions, uint material) {
+    const float g = 0.5f * (1.0f + std::sqrt(5.0f));
+    const std::array<Vec3, 12> corners{Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                       {0, -1, g},     {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                       {g, 0, -1},     {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    constexpr std::array<std::array<int, 3>, 20> kFaces{
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    std::vector<std::array<Vec3, 3>> faces;
+    for (const auto& face : kFaces) {
+        faces.push_back({normalize(corners[static_cast<std::size_t>(face[0])]),
+                         normalize(corners[static_cast<std::size_t>(face[1])]),
+                         normalize(corners[static_cast<std::size_t>(face[2])])});
+    }
+    for (int i = 0; i < subdivisions; ++i) {
+        std::vector<std::array<Vec3, 3>> finer;
+        for (const auto& [a, b, c] : faces) {
+            const Vec3 ab = normalize(a + b);
+            const Vec3 bc = normalize(b + c);
+            const Vec3 ca = normalize(c + a);
+            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        faces = std::move(finer);
+    }
+    for (const auto& [a, b, c] : faces) {
+        add_triangle(scene, a * radius, c * radius, b * radius, material);
+    }
+}
+
+inline void add_point_light(Scene& scene, Vec3 position, Vec3 intensity) {
+    Emitter light{};
+    light.type = NEARLIGHT_EMITTER_POINT;
+    light.position = position;
+    light.radiance = intensity;
+    scene.delta_emitters.push_back(light);
+}
+
+inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<double, 3> target, double fov,
+                       std::array<double, 3> up = {0, 1, 0}) {
+    scene.camera.to_world = look_at(origin, target, up);
+    scene.camera.fov_x_degrees = fov;
+}
+
+/// Mean of a channel over the picture.
+inline double channel_mean(const Image& image, std::string_view channel) {
+    const auto index = static_cast<std::size_t>(image.find_channel(channel));
+    double sum = 0;
+    for (std::size_t i = index; i < image.values.size(); i += image.channel_count()) {
+        sum += image.values[i];
+    }
+    return sum / (double(image.width) * image.height);
+}
+
+/// Standard deviation of the mean of R over the picture, by the picture's own variance channel.
+inline double standard_error(const Image& image) {
+    return std::sqrt(channel_mean(image, "variance.R") / (double(image.width) * image.height));
+}
+
+}  // namespace nearlight::small_scenes
