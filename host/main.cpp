@@ -5,6 +5,7 @@
 #include <new>
 
 #include "host/base/error.h"
+#include "host/cli/bench_command.h"
 #include "host/cli/command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
         nearlight::add_render_command(line);
         nearlight::add_diff_command(line);
         nearlight::add_devices_command(line);
+        nearlight::add_bench_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
         return fail(error.what(), error.code());
