@@ -77,7 +77,7 @@ struct Object {
     [[nodiscard]] std::vector<const Object*> nested(const std::string& tag) const;
 
     /// Marks all nested objects of the tag as known.
-    void ignore_nested(const std::string& tag) const { static_cast<void>(nested(tag)); }
+    void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
 
     /// A note for each property or nested object that nobody has asked for.
     void report_unused(NoteSink& notes) const;
