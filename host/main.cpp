@@ -5,8 +5,8 @@
 #include <new>
 
 #include "host/base/error.h"
-#include "host/cli/command.h"
 #include "host/cli/bench_command.h"
+#include "host/cli/command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
 #include "host/cli/info_command.h"

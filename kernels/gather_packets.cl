@@ -21,6 +21,17 @@
     NEARLIGHT_PACKET_SIZE  // receivers that go through the tree together: 16, 32 or 64
 #endif
 #define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
+#ifdef __has_builtin
+#if __has_builtin(__builtin_reduce_or)
+#define GATHER_REDUCE_OR
+#endif
+#if __has_builtin(__builtin_prefetch)
+#define GATHER_PREFETCH
+#endif
+#endif
+
+// A box of a BvhNode as floats: lower corner, a child reference, upper corner.
+#define BOX_STRIDE 4
 
 /// Segments from one VPL to the receivers of a packet; the points on them are origin + t·(dx, dy, dz).
 typedef struct Segments {
@@ -29,7 +40,8 @@ typedef struct Segments {
     float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
     float16 weight[GATHER_GROUPS];
     float3 origin;
-    float3 axis;  // direction of the packet as a whole
+    float3 axis;                  // direction of the packet as a whole
+    uint near_x, near_y, near_z;  // which plane comes first: 0 the lower, BOX_STRIDE the upper
 } Segments;
 
 typedef struct Accumulator {
@@ -46,12 +58,7 @@ inline float16 max16(float16 a, float16 b) {
 
 /// True if any lane is −1. Some drivers compile any() to a branch a lane pair.
 inline bool any_lane(int16 mask) {
-#ifdef __has_builtin
-#if __has_builtin(__builtin_reduce_or)
-#define NEARLIGHT_REDUCE_OR 1
-#endif
-#endif
-#ifdef NEARLIGHT_REDUCE_OR
+#ifdef GATHER_REDUCE_OR
     return __builtin_reduce_or(mask) != 0;
 #else
     const int8 a = mask.lo | mask.hi;
@@ -61,25 +68,42 @@ inline bool any_lane(int16 mask) {
 #endif
 }
 
+/// Asks for a child's memory before it is known whether the child will be entered.
+inline void prefetch_child(const global BvhNode* nodes, const global BvhTriangle* triangles, uint child) {
+#ifdef GATHER_PREFETCH
+    const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
+    __builtin_prefetch(leaf ? (const global void*)(triangles + (child & NEARLIGHT_LEAF_FIRST_MASK))
+                            : (const global void*)(nodes + child));
+#endif
+}
+
 inline float16 reciprocal16(float16 d) {
     const float16 tiny = (float16)1e-20f;
     return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
 }
 
-/// The first group from `group` on that meets the box [low, high] (relative to the origin); GATHER_GROUPS:
-/// none.
-inline uint first_group_in_box(const Segments* s, float3 low, float3 high, uint group) {
+/// The first group from `group` on that meets the box; GATHER_GROUPS: none. With `one_octant` all open
+/// segments meet the planes in the order that near_x, near_y and near_z say.
+inline uint first_group_in_box(const Segments* s, const global float* box, bool one_octant, uint group) {
+    // Subtracted as vectors, because a load that repeats a number costs nothing and a shuffle does.
+    const float16 near_x = (float16)box[s->near_x] - s->origin.x;
+    const float16 near_y = (float16)box[s->near_y + 1] - s->origin.y;
+    const float16 near_z = (float16)box[s->near_z + 2] - s->origin.z;
+    const float16 far_x = (float16)box[BOX_STRIDE - s->near_x] - s->origin.x;
+    const float16 far_y = (float16)box[BOX_STRIDE - s->near_y + 1] - s->origin.y;
+    const float16 far_z = (float16)box[BOX_STRIDE - s->near_z + 2] - s->origin.z;
+    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN;
     for (; group < GATHER_GROUPS; ++group) {
-        const float16 x0 = low.x * s->reciprocal_x[group];
-        const float16 x1 = high.x * s->reciprocal_x[group];
-        const float16 y0 = low.y * s->reciprocal_y[group];
-        const float16 y1 = high.y * s->reciprocal_y[group];
-        const float16 z0 = low.z * s->reciprocal_z[group];
-        const float16 z1 = high.z * s->reciprocal_z[group];
-        const float16 enter = max16(max16(min16(x0, x1), min16(y0, y1)),
-                                    max16(min16(z0, z1), (float16)NEARLIGHT_SEGMENT_T_MIN));
-        const float16 leave =
-            min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), s->t_max[group]));
+        const float16 x0 = near_x * s->reciprocal_x[group], x1 = far_x * s->reciprocal_x[group];
+        const float16 y0 = near_y * s->reciprocal_y[group], y1 = far_y * s->reciprocal_y[group];
+        const float16 z0 = near_z * s->reciprocal_z[group], z1 = far_z * s->reciprocal_z[group];
+        const float16 t_max = s->t_max[group];
+        const float16 enter = one_octant
+                                  ? max16(max16(x0, y0), max16(z0, t_min))
+                                  : max16(max16(min16(x0, x1), min16(y0, y1)), max16(min16(z0, z1), t_min));
+        const float16 leave = one_octant
+                                  ? min16(min16(x1, y1), min16(z1, t_max))
+                                  : min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), t_max));
         if (any_lane(enter <= leave)) {
             break;
         }
@@ -120,36 +144,43 @@ inline uint first_open_group(const Segments* s, uint group) {
     return group;
 }
 
+/// Ends the segments from `group` on that meet a triangle of the leaf. Returns true if any segment ended.
+inline bool intersect_leaf(Segments* s, const global BvhTriangle* triangles, uint leaf, uint group) {
+    const uint first = leaf & NEARLIGHT_LEAF_FIRST_MASK;
+    const uint last = first + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+    bool any_hit = false;
+    for (uint i = first; i <= last; ++i) {
+        any_hit |= intersect_triangle(s, triangles + i, group);
+    }
+    return any_hit;
+}
+
+inline bool left_is_nearer(const Segments* s, const global BvhNode* node) {
+    const float3 left = load3(node->left_min) + load3(node->left_max);
+    const float3 right = load3(node->right_min) + load3(node->right_max);
+    return dot(left - right, s->axis) <= 0.0f;
+}
+
 /// Ends the segments (t_max = −1) that meet anything.
-inline void trace_segments(Segments* s, const global BvhNode* nodes, const global BvhTriangle* triangles) {
+inline void trace_segments(Segments* s, const global BvhNode* nodes, const global BvhTriangle* triangles,
+                           bool one_octant) {
     uint2 stack[NEARLIGHT_MAX_BVH_DEPTH + 4];  // child, first group
     int top = 0;
-    uint group = first_open_group(s, 0);
-    if (group == GATHER_GROUPS) {
-        return;
-    }
     uint child = 0;
+    uint group = first_open_group(s, 0);
     for (;;) {
         if (child & NEARLIGHT_LEAF_BIT) {
-            const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
-            const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-            bool any_hit = false;
-            for (uint i = first; i <= last; ++i) {
-                any_hit |= intersect_triangle(s, triangles + i, group);
-            }
-            if (any_hit && first_open_group(s, 0) == GATHER_GROUPS) {
+            if (intersect_leaf(s, triangles, child, group) && first_open_group(s, 0) == GATHER_GROUPS) {
                 return;
             }
         } else {
             const global BvhNode* node = nodes + child;
-            const float3 left_min = load3(node->left_min) - s->origin;
-            const float3 left_max = load3(node->left_max) - s->origin;
-            const float3 right_min = load3(node->right_min) - s->origin;
-            const float3 right_max = load3(node->right_max) - s->origin;
-            const uint left = first_group_in_box(s, left_min, left_max, group);
-            const uint right = first_group_in_box(s, right_min, right_max, group);
+            prefetch_child(nodes, triangles, node->left);
+            prefetch_child(nodes, triangles, node->right);
+            const uint left = first_group_in_box(s, &node->left_min.x, one_octant, group);
+            const uint right = first_group_in_box(s, &node->right_min.x, one_octant, group);
             if (left < GATHER_GROUPS && right < GATHER_GROUPS) {
-                const bool left_first = dot(left_min + left_max - right_min - right_max, s->axis) <= 0.0f;
+                const bool left_first = left_is_nearer(s, node);
                 stack[top++] = left_first ? (uint2)(node->right, right) : (uint2)(node->left, left);
                 child = left_first ? node->left : node->right;
                 group = left_first ? left : right;
@@ -167,6 +198,36 @@ inline void trace_segments(Segments* s, const global BvhNode* nodes, const globa
         --top;
         child = stack[top].x;
         group = stack[top].y;
+    }
+}
+
+/// True if no two open segments go opposite ways along the axis of these reciprocals; `near_plane`: see
+/// Segments.
+inline bool one_way(const Segments* s, const float16* reciprocal, uint* near_plane) {
+    int16 up = (int16)0, down = (int16)0;  // only the sign bits count
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const int16 closed = as_int16(s->t_max[group]);
+        const int16 sign = as_int16(reciprocal[group]);
+        up |= ~(closed | sign);
+        down |= ~closed & sign;
+    }
+    const bool any_down = any_lane(down < 0);
+    *near_plane = any_down ? BOX_STRIDE : 0;
+    return !(any_down && any_lane(up < 0));
+}
+
+/// Ends the segments that meet anything, by the version of the traversal that suits them.
+inline void test_visibility(Segments* s, const global BvhNode* nodes, const global BvhTriangle* triangles) {
+    if (first_open_group(s, 0) == GATHER_GROUPS) {
+        return;
+    }
+    const bool one_way_x = one_way(s, s->reciprocal_x, &s->near_x);
+    const bool one_way_y = one_way(s, s->reciprocal_y, &s->near_y);
+    const bool one_way_z = one_way(s, s->reciprocal_z, &s->near_z);
+    if (one_way_x && one_way_y && one_way_z) {
+        trace_segments(s, nodes, triangles, true);
+    } else {
+        trace_segments(s, nodes, triangles, false);
     }
 }
 
@@ -281,7 +342,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
             global uchar* pairs = record + gather_record_index(packet, i, record_vpl_count, first_lane);
             record_open(&segments, pairs);
 #endif
-            trace_segments(&segments, nodes, triangles);
+            test_visibility(&segments, nodes, triangles);
 #ifdef GATHER_RECORD
             record_occluded(&segments, pairs);
 #endif

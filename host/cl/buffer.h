@@ -24,11 +24,11 @@ class Buffer {
     Buffer() = default;
     Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
         const std::size_t limit = device.entry().max_allocation_bytes;
-        if (bytes() > limit) {
-            throw Error(ExitCode::out_of_memory, "a buffer of " + std::to_string(bytes() >> 20) +
-                                                     " MiB exceeds the largest allocation of device " +
-                                                     device.name() + " (" + std::to_string(limit >> 20) +
-                                                     " MiB); use a smaller --size, --spp or scene");
+        if (count > limit / sizeof(T)) {
+            throw Error(ExitCode::out_of_memory,
+                        "a buffer of " + std::to_string(count) + " × " + std::to_string(sizeof(T)) +
+                            " bytes exceeds the largest allocation of device " + device.name() + " (" +
+                            std::to_string(limit >> 20) + " MiB); use a smaller --size, --spp or scene");
         }
         handle_ = with_opencl_errors(std::to_string(bytes() >> 20) + " MiB on device " + device.name(), [&] {
             return cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes());

@@ -155,11 +155,11 @@ std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::strin
         throw Error(ExitCode::no_device,
                     "no OpenCL device matches '" + choice + "'; there are: " + describe_choices(list));
     }
-    for (const DeviceEntry& entry : chosen) {
-        if (!entry.unusable_because.empty()) {
-            throw Error(ExitCode::no_device,
-                        "OpenCL device '" + entry.name + "' cannot be used: " + entry.unusable_because);
-        }
+    std::stable_partition(chosen.begin(), chosen.end(),
+                          [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
+    if (const DeviceEntry& first = chosen.front(); !first.unusable_because.empty()) {
+        throw Error(ExitCode::no_device,
+                    "OpenCL device '" + first.name + "' cannot be used: " + first.unusable_because);
     }
     if (choice != "all") {
         chosen.resize(1);

@@ -73,10 +73,10 @@ struct Object {
 
     /// The nested texture called `name`, or null.
     [[nodiscard]] const Object* texture(const std::string& name) const;
-    /// All nested objects of the wanted tag, in order.
-    [[nodiscard]] std::vector<const Object*> nested(const std::string& wanted) const;
+    /// All nested objects of the tag, in order.
+    [[nodiscard]] std::vector<const Object*> nested(const std::string& tag) const;
 
-    /// Marks all nested objects of the wanted tag as known.
+    /// Marks all nested objects of the tag as known.
     void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
 
     /// A note for each property or nested object that nobody has asked for.

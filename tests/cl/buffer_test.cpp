@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/buffer.h"
+
+#include <numeric>
+
+#include "tests/support/device_fixture.h"
+#include "tests/support/error_matchers.h"
+
+namespace nearlight {
+namespace {
+
+using test::error_of;
+using test::mentions;
+
+class BufferTest : public test::DeviceTest {};
+
+std::vector<uint> ascending(std::size_t count) {
+    std::vector<uint> values(count);
+    std::iota(values.begin(), values.end(), 0u);
+    return values;
+}
+
+TEST_F(BufferTest, GivesBackWhatWasPutIn) {
+    on_each_device([](Device& device) {
+        for (const std::size_t count : {0u, 1u, 1000u, 1u << 20u}) {
+            const std::vector<uint> values = ascending(count);
+            EXPECT_EQ(Buffer<uint>(device, values).download(), values);
+        }
+    });
+}
+
+TEST_F(BufferTest, PartsGoWhereTheyShould) {
+    on_each_device([](Device& device) {
+        Buffer<uint> buffer(device, ascending(10));
+        buffer.upload(std::vector<uint>{100, 101}, 4);
+        EXPECT_EQ(buffer.download(), (std::vector<uint>{0, 1, 2, 3, 100, 101, 6, 7, 8, 9}));
+        EXPECT_EQ(buffer.download_one(5), 101u);
+        std::vector<uint> part(3);
+        buffer.download(part, 7);
+        EXPECT_EQ(part, (std::vector<uint>{7, 8, 9}));
+        buffer.fill_zero();
+        EXPECT_EQ(buffer.download(), std::vector<uint>(10));
+    });
+}
+
+TEST_F(BufferTest, PartsBeyondTheEndAreRefused) {
+    on_each_device([](Device& device) {
+        Buffer<uint> buffer(device, ascending(10));
+        EXPECT_THROW(buffer.upload(std::vector<uint>{1, 2}, 9), Error);
+        EXPECT_THROW((void)buffer.download_one(10), Error);
+        EXPECT_EQ(buffer.download(), ascending(10));
+    });
+}
+
+TEST_F(BufferTest, MovingHandsOverTheMemoryAndItsAccount) {
+    on_each_device([](Device& device) {
+        const std::size_t before = device.peak_bytes();
+        {
+            Buffer<uint> first(device, ascending(100));
+            Buffer<uint> second = std::move(first);
+            first = Buffer<uint>(device, ascending(50));
+            EXPECT_EQ(second.download(), ascending(100));
+            second = std::move(first);
+            EXPECT_EQ(second.download(), ascending(50));
+        }
+        Buffer<uint> later(device, 150);
+        EXPECT_EQ(device.peak_bytes() - before, 150 * sizeof(uint)) << "released memory is still counted";
+    });
+}
+
+TEST_F(BufferTest, MoreThanTheDeviceAllowsIsOutOfMemory) {
+    on_each_device([](Device& device) {
+        const std::size_t count = device.entry().max_allocation_bytes / sizeof(uint) + 1;
+        const Error error = error_of([&] { Buffer<uint>(device, count); });
+        EXPECT_EQ(error.code(), ExitCode::out_of_memory);
+        EXPECT_TRUE(mentions(error, device.name()));
+        EXPECT_TRUE(mentions(error, "MiB"));
+    });
+}
+
+TEST_F(BufferTest, CountsWhoseBytesOverflowAreOutOfMemoryToo) {
+    on_each_device([](Device& device) {
+        const std::size_t count = std::numeric_limits<std::size_t>::max() / sizeof(uint) + 2;
+        EXPECT_EQ(error_of([&] { Buffer<uint>(device, count); }).code(), ExitCode::out_of_memory);
+    });
+}
+
+}  // namespace
+}  // namespace nearlight

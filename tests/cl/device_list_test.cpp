@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/device_list.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/error_matchers.h"
+
+namespace nearlight {
+namespace {
+
+using test::error_of;
+using test::mentions;
+
+DeviceEntry entry(int index, const std::string& name, DeviceKind kind, const std::string& unusable = "") {
+    DeviceEntry result;
+    result.index = index;
+    result.name = name;
+    result.platform = "Some Platform";
+    result.kind = kind;
+    result.unusable_because = unusable;
+    return result;
+}
+
+/// The choice depends on NEARLIGHT_DEVICE, which the machine may have set.
+class ChooseDevices : public ::testing::Test {
+  protected:
+    void SetUp() override { unsetenv("NEARLIGHT_DEVICE"); }
+    void TearDown() override { unsetenv("NEARLIGHT_DEVICE"); }
+
+    static DeviceList some_devices() {
+        return {.devices = {entry(0, "pthread-Common CPU", DeviceKind::cpu),
+                            entry(1, "Broken GPU", DeviceKind::gpu, "its driver has no compiler"),
+                            entry(2, "Fast GPU", DeviceKind::gpu), entry(3, "Other GPU", DeviceKind::gpu)},
+                .problems = {}};
+    }
+    static std::vector<int> chosen(const std::string& choice) {
+        std::vector<int> indices;
+        for (const DeviceEntry& device : choose_devices(some_devices(), choice)) {
+            indices.push_back(device.index);
+        }
+        return indices;
+    }
+};
+
+using Indices = std::vector<int>;
+
+TEST_F(ChooseDevices, ByIndexAndByPartOfANameInAnyCase) {
+    EXPECT_EQ(chosen("0"), Indices{0});
+    EXPECT_EQ(chosen("3"), Indices{3});
+    EXPECT_EQ(chosen("fast"), Indices{2});
+    EXPECT_EQ(chosen("COMMON"), Indices{0});
+    EXPECT_EQ(chosen("some platform"), Indices{0});
+}
+
+TEST_F(ChooseDevices, ByKindAndAll) {
+    EXPECT_EQ(chosen("cpu"), Indices{0});
+    EXPECT_EQ(chosen("all"), (Indices{0, 2, 3})) << "what cannot be used is left out";
+}
+
+TEST_F(ChooseDevices, TheKindSkipsDevicesThatCannotBeUsed) {
+    EXPECT_EQ(chosen("gpu"), Indices{2});
+}
+
+TEST_F(ChooseDevices, WithoutAChoiceTheFirstUsableGpuElseTheFirstUsable) {
+    EXPECT_EQ(chosen(""), Indices{2});
+    const DeviceList one{.devices = {entry(0, "CPU", DeviceKind::cpu)}, .problems = {}};
+    EXPECT_EQ(choose_devices(one, "").at(0).index, 0);
+}
+
+TEST_F(ChooseDevices, TheEnvironmentChoosesWhereNothingElseDoes) {
+    setenv("NEARLIGHT_DEVICE", "other", 1);
+    EXPECT_EQ(chosen(""), Indices{3});
+    EXPECT_EQ(chosen("cpu"), Indices{0});
+}
+
+TEST_F(ChooseDevices, NoMatchListsWhatThereIs) {
+    for (const char* choice : {"riva tnt", "17"}) {
+        const Error error = error_of([&] { chosen(choice); });
+        EXPECT_EQ(error.code(), ExitCode::no_device);
+        EXPECT_TRUE(mentions(error, choice));
+        EXPECT_TRUE(mentions(error, "0 = pthread-Common CPU"));
+        EXPECT_TRUE(mentions(error, "2 = Fast GPU"));
+    }
+}
+
+TEST_F(ChooseDevices, ADeviceThatCannotBeUsedSaysWhy) {
+    const Error error = error_of([] { chosen("1"); });
+    EXPECT_EQ(error.code(), ExitCode::no_device);
+    EXPECT_TRUE(mentions(error, "Broken GPU"));
+    EXPECT_TRUE(mentions(error, "its driver has no compiler"));
+}
+
+TEST_F(ChooseDevices, NoDeviceAtAllSaysWhatToInstall) {
+    for (const char* choice : {"", "all", "gpu"}) {
+        const Error error = error_of([&] { choose_devices({}, choice); });
+        EXPECT_EQ(error.code(), ExitCode::no_device);
+        EXPECT_TRUE(mentions(error, "pocl-opencl-icd"));
+    }
+    const DeviceList broken{.devices = {}, .problems = {"platform 'X' is broken"}};
+    EXPECT_TRUE(mentions(error_of([&] { choose_devices(broken, ""); }), "platform 'X' is broken"));
+}
+
+TEST(DeviceList, EntriesAreNumberedInOrderAndDescribed) {
+    const DeviceList list = list_devices();
+    for (std::size_t i = 0; i < list.devices.size(); ++i) {
+        const DeviceEntry& device = list.devices[i];
+        EXPECT_EQ(device.index, static_cast<int>(i));
+        EXPECT_FALSE(device.name.empty());
+        EXPECT_NE(device.name.back(), '\0');
+        EXPECT_GT(device.compute_units, 0u);
+        EXPECT_GT(device.max_allocation_bytes, 0u);
+        EXPECT_LE(device.max_allocation_bytes, device.global_bytes);
+    }
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cstring>
+
+#include "host/scene/mesh.h"
+#include "host/scene/obj_loader.h"
+#include "host/scene/ply_loader.h"
+#include "tests/scene/scene_files.h"
+
+namespace nearlight {
+namespace {
+
+using namespace test;
+
+const std::string kPlyHeader =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty "
+    "float t\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+template <typename T>
+void put(std::string& out, T value, bool big) {
+    std::array<char, sizeof(T)> bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    if (big) {
+        std::reverse(bytes.begin(), bytes.end());
+    }
+    out.append(bytes.data(), bytes.size());
+}
+
+std::string binary_ply(bool big) {
+    std::string out =
+        "ply\nformat binary_" + std::string(big ? "big" : "little") + "_endian 1.0\n" + kPlyHeader;
+    for (const auto& v : {std::array{0.f, 0.f}, {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
+        for (const float value : {v[0], v[1], 0.0f, v[0], v[1]}) {
+            put(out, value, big);
+        }
+    }
+    out += '\4';
+    for (const std::int32_t index : {0, 1, 2, 3}) {
+        put(out, index, big);
+    }
+    return out;
+}
+
+void expect_square(const Mesh& mesh) {
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    ASSERT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.triangles[1], (std::array<uint, 3>{0, 2, 3}));
+    expect_near(mesh.positions[2], {1, 1, 0});
+    EXPECT_EQ(mesh.uvs[1], (std::array<float, 2>{1, 0}));
+}
+
+TEST(Ply, ReadsAsciiAndBothByteOrders) {
+    const SceneFiles files;
+    expect_square(
+        read_ply(files.write("a.ply", "ply\nformat ascii 1.0\n" + kPlyHeader +
+                                          "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n")));
+    expect_square(read_ply(files.write("l.ply", binary_ply(false))));
+    expect_square(read_ply(files.write("b.ply", binary_ply(true))));
+}
+
+TEST(Ply, EveryTruncationIsAnError) {
+    const SceneFiles files;
+    const std::string whole = binary_ply(false);
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+        const auto file = files.write("t.ply", whole.substr(0, size));
+        EXPECT_TRUE(mentions(file_error([&] { read_ply(file); }), "t.ply")) << size;
+    }
+}
+
+TEST(Ply, IndicesOutOfRangeAreErrors) {
+    const SceneFiles files;
+    for (const char* face : {"3 0 1 4\n", "3 0 1 -1\n"}) {
+        const auto file = files.write("i.ply", "ply\nformat ascii 1.0\n" + kPlyHeader +
+                                                   "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n" + face);
+        EXPECT_TRUE(mentions(file_error([&] { read_ply(file); }), "only 4"));
+    }
+}
+
+Scene load_obj(const SceneFiles& files, const std::string& text) {
+    return load_scene(files.write("m.obj", text));
+}
+
+TEST(Obj, NegativeIndicesAndPolygons) {
+    const SceneFiles files;
+    const Scene scene = load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 2 0\nv 0 1 0\nf -5 -4 -3 -2 -1\n");
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    EXPECT_EQ(scene.vertices.size(), 5u);
+    expect_near(scene.vertices[scene.triangles[2].v2].position, {0, 1, 0});
+    expect_near(scene.vertices[0].normal, {0, 0, 1});
+}
+
+TEST(Obj, AnIndexOutOfRangeIsAnErrorWithItsLine) {
+    const SceneFiles files;
+    for (const char* face : {"f 1 2 4", "f 1 2 -4", "f 1 2 0", "f 1/1 2/1 3/1", "f 1//2 2//2 3//2"}) {
+        const std::string message = file_error(
+            [&] { load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n" + std::string(face) + "\n"); });
+        EXPECT_TRUE(mentions(message, "m.obj:5: ")) << message;
+    }
+}
+
+TEST(Obj, NanVerticesDropTheirTriangles) {
+    const SceneFiles files;
+    const std::string nan =
+        "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\nnan 1 0\n3 0 1 2\n3 0 2 3\n";
+    files.write("nan.ply", "ply\nformat ascii 1.0\n" + nan);
+    const Scene scene = files.load_xml("<shape type='ply'><string name='filename' value='nan.ply'/></shape>");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_TRUE(has_note(scene, "nan.ply: 1 triangles with NaN"));
+    for (const Vertex& vertex : scene.vertices) {
+        EXPECT_TRUE(is_finite(vertex.position));
+    }
+}
+
+TEST(Obj, MaterialsLightsAndMissingOnes) {
+    const SceneFiles files;
+    files.write(
+        "my lib.mtl",
+        "newmtl red wall\nKd 0.8 0.1 0.1\nillum 1\nnewmtl lamp\nKd 0 0 0\nKe 5 6 7\n"
+        "newmtl paper\nKd 1 1 1\nmap_Kd gone.png\nnewmtl pane\nd 0.1\nnewmtl mirror\nillum 5\nKs 1 1 1\n");
+    std::string text = "mtllib my lib.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const char* name : {"red wall", "lamp", "paper", "nobody", "pane", "mirror"}) {
+        text += std::string("usemtl ") + name + "\nf 1 2 3\n";
+    }
+    const Scene scene = load_obj(files, text);
+    ASSERT_EQ(scene.triangles.size(), 7u);
+    const auto material = [&](std::size_t i) { return scene.materials[scene.triangles[i].material]; };
+    expect_near(material(0).base, {0.5f, 0.5f, 0.5f});
+    expect_near(material(1).base, {0.8f, 0.1f, 0.1f});
+    expect_near(material(2).emission, {5, 6, 7});
+    expect_near(material(3).base, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(material(5).lobe, NEARLIGHT_LOBE_THIN_DIELECTRIC);
+    EXPECT_EQ(material(6).lobe, NEARLIGHT_LOBE_CONDUCTOR);
+    EXPECT_TRUE(has_note(scene, "m.obj:2: material library 'missing.mtl'"));
+    EXPECT_TRUE(has_note(scene, "my lib.mtl:9: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "m.obj:13: material 'nobody'"));
+    EXPECT_TRUE(scene.delta_emitters.empty());
+}
+
+TEST(Obj, GetsACameraThatSeesEverythingAndALight) {
+    const SceneFiles files;
+    const Scene scene = load_obj(files, "v -3 0 -1\nv 5 0 2\nv 0 4 0\nf 1 2 3\n");
+    EXPECT_EQ(scene.delta_emitters.size(), 1u);
+    EXPECT_EQ(scene.environment.width, 1);
+    const Mat4 to_camera = inverse(scene.camera.to_world);
+    const float tan_x = std::tan(degrees_to_radians(static_cast<float>(scene.camera.fov_x_degrees) / 2));
+    const float tan_y =
+        tan_x * static_cast<float>(scene.camera.height) / static_cast<float>(scene.camera.width);
+    for (const Vertex& vertex : scene.vertices) {
+        const Vec3 p = transform_point(to_camera, vertex.position);
+        EXPECT_GT(p.z, 0.0f);
+        EXPECT_LE(std::abs(p.x), tan_x * p.z);
+        EXPECT_LE(std::abs(p.y), tan_y * p.z);
+    }
+}
+
+TEST(Obj, MissingAndEmptyFiles) {
+    const SceneFiles files;
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("no.obj")); }), "no such"));
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("")); }), "directory"));
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.write("a.fbx", "x")); }), "unknown scene format"));
+    const Scene scene = load_obj(files, "");
+    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_TRUE(has_note(scene, "no triangles"));
+}
+
+TEST(Mesh, SmoothNormalsAreWeightedByAngle) {
+    // A right-angled edge whose one side is cut into two triangles at the corner: both sides weigh the same.
+    const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
+    const std::vector<std::array<uint, 3>> t{{0, 1, 2}, {0, 2, 3}, {0, 4, 1}};
+    const std::vector<Vec3> n = smooth_normals(p, t);
+    expect_near(n[0], normalize(Vec3{0, 1, 1}));
+    expect_near(n[2], {0, 0, 1});
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+
+#include "host/scene/ply_loader.h"
+#include "tests/scene/scene_files.h"
+
+namespace nearlight {
+namespace {
+
+using namespace test;
+
+// Empty where the scenes are not on this machine.
+std::filesystem::path real_scene(const std::string& name) {
+    const char* folder = std::getenv("NEARLIGHT_TEST_SCENES");
+    const std::filesystem::path root =
+        folder != nullptr ? folder : std::filesystem::path(NEARLIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
+    return std::filesystem::exists(root / name) ? root / name : std::filesystem::path();
+}
+
+TEST(RealScenes, ModernHall) {
+    const auto file = real_scene("modern-hall/scene.xml");
+    if (file.empty()) {
+        GTEST_SKIP() << "modern-hall is not there; set NEARLIGHT_TEST_SCENES";
+    }
+    const Scene scene = load_scene(file);
+    EXPECT_EQ(scene.name, "modern-hall");
+    EXPECT_EQ(scene.triangles.size(), 31567u);
+    EXPECT_EQ(scene.images.size(), 3u);
+    EXPECT_TRUE(scene.notes.empty()) << to_string(scene.notes.front());
+    EXPECT_EQ(scene.camera.width, 1280);
+    EXPECT_EQ(scene.max_depth, 65);
+    EXPECT_EQ(scene.samples_per_pixel, 256);
+}
+
+TEST(RealScenes, VeachBidir) {
+    const auto file = real_scene("veach-bidir/scene.xml");
+    if (file.empty()) {
+        GTEST_SKIP() << "veach-bidir is not there; set NEARLIGHT_TEST_SCENES";
+    }
+    const Scene scene = load_scene(file, {.parameters = {{"resx", "320"}}, .strict = false});
+    EXPECT_EQ(scene.triangles.size(), 11544u);
+    EXPECT_EQ(scene.camera.width, 320);
+    EXPECT_EQ(scene.camera.height, 1024);
+    std::size_t emissive = 0;
+    for (const Triangle& triangle : scene.triangles) {
+        emissive += is_zero(scene.materials[triangle.material].emission) ? 0 : 1;
+    }
+    EXPECT_EQ(emissive, 4u);
+    EXPECT_EQ(scene.notes.size(), 1u);  // the lamp's Beckmann distribution
+}
+
+TEST(RealScenes, TeapotPlyFiles) {
+    std::size_t triangles = 0;
+    for (const char* name : {"Mesh000", "Mesh001", "Mesh002", "Mesh003"}) {
+        const auto file = real_scene("teapot-full/models/" + std::string(name) + ".ply");
+        if (file.empty()) {
+            GTEST_SKIP() << "teapot-full is not there; set NEARLIGHT_TEST_SCENES";
+        }
+        triangles += read_ply(file).triangles.size();
+    }
+    EXPECT_EQ(triangles, 126742u);
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions of kernels/lib/ that several stages share, called on the device.
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "host/base/math.h"
+#include "host/base/random.h"
+#include "host/scene/pinhole_camera.h"
+#include "host/stages/close_range.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/kernel_probe.h"
+
+namespace nearlight {
+namespace {
+
+using test::KernelProbe;
+
+class KernelLibraryTest : public test::DeviceTest {};
+
+TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
+    SceneCamera camera;
+    camera.to_world = look_at({3, -2, 5}, {-1, 4, 0.5}, {0.3, 1, 0.2});
+    camera.fov_x_degrees = 71;
+    const PinholeCamera pinhole = make_pinhole_camera(camera, 640, 200);
+    constexpr float kRange = 2.5f;
+    constexpr std::size_t kCount = 10'000;
+    std::vector<Vec3> points(kCount);
+    std::vector<uint> expected(kCount);
+    Pcg32 random(5);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        // Film positions and distances keep off the borders by more than rounding.
+        const auto off_border = [&](bool& inside) {
+            inside = random.uniform() < 0.8f;
+            return inside ? 0.001f + 0.998f * random.uniform() : 1.001f + random.uniform();
+        };
+        std::array<bool, 3> inside{};
+        const float x = off_border(inside[0]);
+        const float y = off_border(inside[1]);
+        const float distance = kRange * off_border(inside[2]);
+        const Vec3 direction = pinhole.corner + pinhole.step_x * (x * 640) + pinhole.step_y * (y * 200);
+        points[i] = pinhole.origin + normalize(direction) * distance;
+        expected[i] = inside[0] && inside[1] && inside[2];
+    }
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/close_range.cl\"\n"
+                          "kernel void probe(const global CloseRange* region, const global Vec3* points,\n"
+                          "                  global uint* flags) {\n"
+                          "    const uint i = get_global_id(0);\n"
+                          "    flags[i] = in_close_range(region, load3(points[i]));\n"
+                          "}\n");
+        const Buffer<CloseRange> region(probe.device(),
+                                        std::vector<CloseRange>{make_close_range(pinhole, kRange)});
+        Buffer<uint> flags(probe.device(), kCount);
+        probe.kernel().launch(kCount, 8, region, Buffer<Vec3>(probe.device(), points), flags);
+        EXPECT_EQ(flags.download(), expected);
+    });
+}
+
+/// pcg4d as the paper has it [Jarzynski & Olano 2020].
+std::array<uint, 4> pcg4d(std::array<uint, 4> v) {
+    for (uint& x : v) {
+        x = x * 1664525u + 1013904223u;
+    }
+    const auto mix = [&] {
+        v[0] += v[1] * v[3];
+        v[1] += v[2] * v[0];
+        v[2] += v[0] * v[1];
+        v[3] += v[1] * v[2];
+    };
+    mix();
+    for (uint& x : v) {
+        x ^= x >> 16u;
+    }
+    mix();
+    return v;
+}
+
+TEST_F(KernelLibraryTest, RandomWordsAreTheHashOfTheirKeyOnEveryDevice) {
+    constexpr uint kCount = 4096;
+    on_each_device([](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/random.cl\"\n"
+                          "kernel void probe(global uint4* words) {\n"
+                          "    const uint i = get_global_id(0);\n"
+                          "    words[i] = random_uint4((uint4)(i, i / 7, ~i, 5));\n"
+                          "}\n");
+        Buffer<std::array<uint, 4>> words(probe.device(), kCount);
+        probe.kernel().launch(kCount, 8, words);
+        const std::vector<std::array<uint, 4>> found = words.download();
+        for (uint i = 0; i < kCount; ++i) {
+            EXPECT_EQ(found[i], pcg4d({i, i / 7, ~i, 5})) << "key " << i;
+        }
+    });
+}
+
+TEST_F(KernelLibraryTest, UnitFloatsStayBelowOne) {
+    on_each_device([](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/random.cl\"\n"
+                          "kernel void probe(global float* out) {\n"
+                          "    out[0] = to_unit_float(0);\n"
+                          "    out[1] = to_unit_float(1u << 31);\n"
+                          "    out[2] = to_unit_float(~0u);\n"
+                          "}\n");
+        Buffer<float> out(probe.device(), 3);
+        probe.kernel().launch(1, 1, out);
+        EXPECT_EQ(out.download(), (std::vector<float>{0.0f, 0.5f, 1.0f - 0x1p-24f}));
+    });
+}
+
+/// Every way to cut the unit square into 256 equal boxes of power-of-two sides gives each box one point.
+void expect_net(const std::vector<std::array<float, 2>>& points) {
+    for (uint columns = 1; columns <= 256; columns *= 2) {
+        const uint rows = 256 / columns;
+        std::set<uint> boxes;
+        for (const auto& [x, y] : points) {
+            ASSERT_GE(std::min(x, y), 0.0f);
+            ASSERT_LT(std::max(x, y), 1.0f);
+            boxes.insert(static_cast<uint>(x * static_cast<float>(columns)) * rows +
+                         static_cast<uint>(y * static_cast<float>(rows)));
+        }
+        EXPECT_EQ(boxes.size(), 256u) << columns << " columns";
+    }
+}
+
+TEST_F(KernelLibraryTest, AlignedRunsOfSamplesAreNets) {
+    on_each_device([](Device& device) {
+        KernelProbe probe(
+            device,
+            "#include \"lib/random.cl\"\n"
+            "kernel void probe(global float2* points, uint first, uint dimension, uint seed) {\n"
+            "    const uint i = get_global_id(0);\n"
+            "    points[i] = sample_2d(first + i, dimension, seed);\n"
+            "}\n");
+        Buffer<std::array<float, 2>> points(probe.device(), 256);
+        std::set<float> firsts;
+        for (uint run = 0; run < 24; ++run) {
+            probe.kernel().launch(256, 8, points, 256 * run, run / 2, run / 4);
+            expect_net(points.download());
+            firsts.insert(points.download_one(0)[0]);
+        }
+        EXPECT_GT(firsts.size(), 20u) << "runs, dimensions and seeds give the same points";
+    });
+}
+
+}  // namespace
+}  // namespace nearlight

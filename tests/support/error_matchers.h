@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an action throws, as something to look at.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "host/base/error.h"
+
+namespace nearlight::test {
+
+/// The Error that `action` throws; fails the test (and returns ExitCode::done) if it throws none.
+template <typename Action>
+Error error_of(Action&& action) {
+    try {
+        std::forward<Action>(action)();
+    } catch (const Error& error) {
+        return error;
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {ExitCode::done, ""};
+}
+
+inline ::testing::AssertionResult mentions(const Error& error, const std::string& text) {
+    if (std::string(error.what()).find(text) != std::string::npos) {
+        return ::testing::AssertionSuccess();
+    }
+    return ::testing::AssertionFailure() << "'" << text << "' is not in: " << error.what();
+}
+
+}  // namespace nearlight::test

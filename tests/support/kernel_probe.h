@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls functions of kernels/lib/ from a kernel that a test brings along.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "host/cl/kernel.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight::test {
+
+/// Compiles `source` with the kernel library beside it; its entry point is `probe`.
+class KernelProbe {
+  public:
+    KernelProbe(const Device& like, const std::string& source)
+        : device_(like.entry(), options(source)), kernel_(Program(device_, "probe.cl"), "probe") {}
+
+    [[nodiscard]] Device& device() { return device_; }
+    [[nodiscard]] Kernel& kernel() { return kernel_; }
+
+  private:
+    DeviceOptions options(const std::string& source) {
+        const std::filesystem::path kernels = std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels";
+        for (const char* folder : {"lib", "shared"}) {
+            std::filesystem::copy(kernels / folder, folder_ / folder);
+        }
+        std::ofstream(folder_ / "probe.cl") << source;
+        return {.kernel_dir = folder_.path(), .cache_dir = "none"};
+    }
+
+    TemporaryFolder folder_;
+    Device device_;
+    Kernel kernel_;
+};
+
+}  // namespace nearlight::test
