@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/flatten.h"
 
-#include <tbb/parallel_for.h>
-
 #include <utility>
+
+#include "host/bvh/parallel.h"
 
 namespace nearlight {
 namespace {
 
 /// Where boxes and triangles are that nothing shall meet; far, yet its distances do not overflow.
 constexpr float kFar = 1e30f;
+constexpr std::size_t kFetchGrain = 1u << 12u;
 constexpr Vec3 kFarPoint{kFar, kFar, kFar};
 
 /// Appends the subtree in depth-first order and returns the reference to it.
@@ -69,8 +70,10 @@ Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
     tree.slots = {};  // before the triangles need memory
     bvh.triangle_ids = std::move(tree.order);
     bvh.triangles.resize(bvh.triangle_ids.size());
-    tbb::parallel_for(std::size_t{0}, bvh.triangles.size(), [&](std::size_t i) {
-        bvh.triangles[i] = fetch_triangle(scene, scene.triangles[bvh.triangle_ids[i]]);
+    parallel_for(bvh.triangles.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            bvh.triangles[i] = fetch_triangle(scene, scene.triangles[bvh.triangle_ids[i]]);
+        }
     });
     bvh.sah_cost = sah_cost(bvh, config);
     return bvh;

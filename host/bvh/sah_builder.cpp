@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/sah_builder.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/bvh/box4.h"
+#include "host/bvh/parallel.h"
 
 namespace nearlight {
 namespace {
@@ -134,24 +130,16 @@ struct Bins {
 /// order in which threads come by, so neither does the result.
 template <typename Sum, typename Add>
 void fold(std::span<const Reference> range, Sum& sum, const Add& add) {
-    if (range.size() < kParallelLoop) {
-        for (const Reference& reference : range) {
-            add(sum, reference);
+    const auto add_part = [&](Sum& partial, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            add(partial, range[i]);
         }
-        return;
+    };
+    if (range.size() < kParallelLoop) {
+        add_part(sum, 0, range.size());
+    } else {
+        sum = parallel_sum(range.size(), kLoopGrain, sum, add_part);
     }
-    sum = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, range.size(), kLoopGrain), sum,
-        [&](const tbb::blocked_range<std::size_t>& part, Sum partial) {
-            for (std::size_t i = part.begin(); i < part.end(); ++i) {
-                add(partial, range[i]);
-            }
-            return partial;
-        },
-        [](Sum left, const Sum& right) {
-            left.add(right);
-            return left;
-        });
 }
 
 struct Split {
@@ -272,7 +260,7 @@ class SahBuilder {
         const auto build_left = [&] { left = build(first, middle, depth + 1); };
         const auto build_right = [&] { right = build(middle, end, depth + 1); };
         if (end - first > kTaskTriangles) {
-            tbb::parallel_invoke(build_left, build_right);
+            parallel_invoke(build_left, build_right);
         } else {
             build_left();
             build_right();
@@ -301,8 +289,8 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
                         std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + ": simplify the scene");
     }
     std::vector<Reference> references(ids.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kLoopGrain), [&](const auto& part) {
-        for (std::size_t i = part.begin(); i < part.end(); ++i) {
+    parallel_for(ids.size(), kLoopGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
             references[i] = make_reference(scene, ids[i]);
         }
     });

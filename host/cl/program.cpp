@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "host/base/hash.h"
-#include "host/base/log.h"
+#include "host/base/message.h"
 #include "host/cl/kernel_source.h"
 #include "host/cl/opencl_error.h"
 #include "host/cl/program_cache.h"
@@ -48,8 +48,8 @@ std::optional<cl::Program> load_cached(const Device& device, const ProgramCache&
         build(program, device.entry(), options);
         return program;
     } catch (const cl::Error& error) {
-        spdlog::debug("cached program refused by the driver ({}), compiling again",
-                      opencl_error_name(error.err()));
+        say_debug("cached program refused by the driver (" + opencl_error_name(error.err()) +
+                  "), compiling again");
         return std::nullopt;
     }
 }
@@ -61,7 +61,7 @@ void store_binary(const cl::Program& program, const ProgramCache& cache, const s
             cache.store(key, binaries.front());
         }
     } catch (const cl::Error& error) {
-        spdlog::debug("the driver gives no binary to keep ({})", opencl_error_name(error.err()));
+        say_debug("the driver gives no binary to keep (" + opencl_error_name(error.err()) + ")");
     }
 }
 
@@ -93,7 +93,7 @@ Error make_build_error(const cl::Program& program, const DeviceEntry& entry, con
         << "device: " << entry.name << "\ndriver: " << entry.driver << "\nversion: " << entry.version
         << "\noptions: " << options << "\n\n"
         << log;
-    spdlog::error("build log of kernels/{}:\n{}", file, log);
+    say_error("build log of kernels/" + file + ":\n" + log);
     return {ExitCode::kernel_build, "kernels/" + file + " does not compile (" + opencl_error_name(code) +
                                         ") on device " + entry.name + ", driver " + entry.driver +
                                         ", options " + options + ": " + first_error_line(log) +
@@ -112,7 +112,7 @@ Program::Program(Device& device, const std::string& file, const Defines& defines
         handle_ = *cached;
         return;
     }
-    spdlog::debug("compiling kernels/{} for {}", file, device.name());
+    say_debug("compiling kernels/" + file + " for " + device.name());
     handle_ = with_opencl_errors("kernels/" + file, [&] { return cl::Program(device.context(), source); });
     try {
         build(handle_, device.entry(), options);

@@ -4,7 +4,6 @@
 #include <future>
 
 #include "host/base/hash.h"
-#include "host/base/log.h"
 #include "host/base/stopwatch.h"
 #include "host/render/plan.h"
 #include "host/stages/film.h"

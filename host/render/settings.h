@@ -13,12 +13,12 @@ struct RenderSettings {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::partition;
     uint vpl_count = 1000;
-    std::optional<float> close_fraction;  ///< of the budget, [0, 1]
-    std::optional<float> range;           ///< of the close range, m
-    std::optional<float> clamp_radius;    ///< m
-    std::optional<uint> max_depth;        ///< as Mitsuba counts; 1: emission, 2: direct; empty: the scene's, or 8
-    std::optional<int> width;             ///< pixels; empty: the scene's
-    std::optional<int> height;
+    std::optional<float> close_fraction{};  ///< of the budget, [0, 1]
+    std::optional<float> range{};           ///< of the close range, m
+    std::optional<float> clamp_radius{};    ///< m
+    std::optional<uint> max_depth{};  ///< as Mitsuba counts; 1: emission, 2: direct; empty: the scene's, or 8
+    std::optional<int> width{};       ///< pixels; empty: the scene's
+    std::optional<int> height{};
     uint samples_per_pixel = 4;
     uint direct_samples_per_pixel = 64;  ///< for area and environment lights
     uint seed = 0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
+#include "host/base/message.h"
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
 
@@ -17,7 +17,7 @@ constexpr float kClampRadiusToRange = 0.05f;
 /// nothing is in view.
 float automatic_range(const PilotView& pilot, float extent) {
     if (pilot.distances.empty()) {
-        spdlog::warn("the camera sees no diffuse surface; is it inside an object, or looking away?");
+        say_warning("the camera sees no diffuse surface; is it inside an object, or looking away?");
         return std::max(extent, 1e-6f);
     }
     const std::size_t index = (pilot.distances.size() - 1) * 9 / 10;
@@ -38,7 +38,8 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
     const float range = settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
     view.close_range = make_close_range(view.camera, range);
     view.clamp_radius = settings.clamp_radius.value_or(kClampRadiusToRange * range);
-    spdlog::debug("range {:.4g}, clamp radius {:.4g}, max depth {}", range, view.clamp_radius, view.max_depth);
+    say_debug("range " + std::to_string(range) + ", clamp radius " + std::to_string(view.clamp_radius) + ", max depth " +
+              std::to_string(view.max_depth));
     return view;
 }
 

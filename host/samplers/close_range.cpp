@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/log.h"
+#include "host/base/message.h"
 #include "host/samplers/close_fraction.h"
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
@@ -51,7 +51,8 @@ Selection select_triangles(SamplerStages& stages, const SamplingTask& task, Buff
     stages.morton_sort.order(centroids, selection.count, order);
     stages.compaction.gather(close_ids, order, selection.count, selection.ids);
     stages.device.finish();  // the scratch buffers must outlive their kernels
-    spdlog::debug("{} of {} triangles are in the close range, light reaches {}", close_count, triangle_count, selection.count);
+    say_debug(std::to_string(close_count) + " of " + std::to_string(triangle_count) +
+              " triangles are in the close range, light reaches " + std::to_string(selection.count));
     return selection;
 }
 
@@ -107,7 +108,7 @@ VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task) {
     stages.vpl_placement.set_surface(areas, selection.ids, selection.count,
                                      area_units_per_square_metre(task.scene.total_area));
     if (selection.count == 0 || !(stages.vpl_placement.total_area() > 0.0)) {
-        spdlog::warn("nothing that light reaches is in the close range; all VPLs come from light walks");
+        say_warning("nothing that light reaches is in the close range; all VPLs come from light walks");
         return sample_instant_radiosity(stages, task);
     }
     VplSet set;

@@ -13,7 +13,13 @@ inline float3 safe_reciprocal(float3 d) {
     return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
 }
 
-/// Entry distance of the ray into the box, or a value > t_max (strictly) if it misses.
+/// A ray with NaN or infinity in it hits nothing; without this test it would visit every node, for fmin and fmax
+/// pass over NaN.
+inline bool is_finite_ray(float3 origin, float3 direction) {
+    return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z);
+}
+
+/// Entry distance of the ray into the box, or infinity if it misses; t_max is finite, so the two differ.
 inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min, float t_max) {
     const float3 t0 = (load3(box_min) - origin) * reciprocal;
     const float3 t1 = (load3(box_max) - origin) * reciprocal;
@@ -52,6 +58,10 @@ inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, floa
 /// True if anything lies on the ray strictly inside (t_min, t_max).
 inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
                      float3 direction, float t_min, float t_max) {
+    if (!is_finite_ray(origin, direction)) {
+        return false;
+    }
+    t_max = fmin(t_max, FLT_MAX);
     const float3 reciprocal = safe_reciprocal(direction);
     uint stack[NEARLIGHT_MAX_BVH_DEPTH + 4];
     int top = 0;
@@ -93,12 +103,15 @@ inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* tria
 /// The closest hit strictly inside (t_min, t_max); slot ~0u if there is none.
 inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
                           float3 direction, float t_min, float t_max) {
+    RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
+    if (!is_finite_ray(origin, direction)) {
+        return best;
+    }
     const float3 reciprocal = safe_reciprocal(direction);
     uint stack[NEARLIGHT_MAX_BVH_DEPTH + 4];
     float entry[NEARLIGHT_MAX_BVH_DEPTH + 4];
     int top = 0;
     uint child = 0;
-    RayHit best = {t_max, 0.0f, 0.0f, ~0u};
     for (;;) {
         if (child & NEARLIGHT_LEAF_BIT) {
             const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE]: on every OpenCL device (or on those that
+// $NEARLIGHT_DEVICE names), both gather kernels in a made-up room: compared pair by pair with the host's
+// traversal, then timed; and a whole picture, with every kernel in it. For machines that have a compiler and
+// OpenCL and nothing else.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/stopwatch.h"
+#include "host/bench/gather_workload.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/bvh/bvh.h"
+#include "host/render/renderer.h"
+#include "host/stages/gatherer.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kClampRadius = 0.05f;
+constexpr int kRepeats = 5;
+constexpr std::size_t kCheckedVpls = 16;
+/// Rays that graze an edge may go either way; more than this share of all rays is an error of a kernel.
+constexpr double kMostDisagreements = 1e-5;
+
+struct Options {
+    std::size_t triangles = 100'000;
+    std::size_t vpls = 256;
+    std::size_t side = 256;  ///< of the receivers' square of pixels
+};
+
+struct Workload {
+    Scene scene;
+    SceneBvhs bvhs;
+    std::vector<Vpl> vpls;
+    std::vector<ReceiverPacket> receivers;
+};
+
+Options parse(int argc, char** argv) {
+    Options options;
+    std::size_t* const values[] = {&options.triangles, &options.vpls, &options.side};
+    if (argc > 4) {
+        throw Error(ExitCode::usage, "usage: nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE]");
+    }
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view text = argv[i];
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *values[i - 1]);
+        if (error != std::errc() || end != text.data() + text.size() || *values[i - 1] == 0) {
+            throw Error(ExitCode::usage, "'" + std::string(text) + "' is no positive number");
+        }
+    }
+    return options;
+}
+
+Workload make_workload(const Options& options) {
+    Workload work;
+    work.scene = make_sphere_room(options.triangles);
+    work.bvhs = build_scene_bvhs(work.scene);
+    work.vpls = make_traced_vpls(work.scene, work.bvhs.opaque, options.vpls);
+    const int side = static_cast<int>(options.side);
+    work.receivers = make_camera_receivers(work.scene, work.bvhs.opaque, side, side);
+    return work;
+}
+
+/// What a gather needs, on a device.
+struct GatherJob {
+    GatherJob(Device& device, const Workload& work, std::size_t vpl_count)
+        : nodes(device, work.bvhs.opaque.nodes),
+          triangles(device, work.bvhs.opaque.triangles),
+          vpls(device, std::span(work.vpls).first(std::min(vpl_count, work.vpls.size()))),
+          receivers(device, work.receivers),
+          irradiance(device, work.receivers.size()) {}
+
+    [[nodiscard]] GatherInput input() const {
+        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), kClampRadius};
+    }
+
+    Buffer<BvhNode> nodes;
+    Buffer<BvhTriangle> triangles;
+    Buffer<Vpl> vpls;
+    Buffer<ReceiverPacket> receivers;
+    Buffer<IrradiancePacket> irradiance;
+};
+
+/// True if the kernel sees what the host sees.
+bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
+    GatherJob job(device, work, kCheckedVpls);
+    const std::vector<GatherPair> pairs = gatherer.gather_recorded(job.input(), job.irradiance);
+    std::size_t rays = 0;
+    std::size_t blocked = 0;
+    std::size_t disagreements = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (pairs[i] == GatherPair::culled) {
+            continue;
+        }
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        const Vpl& vpl = work.vpls[i / NEARLIGHT_PACKET_SIZE % job.vpls.count()];
+        const ReceiverPacket& packet = work.receivers[i / NEARLIGHT_PACKET_SIZE / job.vpls.count()];
+        const Vec3 receiver{packet.px[lane], packet.py[lane], packet.pz[lane]};
+        const bool expected = occluded(work.bvhs.opaque, vpl.position, receiver - vpl.position,
+                                       NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
+        ++rays;
+        blocked += expected ? 1 : 0;
+        disagreements += expected != (pairs[i] == GatherPair::occluded) ? 1 : 0;
+    }
+    const bool good =
+        rays > 0 && static_cast<double>(disagreements) <= kMostDisagreements * static_cast<double>(rays);
+    std::printf("  %s: %zu rays, %zu blocked, %zu differ from the host's traversal\n",
+                good ? "agrees" : "DISAGREES", rays, blocked, disagreements);
+    return good;
+}
+
+void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
+    GatherJob job(device, work, work.vpls.size());
+    std::vector<double> seconds;
+    for (int i = 0; i <= kRepeats; ++i) {
+        const Stopwatch watch;
+        gatherer.gather(job.input(), job.irradiance);
+        device.finish();
+        seconds.push_back(watch.seconds());
+    }
+    seconds.erase(seconds.begin());  // the first run warms up
+    std::sort(seconds.begin(), seconds.end());
+    const double pairs =
+        static_cast<double>(work.receivers.size() * NEARLIGHT_PACKET_SIZE * job.vpls.count());
+    const double median = seconds[seconds.size() / 2];
+    std::printf("  %.3f s for %.1f M pairs: %.1f M pairs/s (median of %d)\n", median, pairs * 1e-6,
+                pairs / median * 1e-6, kRepeats);
+}
+
+/// A picture in which every pixel is a number, and not all are black.
+bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
+    RenderSettings settings;
+    settings.sampler = sampler;
+    settings.width = 128;
+    settings.height = 128;
+    double sum = 0.0;
+    bool finite = true;
+    const auto take_rows = [&](std::span<const float> rows) {
+        for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
+            for (const float value : rows.subspan(i, 3)) {
+                finite = finite && std::isfinite(value) && value >= 0.0f;
+                sum += value;
+            }
+        }
+    };
+    const RenderReport report = render(
+        device, work.scene, settings, [](const RenderReport&, const View&) {}, take_rows,
+        [](const std::string&, double) { return true; });
+    const bool good = finite && sum > 0.0;
+    std::printf("picture by %s: %s, %zu close and %zu distant VPLs, %.2f s, mean %.5f, hash %s\n",
+                to_string(sampler).c_str(), good ? "good" : "BAD", report.close_vpls, report.distant_vpls,
+                report.seconds.total, sum / (3.0 * 128 * 128), hex_digits(report.image_hash).c_str());
+    return good;
+}
+
+bool run_on(const DeviceEntry& entry, const Workload& work) {
+    Device device(entry, {.kernel_dir = {}, .cache_dir = "none"});
+    std::printf("device %d: %s (%s), driver %s\n", entry.index, entry.name.c_str(), entry.platform.c_str(),
+                entry.driver.c_str());
+    bool good = true;
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        std::printf("gather kernel %s\n", kernel == GatherKernel::packets ? "packets" : "rays");
+        Gatherer gatherer(device, {.kernel = kernel});
+        good = check_pairs(device, work, gatherer) && good;
+        time_gather(device, work, gatherer);
+    }
+    for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::instant_radiosity}) {
+        good = check_picture(device, work, sampler) && good;
+    }
+    return good;
+}
+
+int run(const Options& options) {
+    const char* const chosen = std::getenv("NEARLIGHT_DEVICE");
+    const std::vector<DeviceEntry> devices =
+        choose_devices(list_devices(), chosen == nullptr ? "all" : chosen);
+    const Workload work = make_workload(options);
+    std::printf("%zu triangles, %zu VPLs, %zu receivers\n", work.scene.triangles.size(), work.vpls.size(),
+                work.receivers.size() * NEARLIGHT_PACKET_SIZE);
+    bool good = true;
+    for (const DeviceEntry& entry : devices) {
+        good = run_on(entry, work) && good;
+    }
+    return static_cast<int>(good ? ExitCode::done : ExitCode::runtime);
+}
+
+}  // namespace
+}  // namespace nearlight
+
+int main(int argc, char** argv) {
+    try {
+        return nearlight::run(nearlight::parse(argc, argv));
+    } catch (const nearlight::Error& error) {
+        std::fprintf(stderr, "nearlight-bench-minimal: error: %s\n", error.what());
+        return static_cast<int>(error.code());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "nearlight-bench-minimal: error: %s\n", error.what());
+        return static_cast<int>(nearlight::ExitCode::runtime);
+    }
+}
