@@ -88,12 +88,14 @@ inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const S
     if (choose_reflection(path, branch, reflectance, u_choice)) {
         return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular) * reflectance);
     }
-    const float3 refracted = path->direction / eta + (cosine / eta - cos_far) * facet;
-    if (!(dot(refracted, hit->geometric) < 0.0f)) {
+    const float3 refracted = normalize(path->direction / eta + (cosine / eta - cos_far) * facet);
+    const float cosine_below = -dot(refracted, n);
+    if (!(cosine_below > 0.0f) || !(dot(refracted, hit->geometric) < 0.0f)) {
         return false;
     }
-    path->throughput *= load3(material->transmission) * (1.0f - reflectance);
-    path->direction = normalize(refracted);
+    const float masking = material->roughness < 1e-3f ? 1.0f : ggx_masking(cosine_below, material->roughness);
+    path->throughput *= load3(material->transmission) * ((1.0f - reflectance) * masking);
+    path->direction = refracted;
     path->origin = offset_point(scene, hit->position, -hit->geometric);
     return true;
 }

@@ -8,13 +8,6 @@
 
 #include "lib/math.cl"
 
-typedef struct RayHit {
-    float t;
-    float u;    // weight of v1
-    float v;    // weight of v2
-    uint slot;  // index into the BvhTriangle array; ~0u: nothing hit
-} RayHit;
-
 inline float away_from_zero(float x) { return fabs(x) < 1e-20f ? copysign(1e-20f, x) : x; }
 inline float3 safe_reciprocal(float3 d) {
     return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));

@@ -50,6 +50,22 @@ typedef struct BvhTriangle {
     Vec3 normal;
 } BvhTriangle;
 
+/// A ray to be cast: hits count with t strictly inside (t_min, t_max), in units of the direction's length.
+typedef struct RayQuery {
+    Vec3 origin;
+    float t_min;
+    Vec3 direction;
+    float t_max;
+} RayQuery;
+
+/// What a ray meets.
+typedef struct RayHit {
+    float t;    // t_max where nothing is hit
+    float u;    // weight of v1
+    float v;    // weight of v2
+    uint slot;  // index into the BvhTriangle array; ~0u: nothing hit
+} RayHit;
+
 /// A vertex. A zero normal means: use the triangle's own.
 typedef struct Vertex {
     Vec3 position;
@@ -237,6 +253,8 @@ typedef struct SceneInfo {
 static_assert(sizeof(Vec3) == 12);
 NEARLIGHT_CHECK_SHARED(BvhNode, 64);
 NEARLIGHT_CHECK_SHARED(BvhTriangle, 48);
+NEARLIGHT_CHECK_SHARED(RayQuery, 32);
+NEARLIGHT_CHECK_SHARED(RayHit, 16);
 NEARLIGHT_CHECK_SHARED(Vertex, 32);
 NEARLIGHT_CHECK_SHARED(Triangle, 16);
 NEARLIGHT_CHECK_SHARED(Material, 112);

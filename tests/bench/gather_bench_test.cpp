@@ -8,9 +8,9 @@
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
+#include "host/bvh/segment_distance.h"
 #include "host/reference/reference_gather.h"
 #include "tests/support/device_fixture.h"
-#include "tests/support/segment_distance.h"
 
 namespace nearlight::test {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "host/base/random.h"
 #include "host/bvh/bvh.h"
+#include "host/bvh/segment_distance.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
-#include "tests/support/segment_distance.h"
 
 namespace nearlight::test {
 namespace {

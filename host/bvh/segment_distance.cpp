@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/segment_distance.h"
+#include "host/bvh/segment_distance.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace nearlight::test {
+namespace nearlight {
 namespace {
 
 using Vec3d = std::array<double, 3>;
@@ -64,4 +64,4 @@ double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3
     return least;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight

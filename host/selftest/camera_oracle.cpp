@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/camera_oracle.h"
+
+#include "host/bvh/segment_distance.h"
+#include "host/reference/surface.h"
+#include "host/scene/ray_epsilon.h"
+#include "host/selftest/ray_comparison.h"
+
+namespace nearlight {
+namespace {
+
+/// Of coordinates and distances, relative to the scene's extent: a direction in single precision, times a
+/// distance.
+constexpr float kTolerance = 2e-5f;
+
+struct Found {
+    Vec3 position;
+    Vec3 normal;
+    const CameraVertex& vertex;
+};
+
+bool is_absent(const Found& found) {
+    return is_zero(found.normal) && is_zero(found.vertex.throughput) && found.vertex.flags == 0;
+}
+
+/// Whether a point lies in the close range, or so near its border that rounding decides.
+bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack) {
+    bool surely_inside = true;
+    bool surely_outside = false;
+    for (const auto& plane : region.planes) {
+        const float height = plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3];
+        surely_inside = surely_inside && height > slack;
+        surely_outside = surely_outside || height < -slack;
+    }
+    const float distance = length(p - region.origin);
+    surely_inside = surely_inside && distance < region.range - slack;
+    surely_outside = surely_outside || distance > region.range + slack;
+    return flag ? !surely_outside : !surely_inside;
+}
+
+bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,
+          const Found& found, float extent) {
+    const Surface surface = surface_at(scene, hit, ray.direction);
+    const float slack = kTolerance * extent;
+    const Vec3 position = stand_off(surface.position, surface.geometric_normal, extent);
+    const Vec3 albedo = camera_albedo(scene, *surface.material, surface.u, surface.v);
+    const bool is_close = (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) != 0;
+    const float cosine = std::max(std::abs(dot(surface.geometric_normal, ray.direction)), 1e-3f);
+    return length(found.position - position) <= slack / cosine &&
+           length(found.normal - surface.shading_normal) <= 1e-4f &&
+           length(found.vertex.albedo - albedo) <= 1e-4f &&
+           std::abs(found.vertex.depth - hit.t) <= slack / cosine &&
+           close_flag_fits(region, surface.position, is_close, slack / cosine);
+}
+
+bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, float extent) {
+    const Triangle& t = scene.triangles[hit.triangle];
+    const Vec3 a = scene.vertices[t.v0].position;
+    const Vec3 b = scene.vertices[t.v1].position;
+    const Vec3 c = scene.vertices[t.v2].position;
+    const Vec3 end = ray.origin + ray.direction * (2.0f * (extent + length(ray.origin - a)));
+    return std::min({segment_distance(ray.origin, end, a, b), segment_distance(ray.origin, end, b, c),
+                     segment_distance(ray.origin, end, c, a)}) <= kEdgeTolerance * extent;
+}
+
+}  // namespace
+
+RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y) {
+    const Vec3 direction = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
+                           (static_cast<float>(y) + 0.5f) * camera.step_y;
+    return {camera.origin, 0.0f, normalize(direction), std::numeric_limits<float>::infinity()};
+}
+
+CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
+                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+                                     std::span<const CameraVertex> vertices) {
+    const EmbreeScene embree(scene);
+    const float extent = max_component(bounds(scene).size());
+    const uint tiles_x = (camera.width + 7) / 8;
+    CameraComparison comparison;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const std::size_t packet = i / NEARLIGHT_PACKET_SIZE;
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        const uint x = static_cast<uint>(packet % tiles_x * 8 + lane % 8);
+        const uint y = static_cast<uint>(packet / tiles_x * 8 + lane / 8);
+        const ReceiverPacket& p = receivers[packet];
+        const Found found{
+            {p.px[lane], p.py[lane], p.pz[lane]}, {p.nx[lane], p.ny[lane], p.nz[lane]}, vertices[i]};
+        const RayQuery ray = pixel_ray(camera, x, y);
+        const BvhHit hit = x < camera.width && y < camera.height
+                               ? embree.closest_visible_hit(ray.origin, ray.direction, 0.0f, ray.t_max)
+                               : BvhHit{};
+        const bool absent = hit.triangle == ~0u || !surface_at(scene, hit, ray.direction).reflects();
+        const bool right = absent ? is_absent(found) : fits(scene, close_range, ray, hit, found, extent);
+        ++(absent ? comparison.absent : comparison.receivers);
+        comparison.mismatches += right || (!absent && touches_edge(scene, hit, ray, extent)) ? 0 : 1;
+    }
+    return comparison;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the camera pass must find at pixel centres where no surface has lobes, by Embree.
+#pragma once
+
+#include <span>
+
+#include "host/reference/embree_scene.h"
+#include "host/stages/camera_pass.h"
+
+namespace nearlight {
+
+/// The ray through the centre of a pixel; the direction has unit length.
+RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y);
+
+struct CameraComparison {
+    std::size_t receivers = 0;   ///< present ones
+    std::size_t absent = 0;      ///< lanes beside the picture, and pixels that see nothing
+    std::size_t mismatches = 0;  ///< position, normal, albedo, depth or close range differ, away from edges
+};
+
+/// Compares the whole picture, which was rendered as one band of one sample and one branch.
+CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
+                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+                                     std::span<const CameraVertex> vertices);
+
+}  // namespace nearlight

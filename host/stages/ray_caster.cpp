@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/ray_caster.h"
+
+namespace nearlight {
+
+RayCaster::RayCaster(Device& device)
+    : device_(&device),
+      program_(device, "ray_caster.cl"),
+      cast_closest_(program_, "cast_closest"),
+      cast_any_(program_, "cast_any") {}
+
+std::vector<BvhHit> RayCaster::closest_hits(const Bvh& bvh, std::span<const RayQuery> rays) {
+    const Buffer<BvhNode> nodes(*device_, bvh.nodes);
+    const Buffer<BvhTriangle> triangles(*device_, bvh.triangles);
+    const Buffer<RayQuery> queries(*device_, rays);
+    const Buffer<RayHit> found(*device_, rays.size());
+    cast_closest_.launch_items(rays.size(), nodes, triangles, queries, static_cast<uint>(rays.size()), found);
+    std::vector<BvhHit> hits;
+    for (const RayHit& hit : found.download()) {
+        hits.push_back(hit.slot == ~0u ? BvhHit{} : BvhHit{hit.t, hit.u, hit.v, bvh.triangle_ids[hit.slot]});
+    }
+    return hits;
+}
+
+std::vector<uint> RayCaster::any_hits(const Bvh& bvh, std::span<const RayQuery> rays) {
+    const Buffer<BvhNode> nodes(*device_, bvh.nodes);
+    const Buffer<BvhTriangle> triangles(*device_, bvh.triangles);
+    const Buffer<RayQuery> queries(*device_, rays);
+    const Buffer<uint> occluded(*device_, rays.size());
+    cast_any_.launch_items(rays.size(), nodes, triangles, queries, static_cast<uint>(rays.size()), occluded);
+    return occluded.download();
+}
+
+}  // namespace nearlight

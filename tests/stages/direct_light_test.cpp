@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/direct_light.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "host/base/random.h"
+#include "host/reference/light_sampler.h"
+#include "host/reference/reference_gather.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight {
+namespace {
+
+using namespace small_scenes;
+using test::irradiance_at;
+using test::ReceiverPoint;
+using test::SceneOnDevice;
+
+class DirectLightTest : public test::DeviceTest {};
+
+std::vector<IrradiancePacket> illuminate(Device& device, const Scene& scene,
+                                         const std::vector<ReceiverPacket>& receivers, uint samples,
+                                         uint seed = 1) {
+    const SceneOnDevice on_device(device, scene);
+    const Buffer<ReceiverPacket> input(device, receivers);
+    Buffer<IrradiancePacket> irradiance(device, receivers.size());
+    DirectLight(device).run(on_device.buffers, input, receivers.size(), samples, seed, irradiance);
+    return irradiance.download();
+}
+
+Vec3 random_vector(Pcg32& random) {
+    const float x = 2.0f * random.uniform() - 1.0f;
+    const float y = 2.0f * random.uniform() - 1.0f;
+    return {x, y, 2.0f * random.uniform() - 1.0f};
+}
+
+/// Anywhere in [−1, 1]³, facing anywhere; every seventh absent.
+std::vector<ReceiverPacket> random_receivers(std::size_t count) {
+    Pcg32 random(3);
+    std::vector<ReceiverPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 position = random_vector(random);
+        const Vec3 normal = normalize(random_vector(random));
+        points.push_back({position, i % 7 == 6 ? Vec3{0, 0, 0} : normal});
+    }
+    return test::pack_receivers(points);
+}
+
+/// Small squares that cast shadows.
+Scene scattered_squares() {
+    Scene scene;
+    const uint material = add_material(scene, lambertian({0.5f, 0.5f, 0.5f}));
+    Pcg32 random(4);
+    for (int i = 0; i < 40; ++i) {
+        const Vec3 corner = random_vector(random);
+        const Vec3 side = random_vector(random) * 0.4f;
+        add_quad(scene, corner, side, random_vector(random) * 0.4f, material);
+    }
+    return scene;
+}
+
+void add_spot(Scene& scene, Vec3 position, Vec3 axis, float beam, float cutoff) {
+    add_point_light(scene, position, {2, 3, 4});
+    Emitter& spot = scene.delta_emitters.back();
+    spot.type = NEARLIGHT_EMITTER_SPOT;
+    spot.direction = normalize(axis);
+    spot.beam_angle = degrees_to_radians(beam);
+    spot.cutoff_angle = degrees_to_radians(cutoff);
+}
+
+/// Sixteen point and spot lights: all are asked, so the result is exact but for shadow edges.
+TEST_F(DirectLightTest, SixteenPointAndSpotLightsAgreeWithEmbree) {
+    Scene scene = scattered_squares();
+    Pcg32 random(5);
+    for (int i = 0; i < 16; ++i) {
+        const Vec3 position = random_vector(random);
+        if (i % 2 == 0) {
+            add_point_light(scene, position, {1, 2, 0.5f});
+        } else {
+            add_spot(scene, position, random_vector(random), 20, 50);
+        }
+    }
+    const std::vector<ReceiverPacket> receivers = random_receivers(2000);
+    std::vector<IrradiancePacket> expected(receivers.size());
+    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
+    on_each_device([&](Device& device) {
+        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 1);
+        std::size_t lit = 0;
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+            const Vec3 e = irradiance_at(expected, i);
+            lit += e.x > 0 ? 1 : 0;
+            different += length(irradiance_at(found, i) - e) > 2e-4f * (0.1f + length(e)) ? 1 : 0;
+        }
+        EXPECT_GT(lit, 1000u);
+        EXPECT_LE(different, 2u) << "more than rays that meet an edge";
+    });
+}
+
+TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
+    Scene scene;
+    add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
+    add_point_light(scene, {1, 2, 0}, {8, 4, 2});
+    on_each_device([&](Device& device) {
+        const auto e = illuminate(device, scene,
+                                  test::pack_receivers({{{1, 0, 0}, {0, 1, 0}},
+                                                        {{1, 0, 2}, {0, 1, 0}},
+                                                        {{1, 0, 0}, {0, -1, 0}},
+                                                        {{1, 0, 0}, {0, 0, 0}}}),
+                                  1);
+        EXPECT_NEAR(irradiance_at(e, 0).x, 2.0f, 1e-5f);                           // 8 / 2²
+        EXPECT_NEAR(irradiance_at(e, 1).y, 4.0f / 8.0f * std::sqrt(0.5f), 1e-5f);  // 45°, r² = 8
+        EXPECT_TRUE(is_zero(irradiance_at(e, 2)) && is_zero(irradiance_at(e, 3)));
+    });
+}
+
+TEST_F(DirectLightTest, SpotFallsOffLinearlyInTheAngle) {
+    Scene scene;
+    add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
+    add_spot(scene, {0, 0, 0}, {0, 0, 1}, 20, 40);
+    std::vector<ReceiverPoint> points;
+    std::vector<float> expected;
+    for (const float degrees : {0.0f, 10.0f, 19.9f, 25.0f, 30.0f, 39.0f, 40.1f, 90.0f, 170.0f}) {
+        const float angle = degrees_to_radians(degrees);
+        const Vec3 direction{std::sin(angle), 0, std::cos(angle)};
+        points.push_back({direction * 2.0f, -direction});
+        expected.push_back(3.0f / 4.0f * std::clamp((40 - degrees) / 20, 0.0f, 1.0f));
+    }
+    on_each_device([&](Device& device) {
+        const auto e = illuminate(device, scene, test::pack_receivers(points), 1);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(irradiance_at(e, i).y, expected[i], 2e-5f) << "receiver " << i;
+        }
+    });
+}
+
+/// Sixty-four receivers near each other on the plane z = 0, facing up.
+std::vector<ReceiverPoint> cluster() {
+    std::vector<ReceiverPoint> points;
+    Pcg32 random(6);
+    for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+        const float x = random.uniform();
+        points.push_back({{x, random.uniform(), 0}, {0, 0, 1}});
+    }
+    return points;
+}
+
+/// Irradiance of a square lamp that faces down, by the midpoint rule.
+double lamp_irradiance(Vec3 x, Vec3 corner, float side, double radiance) {
+    constexpr int kSteps = 400;
+    const double step = side / kSteps;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps; ++j) {
+            const double dx = corner.x + (i + 0.5) * step - x.x;
+            const double dy = corner.y + (j + 0.5) * step - x.y;
+            const double dz = corner.z - x.z;
+            const double squared = dx * dx + dy * dy + dz * dz;
+            sum += dz * dz / (squared * squared);
+        }
+    }
+    return sum * step * step * radiance;
+}
+
+TEST_F(DirectLightTest, AreaLightAgreesWithQuadrature) {
+    Scene scene;
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = {3, 6, 9};
+    const Vec3 corner{-0.5f, 0.2f, 0.8f};
+    add_quad(scene, corner, {0, 1.5f, 0}, {1.5f, 0, 0}, add_material(scene, lamp));  // faces −Z
+    const std::vector<ReceiverPoint> points = cluster();
+    on_each_device([&](Device& device) {
+        const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
+        double ratio = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double expected = lamp_irradiance(points[i].position, corner, 1.5f, 6);
+            EXPECT_NEAR(irradiance_at(e, i).y, expected, 0.04 * expected);
+            EXPECT_NEAR(irradiance_at(e, i).x, 0.5 * irradiance_at(e, i).y, 1e-5 * expected);
+            ratio += irradiance_at(e, i).y / expected / static_cast<double>(points.size());
+        }
+        EXPECT_NEAR(ratio, 1.0, 0.002);
+    });
+}
+
+TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
+    for (const int size : {1, 8}) {
+        Scene scene;
+        add_quad(scene, {-9, -9, -0.01f}, {18, 0, 0}, {0, 18, 0}, add_material(scene, lambertian({1, 1, 1})));
+        scene.environment = {
+            .width = 2 * size,
+            .height = size,
+            .radiance = std::vector<Vec3>(static_cast<std::size_t>(2 * size * size), {0.5f, 1, 2}),
+            .to_world = rotation(1, 2, 3, 40)};
+        const std::vector<ReceiverPoint> points = cluster();
+        on_each_device([&](Device& device) {
+            const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
+            double mean = 0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                EXPECT_NEAR(irradiance_at(e, i).y, kPi, 0.03 * kPi);
+                mean += irradiance_at(e, i).y / static_cast<double>(points.size());
+            }
+            EXPECT_NEAR(mean, kPi, 0.002 * kPi);
+        });
+    }
+}
+
+/// An environment whose top half alone shines: a receiver that faces along the horizon gets half of π·L.
+TEST_F(DirectLightTest, HalfASkyGivesHalf) {
+    Scene scene;
+    add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
+    scene.environment = {.width = 1, .height = 2, .radiance = {{2, 2, 2}, {0, 0, 0}}, .to_world = {}};
+    on_each_device([&](Device& device) {
+        const auto e = illuminate(
+            device, scene,
+            test::pack_receivers({{{0, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, -1, 0}}, {{0, 0, 0}, {0, 0, 1}}}),
+            4096);
+        EXPECT_NEAR(irradiance_at(e, 0).x, 2 * kPi, 0.02f * kPi);
+        EXPECT_EQ(irradiance_at(e, 1).x, 0.0f);
+        EXPECT_NEAR(irradiance_at(e, 2).x, kPi, 0.02f * kPi);
+    });
+}
+
+/// Beyond sixteen, lights are chosen by chance; the mean stays.
+TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
+    Scene scene = scattered_squares();
+    Pcg32 random(7);
+    for (int i = 0; i < 40; ++i) {
+        const Vec3 position = random_vector(random) + Vec3{0, 0, 2};
+        add_point_light(scene, position, Vec3{1, 2, 0.5f} * (0.1f + random.uniform()));
+    }
+    const std::vector<ReceiverPacket> receivers = test::pack_receivers(cluster());
+    std::vector<IrradiancePacket> expected(receivers.size());
+    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
+    on_each_device([&](Device& device) {
+        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 2048);
+        double want = 0;
+        double have = 0;
+        for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+            want += irradiance_at(expected, i).y;
+            have += irradiance_at(found, i).y;
+            EXPECT_NEAR(irradiance_at(found, i).y, irradiance_at(expected, i).y,
+                        0.1 * irradiance_at(expected, i).y);
+        }
+        EXPECT_NEAR(have, want, 0.005 * want);
+    });
+}
+
+/// Lamp, sky and point lights together: the mean against the reference's estimator, which samples otherwise.
+TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
+    Scene scene = scattered_squares();
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = {3, 6, 9};
+    add_quad(scene, {-0.5f, 0.2f, 1.5f}, {0, 0.5f, 0}, {0.5f, 0, 0}, add_material(scene, lamp));
+    add_point_light(scene, {1, 1, 2}, {1, 1, 1});
+    scene.environment = {
+        .width = 2, .height = 1, .radiance = {{1, 0.5f, 0.5f}, {0.2f, 0.2f, 0.2f}}, .to_world = {}};
+    const std::vector<ReceiverPoint> points = cluster();
+    const EmbreeScene embree(scene);
+    const LightSampler sampler(scene);
+    Pcg32 random(8);
+    double want = 0;
+    constexpr int kSamples = 1000;
+    for (const auto& [position, normal] : points) {
+        for (int s = 0; s < kSamples; ++s) {
+            const LightRandom u{random.uniform(), {random.uniform(), random.uniform()}};
+            const Vec3 direction =
+                Frame(normal).to_world(sample_cosine_hemisphere({random.uniform(), random.uniform()}));
+            const BvhHit hit =
+                embree.closest_hit(position, direction, 0.0f, std::numeric_limits<float>::infinity());
+            want += (sampler.sampled_irradiance(embree, position, normal, u).y +
+                     kPi * sampler.met_radiance(hit, direction, normal).y) /
+                    kSamples;
+        }
+    }
+    on_each_device([&](Device& device) {
+        const auto found = illuminate(device, scene, test::pack_receivers(points), 1024);
+        double have = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            have += irradiance_at(found, i).y;
+        }
+        EXPECT_NEAR(have, want, 0.01 * want);
+    });
+}
+
+TEST_F(DirectLightTest, PacketsDoNotKnowOfEachOther) {
+    Scene scene = scattered_squares();
+    scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
+    const std::vector<ReceiverPacket> receivers = random_receivers(500);
+    on_each_device([&](Device& device) {
+        const std::vector<IrradiancePacket> all = illuminate(device, scene, receivers, 4);
+        for (const std::size_t p : {std::size_t{0}, receivers.size() - 1}) {
+            const auto alone = illuminate(device, scene, {receivers[p]}, 4);
+            EXPECT_EQ(std::memcmp(alone.data(), &all[p], sizeof(IrradiancePacket)), 0);
+        }
+        EXPECT_TRUE(is_zero(irradiance_at(all, 6)));  // an absent one
+        const auto other_seed = illuminate(device, scene, receivers, 4, 2);
+        EXPECT_NE(std::memcmp(other_seed.data(), all.data(), sizeof(IrradiancePacket)), 0);
+    });
+}
+
+TEST_F(DirectLightTest, WithoutLightsItIsDark) {
+    on_each_device([](Device& device) {
+        const auto e = illuminate(device, scattered_squares(), random_receivers(64), 4);
+        for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+            EXPECT_TRUE(is_zero(irradiance_at(e, i)));
+        }
+    });
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/light_tracer.h"
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "host/scene/pinhole_camera.h"
+#include "host/stages/close_range.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight {
+namespace {
+
+using namespace small_scenes;
+using test::SceneOnDevice;
+
+class LightTracerTest : public test::DeviceTest {};
+
+/// No close range, or that of a camera with every triangle selected.
+CloseRegion make_region(Device& device, const DeviceScene& scene, const CloseRange& range, uint selected) {
+    CloseRegion region;
+    region.range = Buffer<CloseRange>(device, std::span(&range, 1));
+    region.triangles = Buffer<uint>(device, std::vector<uint>(scene.host_info.triangle_count, selected));
+    return region;
+}
+
+std::vector<Vpl> trace_all(Device& device, const Scene& scene, const LightWalks& walks) {
+    const SceneOnDevice on_device(device, scene);
+    return LightTracer(device).run(on_device.buffers, make_region(device, on_device.buffers, {}, 0),
+                                   KeepDeposits::all, walks);
+}
+
+/// Power of the deposits of each depth, W; entry 0 is depth 1.
+struct Power {
+    double x = 0, y = 0, z = 0;
+};
+std::vector<Power> power_by_depth(const std::vector<Vpl>& vpls, uint depths) {
+    std::vector<Power> power(depths);
+    for (const Vpl& vpl : vpls) {
+        Power& sum = power.at(vpl.depth - 1);
+        sum.x += vpl.power.x;
+        sum.y += vpl.power.y;
+        sum.z += vpl.power.z;
+    }
+    return power;
+}
+
+/// In a closed sphere no walk is lost, so the power of depth d is Φ·ρ^d up to the fraction of a walk by which
+/// the number of walks that go on is rounded.
+TEST_F(LightTracerTest, ClosedFurnaceKeepsItsPowerAtEveryDepth) {
+    const Vec3 albedo{0.9f, 0.6f, 0.3f};
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian(albedo)));
+    add_point_light(scene, {0.2f, 0.1f, -0.3f}, {1, 2, 3});
+    on_each_device([&](Device& device) {
+        for (const float mean_albedo : {0.3f, 0.6f, 0.9f}) {
+            const LightWalks walks{
+                .walk_count = 20'000, .bounce_count = 5, .mean_albedo = mean_albedo, .seed = 4};
+            const std::vector<Power> power =
+                power_by_depth(trace_all(device, scene, walks), walks.bounce_count);
+            Vec3 expected = Vec3{1, 2, 3} * (4 * kPi);
+            float launched = 20'000;
+            for (uint depth = 1; depth <= walks.bounce_count; ++depth) {
+                expected *= albedo;
+                const float tolerance = 1.5f / launched + 1e-4f;
+                EXPECT_NEAR(power[depth - 1].x, expected.x, tolerance * expected.x) << "depth " << depth;
+                EXPECT_NEAR(power[depth - 1].y, expected.y, tolerance * expected.y) << "depth " << depth;
+                EXPECT_NEAR(power[depth - 1].z, expected.z, tolerance * expected.z) << "depth " << depth;
+                launched *= mean_albedo;
+            }
+        }
+    });
+}
+
+/// VPLs lie on the sphere, just inside, and face its centre.
+TEST_F(LightTracerTest, DepositsStandOffTheSurfaceTheyLieOn) {
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 3, add_material(scene, lambertian({0.8f, 0.8f, 0.8f})));
+    add_point_light(scene, {0, 0, 0}, {1, 1, 1});
+    on_each_device([&](Device& device) {
+        const std::vector<Vpl> vpls =
+            trace_all(device, scene, {.walk_count = 2000, .bounce_count = 3, .mean_albedo = 0.8f, .seed = 5});
+        Vec3 mean{0, 0, 0};
+        for (const Vpl& vpl : vpls) {
+            ASSERT_NEAR(length(vpl.position), 0.995f, 0.005f);
+            ASSERT_NEAR(length(vpl.normal), 1.0f, 1e-5f);
+            ASSERT_LT(dot(normalize(vpl.position), vpl.normal), -0.97f);
+            mean += vpl.position / static_cast<float>(vpls.size());
+        }
+        EXPECT_GT(vpls.size(), 4000u);
+        EXPECT_LT(length(mean), 0.05f);
+    });
+}
+
+/// First deposits in a closed white sphere carry all that the light emits.
+double emitted_power(Device& device, Scene scene) {
+    scene.materials.resize(std::max<std::size_t>(scene.materials.size(), 1));
+    add_inward_sphere(scene, 3.0f, 2, add_material(scene, lambertian({1, 1, 1})));
+    const auto vpls =
+        trace_all(device, scene, {.walk_count = 30'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 6});
+    return power_by_depth(vpls, 1)[0].y;
+}
+
+TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
+    on_each_device([](Device& device) {
+        Scene spot;
+        add_point_light(spot, {0.3f, 0, 0}, {2, 2, 2});
+        spot.delta_emitters[0].type = NEARLIGHT_EMITTER_SPOT;
+        spot.delta_emitters[0].direction = normalize(Vec3{1, 2, 3});
+        spot.delta_emitters[0].beam_angle = degrees_to_radians(30);
+        spot.delta_emitters[0].cutoff_angle = degrees_to_radians(60);
+        // ∫ sinθ up to 30°, then ∫ (60° − θ)/30°·sinθ: 2π·(1 − (sin 60° − sin 30°)/(π/6)).
+        const double cone = 2 * kPi * (1 - (std::sin(kPi / 3) - 0.5) / (kPi / 6));
+        EXPECT_NEAR(emitted_power(device, spot), 2 * cone, 0.005 * cone);
+
+        Scene lamp;
+        Material emissive = lambertian({0, 0, 0});
+        emissive.emission = {4, 4, 4};
+        add_quad(lamp, {-0.2f, 0, 0}, {0.4f, 0, 0}, {0, 0, 0.5f}, add_material(lamp, emissive));
+        EXPECT_NEAR(emitted_power(device, lamp), kPi * 4 * 0.2, 0.001 * kPi);
+    });
+}
+
+/// A white square of area A under a sky of radiance L on both sides: each side reflects π·L·A.
+TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
+    Scene scene;
+    Material white = lambertian({1, 1, 1});
+    white.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, white));
+    scene.environment = {.width = 2, .height = 1, .radiance = {{3, 2, 1}, {3, 2, 1}}, .to_world = {}};
+    on_each_device([&](Device& device) {
+        const auto vpls = trace_all(
+            device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7});
+        double up = 0;
+        double down = 0;
+        for (const Vpl& vpl : vpls) {
+            (vpl.normal.z > 0 ? up : down) += vpl.power.y;
+        }
+        EXPECT_NEAR(up, kPi * 2 * 6, 0.02 * kPi * 12);
+        EXPECT_NEAR(down, kPi * 2 * 6, 0.02 * kPi * 12);
+    });
+}
+
+TEST_F(LightTracerTest, BacksOfOneSidedSurfacesSwallowLight) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_point_light(scene, {0, 0, -1}, {1, 1, 1});
+    on_each_device([&](Device& device) {
+        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 1000, .bounce_count = 2, .seed = 8}).empty());
+    });
+}
+
+bool same_deposit(const Vpl& a, const Vpl& b) {
+    return std::memcmp(&a.position, &b.position, sizeof(Vec3)) == 0 && a.depth == b.depth &&
+           std::memcmp(&a.power, &b.power, sizeof(Vec3)) == 0;
+}
+/// Those of `all` that are not in `kept`; fails unless `kept` is a subsequence of `all`.
+std::vector<Vpl> dropped_from(const std::vector<Vpl>& all, const std::vector<Vpl>& kept) {
+    std::vector<Vpl> dropped;
+    std::size_t next = 0;
+    for (const Vpl& vpl : all) {
+        if (next < kept.size() && same_deposit(vpl, kept[next])) {
+            ++next;
+        } else {
+            dropped.push_back(vpl);
+        }
+    }
+    EXPECT_EQ(next, kept.size()) << "something was kept that is not among all deposits";
+    return dropped;
+}
+
+/// What each mode drops is exactly what it promises, deposit by deposit.
+TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
+    add_point_light(scene, {0, 0, 0}, {1, 1, 1});
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
+    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 64, 64), 5.0f);
+    // On the sphere of radius 1 the region is where |x| < z and |y| < z.
+    const auto is_inside = [](const Vpl& v, float slack) {
+        return std::max(std::abs(v.position.x), std::abs(v.position.y)) < v.position.z + slack;
+    };
+    constexpr float kStandOff = 1e-4f;
+    on_each_device([&](Device& device) {
+        const SceneOnDevice on_device(device, scene);
+        const CloseRegion region = make_region(device, on_device.buffers, range, 1);
+        const LightWalks walks{.walk_count = 5000, .bounce_count = 4, .mean_albedo = 0.7f, .seed = 9};
+        LightTracer tracer(device);
+        const auto run = [&](KeepDeposits keep) {
+            return tracer.run(on_device.buffers, region, keep, walks);
+        };
+        const std::vector<Vpl> all = run(KeepDeposits::all);
+        const std::vector<Vpl> partition = run(KeepDeposits::indirect_inside);
+        const std::vector<Vpl> outside = run(KeepDeposits::outside);
+        std::size_t direct_inside = 0;
+        for (const Vpl& vpl : dropped_from(all, partition)) {
+            EXPECT_EQ(vpl.depth, 1u);
+            EXPECT_TRUE(is_inside(vpl, kStandOff));
+            ++direct_inside;
+        }
+        EXPECT_NEAR(static_cast<double>(direct_inside), 5000.0 / 6, 150);  // a cube's side of the sphere
+        for (const Vpl& vpl : dropped_from(partition, outside)) {
+            EXPECT_GE(vpl.depth, 2u);
+            EXPECT_TRUE(is_inside(vpl, kStandOff));
+            EXPECT_EQ(vpl.flags, NEARLIGHT_VPL_CLOSE);
+        }
+        for (const Vpl& vpl : outside) {
+            EXPECT_FALSE(is_inside(vpl, -kStandOff));
+            EXPECT_EQ(vpl.flags, 0u);
+        }
+        EXPECT_GT(partition.size(), outside.size() + 500);
+        // Triangles that were not selected are nobody's close range.
+        EXPECT_EQ(tracer
+                      .run(on_device.buffers, make_region(device, on_device.buffers, range, 0),
+                           KeepDeposits::outside, walks)
+                      .size(),
+                  all.size());
+    });
+}
+
+/// A launch of all walks, and launches of parts of them.
+TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
+    add_point_light(scene, {0.1f, 0.2f, 0.3f}, {1, 1, 1});
+    constexpr uint kWalks = 1000;
+    constexpr uint kBounces = 3;
+    on_each_device([&](Device& device) {
+        const SceneOnDevice on_device(device, scene);
+        const CloseRegion region = make_region(device, on_device.buffers, {}, 0);
+        const Buffer<float> walks_at_depth(device, std::vector<float>{1000.0f, 700.5f, 490.25f});
+        const Program program(device, "light_tracer.cl");
+        Kernel kernel(program, "light_tracer");
+        const auto run = [&](uint first, uint count) {
+            Buffer<Vpl> vpls(device, std::size_t{count} * kBounces);
+            Buffer<uint> flags(device, std::size_t{count} * kBounces);
+            vpls.fill_zero();
+            kernel.launch_items(count, on_device.buffers, region.range, region.triangles, 0u,
+                                static_cast<uint>(KeepDeposits::all), first, count, kBounces, walks_at_depth,
+                                0.25f, 11u, vpls, flags);
+            return std::pair{vpls.download(), flags.download()};
+        };
+        const auto [vpls, flags] = run(0, kWalks);
+        EXPECT_EQ(std::accumulate(flags.begin(), flags.end(), 0u), 1000u + 701u + 490u);
+        for (const auto& [first, count] : {std::pair{0u, 333u}, {333u, 1u}, {334u, 666u}}) {
+            const auto [part, part_flags] = run(first, count);
+            EXPECT_EQ(std::memcmp(part.data(), vpls.data() + first * kBounces, part.size() * sizeof(Vpl)), 0);
+            EXPECT_EQ(
+                std::memcmp(part_flags.data(), flags.data() + first * kBounces, part.size() * sizeof(uint)),
+                0);
+        }
+    });
+}
+
+TEST_F(LightTracerTest, NothingToDoGivesNothing) {
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 0, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
+    on_each_device([&](Device& device) {
+        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 100, .bounce_count = 2}).empty());  // no light
+        add_point_light(scene, {0, 0, 0}, {1, 1, 1});
+        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 100, .bounce_count = 0}).empty());
+        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 0, .bounce_count = 2}).empty());
+    });
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels' traversal against a loop over all triangles in double precision, the host's traversal and
+// Embree.
+#include "host/stages/ray_caster.h"
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numeric>
+
+#include "host/selftest/ray_comparison.h"
+#include "host/selftest/test_rays.h"
+#include "tests/support/device_fixture.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kTriangles = 600;
+constexpr std::size_t kRays = 3000;
+
+class RayCasterTest : public test::DeviceTest {};
+
+Bvh build_all(const Scene& scene) {
+    std::vector<uint> ids(scene.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    return build_bvh(scene, ids);
+}
+
+/// Every dispute is printed; each must be a tie, and ties rare unless the rays seek edges.
+void expect_agreement(const std::string& oracle, const Scene& scene, const RayFamily& family,
+                      const std::vector<BvhHit>& expected, const std::vector<BvhHit>& found) {
+    SCOPED_TRACE(family.name + " rays against " + oracle);
+    const RayComparison comparison = compare_hits(scene, family.rays, expected, found);
+    for (const RayDispute& dispute : comparison.disputes) {
+        std::cout << family.name << ", " << oracle << ": " << to_string(dispute) << '\n';
+        EXPECT_TRUE(dispute.excused) << to_string(dispute);
+    }
+    EXPECT_GT(comparison.hits, comparison.rays / 10);
+    EXPECT_LE(comparison.disputes.size(), family.meets_edges ? comparison.rays / 2 : comparison.rays / 500);
+}
+
+TEST_F(RayCasterTest, ClosestHitsAgreeWithBruteForceHostAndEmbree) {
+    const Scene scene = make_triangle_soup(kTriangles, 11);
+    const Bvh bvh = build_all(scene);
+    for (const RayFamily& family : make_ray_families(scene, kRays, 12)) {
+        const std::vector<BvhHit> brute_force = brute_force_hits(scene, family.rays);
+        const std::vector<BvhHit> host = host_hits(bvh, family.rays);
+        const std::vector<BvhHit> embree = embree_hits(scene, family.rays);
+        on_each_device([&](Device& device) {
+            const std::vector<BvhHit> found = RayCaster(device).closest_hits(bvh, family.rays);
+            expect_agreement("brute force", scene, family, brute_force, found);
+            expect_agreement("host tree", scene, family, host, found);
+            expect_agreement("Embree", scene, family, embree, found);
+        });
+    }
+}
+
+TEST_F(RayCasterTest, AnyHitIsWhetherThereIsAClosestHit) {
+    const Scene scene = make_triangle_soup(kTriangles, 13);
+    const Bvh bvh = build_all(scene);
+    on_each_device([&](Device& device) {
+        RayCaster caster(device);
+        for (const RayFamily& family : make_ray_families(scene, kRays, 14)) {
+            const std::vector<BvhHit> closest = caster.closest_hits(bvh, family.rays);
+            const std::vector<uint> any = caster.any_hits(bvh, family.rays);
+            std::size_t hits = 0;
+            for (std::size_t i = 0; i < any.size(); ++i) {
+                ASSERT_EQ(any[i] != 0, closest[i].triangle != ~0u) << family.name << " ray " << i;
+                hits += any[i];
+            }
+            EXPECT_GT(hits, any.size() / 10);
+        }
+    });
+}
+
+TEST_F(RayCasterTest, BrokenRaysHitNothing) {
+    const Scene scene = make_triangle_soup(kTriangles, 15);
+    const Bvh bvh = build_all(scene);
+    const std::vector<RayQuery> rays = make_broken_rays();
+    on_each_device([&](Device& device) {
+        RayCaster caster(device);
+        const std::vector<BvhHit> closest = caster.closest_hits(bvh, rays);
+        const std::vector<uint> any = caster.any_hits(bvh, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            EXPECT_EQ(closest[i].triangle, ~0u) << "ray " << i;
+            EXPECT_EQ(any[i], 0u) << "ray " << i;
+        }
+    });
+}
+
+/// A NaN that got into the triangles of a tree takes those triangles out, and no others.
+TEST_F(RayCasterTest, BrokenTrianglesAreNeverHit) {
+    const Scene scene = make_triangle_soup(kTriangles, 16);
+    Bvh bvh = build_all(scene);
+    for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
+        BvhTriangle& triangle = bvh.triangles[i];
+        (i % 2 == 0 ? triangle.normal.x : triangle.v0.y) = i % 4 < 2 ? kNaN : kInfinity;
+    }
+    const RayFamily family = make_ray_families(scene, kRays, 17).front();
+    const std::vector<BvhHit> expected = host_hits(bvh, family.rays);
+    on_each_device([&](Device& device) {
+        const std::vector<BvhHit> found = RayCaster(device).closest_hits(bvh, family.rays);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i].triangle != ~0u) {
+                const auto slot =
+                    std::find(bvh.triangle_ids.begin(), bvh.triangle_ids.end(), found[i].triangle);
+                ASSERT_NE((slot - bvh.triangle_ids.begin()) % 3, 0) << "ray " << i;
+            }
+        }
+        EXPECT_EQ(compare_hits(scene, family.rays, expected, found).mismatches(), 0u);
+    });
+}
+
+TEST_F(RayCasterTest, TheEndsOfTheIntervalAreExcluded) {
+    Scene scene;
+    scene.materials.push_back({});
+    for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}) {
+        scene.vertices.push_back({.position = p, .u = 0, .normal = {0, 0, 0}, .v = 0});
+    }
+    scene.triangles.push_back({0, 1, 2, 0});
+    const Bvh bvh = build_all(scene);
+    const auto ray = [](float t_min, float t_max) { return RayQuery{{1, 1, 1}, t_min, {0, 0, -1}, t_max}; };
+    const std::vector<RayQuery> rays{ray(0.5f, 1.5f), ray(1, 2), ray(0, 1),
+                                     ray(std::nextafter(1.0f, 0.0f), std::nextafter(1.0f, 2.0f))};
+    on_each_device([&](Device& device) {
+        EXPECT_EQ(RayCaster(device).any_hits(bvh, rays), (std::vector<uint>{1, 0, 0, 1}));
+        const BvhHit hit = RayCaster(device).closest_hits(bvh, rays)[0];
+        EXPECT_EQ(hit.t, 1.0f);
+        EXPECT_EQ(hit.u, 0.25f);
+        EXPECT_EQ(hit.v, 0.25f);
+    });
+}
+
+TEST_F(RayCasterTest, NoRaysAndNoTriangles) {
+    on_each_device([](Device& device) {
+        RayCaster caster(device);
+        const Bvh empty = build_all(Scene{});
+        EXPECT_TRUE(caster.closest_hits(empty, {}).empty());
+        EXPECT_EQ(caster.any_hits(empty, std::vector<RayQuery>{{{0, 0, 0}, 0.0f, {1, 1, 1}, kInfinity}})[0],
+                  0u);
+    });
+}
+
+/// The comparison itself: planted faults must be found.
+TEST(RayComparison, WrongAnswersAreNoTies) {
+    const Scene scene = make_triangle_soup(kTriangles, 18);
+    const RayFamily family = make_ray_families(scene, 500, 19).front();
+    const std::vector<BvhHit> right = brute_force_hits(scene, family.rays);
+    EXPECT_TRUE(compare_hits(scene, family.rays, right, right).disputes.empty());
+    const auto hit = static_cast<std::size_t>(
+        std::find_if(right.begin(), right.end(), [](const BvhHit& h) { return h.triangle != ~0u; }) -
+        right.begin());
+    std::vector<BvhHit> missed = right;
+    missed[hit] = {};
+    EXPECT_EQ(compare_hits(scene, family.rays, right, missed).mismatches(), 1u);
+    std::vector<BvhHit> too_far = right;
+    too_far[hit].t *= 1.001f;
+    EXPECT_EQ(compare_hits(scene, family.rays, right, too_far).mismatches(), 1u);
+}
+
+}  // namespace
+}  // namespace nearlight
