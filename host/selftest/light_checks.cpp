@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/light_checks.h"
 
+#include <algorithm>
 #include <array>
 
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
-#include "host/bvh/segment_distance.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/reference_gather.h"
 #include "host/scene/emitters.h"
 #include "host/scene/pinhole_camera.h"
 #include "host/selftest/camera_oracle.h"
+#include "host/selftest/edge_excuse.h"
 #include "host/stages/close_range.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
@@ -19,7 +20,6 @@ namespace nearlight {
 namespace {
 
 constexpr std::size_t kTriangles = 3000;
-constexpr double kEdgeTolerance = 1e-5;  // of the extent
 
 /// The room without its lamp, under point and spot lights.
 Scene make_delta_lit_room() {
@@ -40,11 +40,11 @@ Scene make_delta_lit_room() {
     return scene;
 }
 
-bool touches_edge(const Scene& scene, const Bvh& bvh, Vec3 x) {
-    const double tolerance = kEdgeTolerance * max_component(bounds(scene).size());
-    return std::any_of(scene.delta_emitters.begin(), scene.delta_emitters.end(), [&](const Emitter& light) {
-        return distance_to_edges(bvh.triangles, light.position, x) <= tolerance;
-    });
+/// Whether a shadow ray of the receiver passes an edge.
+bool is_excused(EdgeExcuse& edges, const Scene& scene, const ReceiverPacket& packet, std::size_t lane) {
+    const Vec3 x{packet.px[lane], packet.py[lane], packet.pz[lane]};
+    return std::any_of(scene.delta_emitters.begin(), scene.delta_emitters.end(),
+                       [&](const Emitter& light) { return edges.excuses(light.position, x); });
 }
 
 }  // namespace
@@ -61,13 +61,14 @@ void check_direct_light(Device& device, CheckResult& result) {
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     DirectLight(device).run(on_device, input, receivers.size(), 1, 1, irradiance);
     const std::vector<IrradiancePacket> found = irradiance.download();
+    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
         const ReceiverPacket& packet = receivers[r / NEARLIGHT_PACKET_SIZE];
         const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;
         const float want = expected[r / NEARLIGHT_PACKET_SIZE].g[lane];
         const float have = found[r / NEARLIGHT_PACKET_SIZE].g[lane];
         result.expect(std::abs(have - want) <= 2e-4f * (want + 0.01f) ||
-                      touches_edge(scene, bvhs.opaque, {packet.px[lane], packet.py[lane], packet.pz[lane]}));
+                      is_excused(edges, scene, packet, lane));
     }
 }
 
