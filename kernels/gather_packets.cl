@@ -41,7 +41,6 @@ typedef struct Segments {
     float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
     float16 weight[GATHER_GROUPS];
     float3 origin;
-    float3 axis;  // direction of the packet as a whole
     // If all segments go the same way along each axis:
     uint near_x, near_y, near_z;  // which plane comes first: 0 the lower, BOX_STRIDE the upper
     // and in the rows of a BvhNode (near and far planes of the left, then of the right child; x, y, z,
@@ -167,12 +166,6 @@ inline bool intersect_leaf(Segments* s, const global BvhTriangle* triangles, uin
     return any_hit;
 }
 
-inline bool left_is_nearer(const Segments* s, const global BvhNode* node) {
-    const float3 left = load3(node->left_min) + load3(node->left_max);
-    const float3 right = load3(node->right_min) + load3(node->right_max);
-    return dot(left - right, s->axis) <= 0.0f;
-}
-
 /// Whether any segment may meet the left (x) and the right (y) child. Products round upwards with their
 /// factors, so what this rejects, every lane would.
 inline int2 may_meet_children(const Segments* s, const global BvhNode* node) {
@@ -215,10 +208,11 @@ inline void trace_segments(Segments* s, const global BvhNode* nodes, const globa
             const uint right =
                 may_meet.y ? first_group_in_box(s, &node->right_min.x, one_octant, group) : GATHER_GROUPS;
             if (left < GATHER_GROUPS && right < GATHER_GROUPS) {
-                const bool left_first = left_is_nearer(s, node);
-                stack[top++] = left_first ? (uint2)(node->right, right) : (uint2)(node->left, left);
-                child = left_first ? node->left : node->right;
-                group = left_first ? left : right;
+                // For any hit the nearer child is no better than the other, and choosing costs more than it
+                // gains.
+                stack[top++] = (uint2)(node->right, right);
+                child = node->left;
+                group = left;
                 continue;
             }
             if (left < GATHER_GROUPS || right < GATHER_GROUPS) {
@@ -247,7 +241,6 @@ inline bool bound_segments(Segments* s, const PacketBounds* bounds) {
     const float3 a = safe_reciprocal(to_low);
     const float3 b = safe_reciprocal(to_high);
     const int3 down = a < 0.0f;
-    s->axis = to_low + to_high;
     s->near_x = down.x ? BOX_STRIDE : 0;
     s->near_y = down.y ? BOX_STRIDE : 0;
     s->near_z = down.z ? BOX_STRIDE : 0;
