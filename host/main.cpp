@@ -12,6 +12,7 @@
 #include "host/cli/info_command.h"
 #include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
+#include "host/cli/selftest_command.h"
 
 namespace {
 
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
         nearlight::add_reference_command(line);
         nearlight::add_diff_command(line);
         nearlight::add_bench_command(line);
+        nearlight::add_selftest_command(line);
         nearlight::add_devices_command(line);
         nearlight::add_info_command(line);
         return static_cast<int>(line.run(argc, argv));

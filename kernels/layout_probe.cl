@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes size and member offsets of every shared struct, so that a test can compare them with the host's on
-// every device. Output: one uint a fact, in the order of the list in tests/cl/layout_test.cpp.
+// every device. Output: one uint a fact, in the order of the list in host/cl/shared_layout.cpp.
 
 #include "shared/types.h"
 
@@ -13,6 +13,10 @@ kernel void layout_probe(global uint* out) {
     OFFSET(BvhNode, right_max);
     SIZE(BvhTriangle);
     OFFSET(BvhTriangle, normal);
+    SIZE(RayQuery);
+    OFFSET(RayQuery, t_max);
+    SIZE(RayHit);
+    OFFSET(RayHit, slot);
     SIZE(Vertex);
     OFFSET(Vertex, v);
     SIZE(Triangle);

@@ -13,10 +13,10 @@ inline float3 safe_reciprocal(float3 d) {
     return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
 }
 
-/// A ray with NaN or infinity in it hits nothing; without this test it would visit every node, for fmin and fmax
-/// pass over NaN.
-inline bool is_finite_ray(float3 origin, float3 direction) {
-    return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z);
+/// A ray with NaN or infinity in it (other than an infinite t_max) hits nothing; without this test it would visit
+/// every node, for fmin and fmax pass over NaN.
+inline bool is_finite_ray(float3 origin, float3 direction, float t_max) {
+    return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z) && !isnan(t_max);
 }
 
 /// Entry distance of the ray into the box, or infinity if it misses; t_max is finite, so the two differ.
@@ -58,7 +58,7 @@ inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, floa
 /// True if anything lies on the ray strictly inside (t_min, t_max).
 inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
                      float3 direction, float t_min, float t_max) {
-    if (!is_finite_ray(origin, direction)) {
+    if (!is_finite_ray(origin, direction, t_max)) {
         return false;
     }
     t_max = fmin(t_max, FLT_MAX);
@@ -104,7 +104,7 @@ inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* tria
 inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
                           float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
-    if (!is_finite_ray(origin, direction)) {
+    if (!is_finite_ray(origin, direction, t_max)) {
         return best;
     }
     const float3 reciprocal = safe_reciprocal(direction);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/triangle_classifier.h"
 
-#include <array>
-
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/scene/pinhole_camera.h"
+#include "host/selftest/close_range_oracle.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 
@@ -14,9 +13,7 @@ namespace {
 
 class TriangleClassifierTest : public test::DeviceTest {};
 
-struct Corners {
-    Vec3 a, b, c;
-};
+using Corners = TriangleCorners;
 
 struct Result {
     std::vector<uint> flags;
@@ -107,85 +104,6 @@ TEST_F(TriangleClassifierTest, NoTriangles) {
         [](Device& device) { EXPECT_TRUE(classify(device, {}, square_region(1.0f)).flags.empty()); });
 }
 
-// The oracle: the point of a triangle inside five half-spaces that is nearest to the camera, as a quadratic
-// programme in the two barycentric weights, in double precision. The minimum lies inside, or on the line of
-// some constraint.
-struct Constraint {
-    double a, b, c;  // a·u + b·v + c ≥ 0
-};
-
-using Double3 = std::array<double, 3>;
-Double3 to_double(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-Double3 minus(Double3 x, Double3 y) {
-    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-}
-double dot3(Double3 x, Double3 y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
-bool satisfies(const std::vector<Constraint>& constraints, double u, double v, const Constraint* except) {
-    return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& k) {
-        return &k == except || k.a * u + k.b * v + k.c >= -1e-13;
-    });
-}
-
-/// Squared distance of the nearest admissible point with the planes moved outwards by `slack`; none:
-/// infinity.
-double nearest_squared(const Corners& t, const CloseRange& region, double slack) {
-    const Double3 origin = to_double(region.origin);
-    const Double3 a = minus(to_double(t.a), origin);
-    const Double3 e = minus(to_double(t.b), to_double(t.a));
-    const Double3 f = minus(to_double(t.c), to_double(t.a));
-    std::vector<Constraint> constraints{{1, 0, 0}, {0, 1, 0}, {-1, -1, 1}};
-    for (const auto& plane : region.planes) {
-        const Double3 n{plane[0], plane[1], plane[2]};
-        constraints.push_back({dot3(n, e), dot3(n, f), dot3(n, a) + slack});
-    }
-    const double ee = dot3(e, e), ef = dot3(e, f), ff = dot3(f, f), ae = dot3(a, e), af = dot3(a, f);
-    const auto squared = [&](double u, double v) {
-        return dot3(a, a) + u * u * ee + v * v * ff + 2 * (u * v * ef + u * ae + v * af);
-    };
-    double best = std::numeric_limits<double>::infinity();
-    const double determinant = ee * ff - ef * ef;
-    if (const double u = (ef * af - ff * ae) / determinant, v = (ef * ae - ee * af) / determinant;
-        satisfies(constraints, u, v, nullptr)) {
-        best = squared(u, v);
-    }
-    for (const Constraint& line : constraints) {
-        const double norm = line.a * line.a + line.b * line.b;
-        if (!(norm > 0)) {
-            continue;
-        }
-        const double u0 = -line.a * line.c / norm, v0 = -line.b * line.c / norm;
-        const double du = -line.b, dv = line.a;
-        double low = -1e300, high = 1e300;
-        for (const Constraint& k : constraints) {
-            const double slope = k.a * du + k.b * dv;
-            const double height = k.a * u0 + k.b * v0 + k.c;
-            if (&k == &line) {
-                continue;
-            }
-            if (std::abs(slope) < 1e-300) {
-                high = height < 0 ? -2e300 : high;
-            } else if (slope > 0) {
-                low = std::max(low, -height / slope);
-            } else {
-                high = std::min(high, -height / slope);
-            }
-        }
-        if (low <= high) {
-            const double curvature = du * du * ee + dv * dv * ff + 2 * du * dv * ef;
-            const double gradient =
-                u0 * du * ee + v0 * dv * ff + (u0 * dv + v0 * du) * ef + du * ae + dv * af;
-            const double s = std::clamp(curvature > 0 ? -gradient / curvature : low, low, high);
-            best = std::min(best, squared(u0 + s * du, v0 + s * dv));
-        }
-    }
-    return best;
-}
-
 TEST_F(TriangleClassifierTest, AgreesWithAQuadraticProgrammeOnRandomTriangles) {
     constexpr float kRange = 1.5f;
     SceneCamera camera;
@@ -208,9 +126,9 @@ TEST_F(TriangleClassifierTest, AgreesWithAQuadraticProgrammeOnRandomTriangles) {
         int undecided = 0;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             constexpr double kSlack = 5e-5;
-            const bool surely = nearest_squared(corners[i], region, 0.0) < kRange * kRange;
+            const bool surely = nearest_squared_distance(corners[i], region, 0.0) < kRange * kRange;
             const bool perhaps =
-                nearest_squared(corners[i], region, kSlack) < (kRange + kSlack) * (kRange + kSlack);
+                nearest_squared_distance(corners[i], region, kSlack) < (kRange + kSlack) * (kRange + kSlack);
             EXPECT_TRUE(flags[i] || !surely) << "triangle " << i << " was left out";
             EXPECT_TRUE(!flags[i] || perhaps) << "triangle " << i << " does not reach into the close range";
             selected += static_cast<int>(flags[i]);

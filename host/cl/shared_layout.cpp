@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/shared_layout.h"
+
+#include <cstddef>
+
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+#define SIZE(Type) \
+    { #Type " size", sizeof(Type) }
+#define OFFSET(Type, member) \
+    { #Type "." #member, offsetof(Type, member) }
+
+std::vector<LayoutFact> shared_layout() {
+    return {
+        SIZE(BvhNode),
+        OFFSET(BvhNode, left),
+        OFFSET(BvhNode, right_max),
+        SIZE(BvhTriangle),
+        OFFSET(BvhTriangle, normal),
+        SIZE(RayQuery),
+        OFFSET(RayQuery, t_max),
+        SIZE(RayHit),
+        OFFSET(RayHit, slot),
+        SIZE(Vertex),
+        OFFSET(Vertex, v),
+        SIZE(Triangle),
+        OFFSET(Triangle, material),
+        SIZE(Material),
+        OFFSET(Material, eta),
+        OFFSET(Material, transmission),
+        OFFSET(Material, base_saturation),
+        SIZE(Texture),
+        OFFSET(Texture, v_offset),
+        OFFSET(Texture, color1),
+        SIZE(Emitter),
+        OFFSET(Emitter, radiance),
+        OFFSET(Emitter, cutoff_angle),
+        SIZE(Environment),
+        OFFSET(Environment, scene_center),
+        SIZE(PinholeCamera),
+        OFFSET(PinholeCamera, step_y),
+        SIZE(Vpl),
+        OFFSET(Vpl, power),
+        SIZE(SurfaceSample),
+        OFFSET(SurfaceSample, v),
+        SIZE(ReceiverPacket),
+        OFFSET(ReceiverPacket, nz),
+        SIZE(IrradiancePacket),
+        OFFSET(IrradiancePacket, b),
+        SIZE(CameraVertex),
+        OFFSET(CameraVertex, emitted),
+        SIZE(CloseRange),
+        OFFSET(CloseRange, range),
+        SIZE(SceneInfo),
+        OFFSET(SceneInfo, extent),
+    };
+}
+
+}  // namespace nearlight

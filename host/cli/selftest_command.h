@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight selftest: every kernel against its CPU or Embree oracle, on this machine's devices.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_selftest_command(CommandLine& line);
+
+}  // namespace nearlight

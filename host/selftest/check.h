@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The result of comparing one kernel with its oracle.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace nearlight {
+
+struct CheckResult {
+    std::string name;
+    std::size_t cases = 0;       ///< things compared
+    std::size_t mismatches = 0;  ///< of those, how many differ by more than rounding explains
+    std::string problem;         ///< what kept the check from running; empty where it ran
+
+    [[nodiscard]] bool pass() const { return cases > 0 && mismatches == 0 && problem.empty(); }
+    /// Counts one comparison.
+    void expect(bool right) {
+        ++cases;
+        mismatches += right ? 0 : 1;
+    }
+};
+
+}  // namespace nearlight

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/gather_checks.h"
+
+#include "host/bench/gather_workload.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/bvh/segment_distance.h"
+#include "host/reference/embree_scene.h"
+#include "host/reference/reference_gather.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kClampRadius = 0.05f;
+/// Of the scene's extent: Embree and the kernels round differently where a ray passes an edge.
+constexpr double kEdgeTolerance = 1e-5;
+
+Vec3 receiver_position(const ReceiverPacket& packet, std::size_t lane) {
+    return {packet.px[lane], packet.py[lane], packet.pz[lane]};
+}
+
+}  // namespace
+
+void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
+    const Scene scene = make_sphere_room(3000);
+    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 64, 48);
+    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
+    const double tolerance = kEdgeTolerance * max_component(bounds(scene).size());
+
+    const Buffer<BvhNode> nodes(device, bvh.nodes);
+    const Buffer<BvhTriangle> triangles(device, bvh.triangles);
+    const Buffer<Vpl> vpl_buffer(device, vpls);
+    const Buffer<ReceiverPacket> receiver_buffer(device, receivers);
+    Buffer<IrradiancePacket> irradiance(device, receivers.size());
+    const std::vector<GatherPair> pairs =
+        Gatherer(device, {.kernel = kernel})
+            .gather_recorded(
+                {nodes, triangles, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kClampRadius},
+                irradiance);
+
+    const EmbreeScene embree(scene);
+    std::vector<IrradiancePacket> expected(receivers.size());
+    gather_reference(embree, vpls, kClampRadius, receivers, expected);
+    const std::vector<IrradiancePacket> found = irradiance.download();
+    for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
+        const std::size_t packet = r / NEARLIGHT_PACKET_SIZE;
+        const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;
+        const Vec3 x = receiver_position(receivers[packet], lane);
+        bool rays_agree = true;
+        for (std::size_t v = 0; v < vpls.size(); ++v) {
+            const GatherPair pair = pairs[(packet * vpls.size() + v) * NEARLIGHT_PACKET_SIZE + lane];
+            if (pair == GatherPair::culled) {
+                continue;
+            }
+            const bool agree = embree.blocked(vpls[v].position, x) == (pair == GatherPair::occluded);
+            result.expect(agree || distance_to_edges(bvh.triangles, vpls[v].position, x) <= tolerance);
+            rays_agree = rays_agree && agree;
+        }
+        if (rays_agree) {
+            const float want = expected[packet].g[lane];
+            result.expect(std::abs(found[packet].g[lane] - want) <= 1e-4f * want + 1e-9f);
+        }
+    }
+}
+
+}  // namespace nearlight

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/light_checks.h"
+
+#include <array>
+
+#include "host/bench/gather_workload.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/bvh/segment_distance.h"
+#include "host/reference/embree_scene.h"
+#include "host/reference/reference_gather.h"
+#include "host/scene/emitters.h"
+#include "host/scene/pinhole_camera.h"
+#include "host/selftest/camera_oracle.h"
+#include "host/stages/close_range.h"
+#include "host/stages/direct_light.h"
+#include "host/stages/light_tracer.h"
+
+namespace nearlight {
+namespace {
+
+constexpr std::size_t kTriangles = 3000;
+constexpr double kEdgeTolerance = 1e-5;  // of the extent
+
+/// The room without its lamp, under point and spot lights.
+Scene make_delta_lit_room() {
+    Scene scene = make_sphere_room(kTriangles);
+    for (Material& material : scene.materials) {
+        material.emission = {0, 0, 0};
+    }
+    for (const float x : {-2.5f, -0.5f, 1.5f, 3.0f}) {
+        Emitter light{};
+        light.type = x < 0 ? NEARLIGHT_EMITTER_POINT : NEARLIGHT_EMITTER_SPOT;
+        light.position = {x, 3.5f, 0.5f * x};
+        light.radiance = {1, 2, 3};
+        light.direction = normalize(Vec3{0.2f, -1, 0.1f});
+        light.beam_angle = degrees_to_radians(25);
+        light.cutoff_angle = degrees_to_radians(60);
+        scene.delta_emitters.push_back(light);
+    }
+    return scene;
+}
+
+bool touches_edge(const Scene& scene, const Bvh& bvh, Vec3 x) {
+    const double tolerance = kEdgeTolerance * max_component(bounds(scene).size());
+    return std::any_of(scene.delta_emitters.begin(), scene.delta_emitters.end(), [&](const Emitter& light) {
+        return distance_to_edges(bvh.triangles, light.position, x) <= tolerance;
+    });
+}
+
+}  // namespace
+
+void check_direct_light(Device& device, CheckResult& result) {
+    const Scene scene = make_delta_lit_room();
+    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 128, 96);
+    std::vector<IrradiancePacket> expected(receivers.size());
+    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected);
+
+    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const Buffer<ReceiverPacket> input(device, receivers);
+    Buffer<IrradiancePacket> irradiance(device, receivers.size());
+    DirectLight(device).run(on_device, input, receivers.size(), 1, 1, irradiance);
+    const std::vector<IrradiancePacket> found = irradiance.download();
+    for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
+        const ReceiverPacket& packet = receivers[r / NEARLIGHT_PACKET_SIZE];
+        const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;
+        const float want = expected[r / NEARLIGHT_PACKET_SIZE].g[lane];
+        const float have = found[r / NEARLIGHT_PACKET_SIZE].g[lane];
+        result.expect(std::abs(have - want) <= 2e-4f * (want + 0.01f) ||
+                      touches_edge(scene, bvhs.opaque, {packet.px[lane], packet.py[lane], packet.pz[lane]}));
+    }
+}
+
+void check_light_tracing(Device& device, CheckResult& result) {
+    const Vec3 albedo{0.8f, 0.5f, 0.3f};
+    Scene scene = make_sphere_room(kTriangles);
+    for (Material& material : scene.materials) {
+        material.base = albedo;
+    }
+    double flux = 0;  // of each colour: the lamp is white
+    for (const Emitter& emitter : build_emitter_table(scene).emitters) {
+        flux += static_cast<double>(kPi) * emitter.area * emitter.radiance.x;
+    }
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const CloseRange nothing{};
+    CloseRegion region;
+    region.range = Buffer<CloseRange>(device, std::span(&nothing, 1));
+    region.triangles = Buffer<uint>(device, std::vector<uint>(scene.triangles.size(), 0));
+    const LightWalks walks{.walk_count = 20'000, .bounce_count = 4, .mean_albedo = 0.6f, .seed = 3};
+    std::array<std::array<double, 3>, 4> power{};
+    for (const Vpl& vpl : LightTracer(device).run(on_device, region, KeepDeposits::all, walks)) {
+        power.at(vpl.depth - 1)[0] += vpl.power.x;
+        power[vpl.depth - 1][1] += vpl.power.y;
+        power[vpl.depth - 1][2] += vpl.power.z;
+    }
+    double launched = walks.walk_count;
+    std::array<double, 3> expected{flux, flux, flux};
+    for (std::size_t depth = 0; depth < power.size(); ++depth, launched *= walks.mean_albedo) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            expected[c] *= c == 0 ? albedo.x : (c == 1 ? albedo.y : albedo.z);
+            // The number of walks that go on is rounded; a few meet a crack between triangles.
+            result.expect(std::abs(power[depth][c] - expected[c]) <= (1.5 / launched + 1e-3) * expected[c]);
+        }
+    }
+}
+
+void check_camera_pass(Device& device, CheckResult& result) {
+    const Scene scene = make_sphere_room(kTriangles);
+    const PinholeCamera camera = make_pinhole_camera(scene.camera, 150, 101);
+    const CloseRange region = make_close_range(camera, 4.0f);
+    const CameraBand band{.tile_row_count = (camera.height + 7) / 8};
+    const std::size_t packets = packet_count(band, camera.width);
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
+    CameraPass(device).run(on_device, Buffer<PinholeCamera>(device, std::span(&camera, 1)), camera.width,
+                           Buffer<CloseRange>(device, std::span(&region, 1)), band, 1, receivers, vertices);
+    const CameraComparison comparison =
+        compare_with_embree(scene, camera, region, receivers.download(), vertices.download());
+    result.cases = comparison.receivers + comparison.absent;
+    result.mismatches = comparison.mismatches;
+}
+
+}  // namespace nearlight

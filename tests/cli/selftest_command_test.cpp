@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/cl/device_list.h"
+#include "tests/cli/run_program.h"
+
+namespace nearlight {
+namespace {
+
+bool has_device() {
+    const DeviceList list = list_devices();
+    return std::any_of(list.devices.begin(), list.devices.end(),
+                       [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
+}
+
+TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
+    if (!has_device()) {
+        GTEST_SKIP() << "no OpenCL device";
+    }
+    const ProgramResult result = run_program("selftest --json --device all");
+    ASSERT_EQ(result.exit_code, 0) << result.output << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["pass"], true);
+    ASSERT_FALSE(json["devices"].empty());
+    for (const nlohmann::json& device : json["devices"]) {
+        EXPECT_FALSE(device["device"].get<std::string>().empty());
+        EXPECT_EQ(device["pass"], true);
+        std::vector<std::string> names;
+        for (const nlohmann::json& check : device["checks"]) {
+            names.push_back(check["name"]);
+            EXPECT_GT(check["cases"], 10) << check;
+            EXPECT_EQ(check["mismatches"], 0) << check;
+            EXPECT_EQ(check["pass"], true) << check;
+        }
+        EXPECT_EQ(names,
+                  (std::vector<std::string>{"layout", "scan", "compaction", "sort", "morton", "classify",
+                                            "placement", "closest hit", "any hit", "gather packets",
+                                            "gather rays", "direct light", "light tracing", "camera pass"}));
+    }
+}
+
+/// A kernel that does not compute what it should is found: one with a planted fault, read from a folder.
+TEST(Selftest, ABrokenKernelFailsItsCheckAndNoOther) {
+    if (!has_device()) {
+        GTEST_SKIP() << "no OpenCL device";
+    }
+    const TemporaryFolder folder;
+    const std::filesystem::path kernels = folder / "kernels";
+    std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
+                          std::filesystem::copy_options::recursive);
+    std::string text = file_text(kernels / "direct_light.cl");
+    const std::string right = "irradiance[packet].g[lane] = e.y;";
+    ASSERT_NE(text.find(right), std::string::npos);
+    text.replace(text.find(right), right.size(), "irradiance[packet].g[lane] = 1.05f * e.y;");
+    std::ofstream(kernels / "direct_light.cl") << text;
+    std::ofstream(kernels / "ray_caster.cl") << "this is no kernel";
+
+    const ProgramResult result =
+        run_program("selftest --json --cache-dir none --kernel-dir " + quoted(kernels));
+    EXPECT_EQ(result.exit_code, 1) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["pass"], false);
+    for (const nlohmann::json& check : json["devices"][0]["checks"]) {
+        const std::string name = check["name"];
+        const bool broken = name == "direct light" || name == "closest hit" || name == "any hit";
+        EXPECT_EQ(check["pass"], !broken) << check;
+        EXPECT_EQ(check.contains("problem"), name == "closest hit" || name == "any hit") << check;
+    }
+}
+
+TEST(Selftest, AnUnknownDeviceIsNoDevice) {
+    const ProgramResult result = run_program("selftest --device no-such-device");
+    EXPECT_EQ(result.exit_code, 4);
+    EXPECT_EQ(result.output, "");
+}
+
+}  // namespace
+}  // namespace nearlight
