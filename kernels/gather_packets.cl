@@ -14,6 +14,7 @@
 // - A lane that is culled or occluded has t_max = −1, which no box and no triangle passes: no other mask is
 // kept. gather_rays.cl computes the same on GPUs. host/stages/gatherer.h is the interface of both.
 
+#include "lib/bvh_traverse.cl"
 #include "lib/gather.cl"
 
 #ifndef GATHER_PACKET_WIDTH
@@ -40,9 +41,19 @@ typedef struct Segments {
     float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
     float16 weight[GATHER_GROUPS];
     float3 origin;
-    float3 axis;                  // direction of the packet as a whole
+    // If all segments go the same way along each axis:
     uint near_x, near_y, near_z;  // which plane comes first: 0 the lower, BOX_STRIDE the upper
+    // and in the rows of a BvhNode (near and far planes of the left, then of the right child; x, y, z,
+    // unused):
+    int16 upper_first;  // −1 where the upper plane comes first
+    float16 origin_rows;
+    float16 reciprocal_low, reciprocal_high;  // bounds over the packet, negated in the far rows
 } Segments;
+
+/// Box around the receivers of a packet that are there.
+typedef struct PacketBounds {
+    float3 low, high;
+} PacketBounds;
 
 typedef struct Accumulator {
     float16 r[GATHER_GROUPS], g[GATHER_GROUPS], b[GATHER_GROUPS];
@@ -155,10 +166,24 @@ inline bool intersect_leaf(Segments* s, const global BvhTriangle* triangles, uin
     return any_hit;
 }
 
-inline bool left_is_nearer(const Segments* s, const global BvhNode* node) {
-    const float3 left = load3(node->left_min) + load3(node->left_max);
-    const float3 right = load3(node->right_min) + load3(node->right_max);
-    return dot(left - right, s->axis) <= 0.0f;
+/// Whether any segment may meet the left (x) and the right (y) child. Products round upwards with their
+/// factors, so what this rejects, every lane would.
+inline int2 may_meet_children(const Segments* s, const global BvhNode* node) {
+    const float16 stored = vload16(0, (const global float*)node);
+    const float16 planes = (s->upper_first ? stored.s45670123cdef89ab : stored) - s->origin_rows;
+    // Near rows: least t at which a segment enters by this plane. Far rows: minus the greatest t at which one
+    // leaves.
+    const float16 t = min16(planes * s->reciprocal_low, planes * s->reciprocal_high);
+    const float4 near_end = (float4)(0.0f, 0.0f, 0.0f, NEARLIGHT_SEGMENT_T_MIN);
+    const float4 far_end = (float4)(0.0f, 0.0f, 0.0f, -NEARLIGHT_SEGMENT_T_MAX);
+    const int4 last = (int4)(0, 0, 0, -1);
+    const float16 rows =
+        (int16)(last, last, last, last) ? (float16)(near_end, far_end, near_end, far_end) : t;
+    // The last plane entered, and minus the first plane left, in all four places of a row.
+    const float16 pairs = max16(rows, rows.s1032547698badcfe);
+    const float16 quads = max16(pairs, pairs.s23016745ab89efcd);
+    const float16 enter_minus_leave = quads + quads.s45670123cdef89ab;
+    return (int2)(enter_minus_leave.s0 <= 0.0f, enter_minus_leave.s8 <= 0.0f);
 }
 
 /// Ends the segments (t_max = −1) that meet anything.
@@ -177,13 +202,17 @@ inline void trace_segments(Segments* s, const global BvhNode* nodes, const globa
             const global BvhNode* node = nodes + child;
             prefetch_child(nodes, triangles, node->left);
             prefetch_child(nodes, triangles, node->right);
-            const uint left = first_group_in_box(s, &node->left_min.x, one_octant, group);
-            const uint right = first_group_in_box(s, &node->right_min.x, one_octant, group);
+            const int2 may_meet = one_octant ? may_meet_children(s, node) : (int2)1;
+            const uint left =
+                may_meet.x ? first_group_in_box(s, &node->left_min.x, one_octant, group) : GATHER_GROUPS;
+            const uint right =
+                may_meet.y ? first_group_in_box(s, &node->right_min.x, one_octant, group) : GATHER_GROUPS;
             if (left < GATHER_GROUPS && right < GATHER_GROUPS) {
-                const bool left_first = left_is_nearer(s, node);
-                stack[top++] = left_first ? (uint2)(node->right, right) : (uint2)(node->left, left);
-                child = left_first ? node->left : node->right;
-                group = left_first ? left : right;
+                // For any hit the nearer child is no better than the other, and choosing costs more than it
+                // gains.
+                stack[top++] = (uint2)(node->right, right);
+                child = node->left;
+                group = left;
                 continue;
             }
             if (left < GATHER_GROUPS || right < GATHER_GROUPS) {
@@ -201,30 +230,35 @@ inline void trace_segments(Segments* s, const global BvhNode* nodes, const globa
     }
 }
 
-/// True if no two open segments go opposite ways along the axis of these reciprocals; `near_plane`: see
-/// Segments.
-inline bool one_way(const Segments* s, const float16* reciprocal, uint* near_plane) {
-    int16 up = (int16)0, down = (int16)0;  // only the sign bits count
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const int16 closed = as_int16(s->t_max[group]);
-        const int16 sign = as_int16(reciprocal[group]);
-        up |= ~(closed | sign);
-        down |= ~closed & sign;
-    }
-    const bool any_down = any_lane(down < 0);
-    *near_plane = any_down ? BOX_STRIDE : 0;
-    return !(any_down && any_lane(up < 0));
+inline float16 rows_of(float3 near_row, float3 far_row) {
+    return (float16)(near_row, 0.0f, far_row, 0.0f, near_row, 0.0f, far_row, 0.0f);
+}
+
+/// Prepares may_meet_children(). False if segments go opposite ways along an axis, and then nothing is known.
+inline bool bound_segments(Segments* s, const PacketBounds* bounds) {
+    const float3 to_low = bounds->low - s->origin;
+    const float3 to_high = bounds->high - s->origin;
+    const float3 a = safe_reciprocal(to_low);
+    const float3 b = safe_reciprocal(to_high);
+    const int3 down = a < 0.0f;
+    s->near_x = down.x ? BOX_STRIDE : 0;
+    s->near_y = down.y ? BOX_STRIDE : 0;
+    s->near_z = down.z ? BOX_STRIDE : 0;
+    const int4 row = (int4)(down, 0);
+    s->upper_first = (int16)(row, row, row, row);
+    s->origin_rows = rows_of(s->origin, s->origin);
+    s->reciprocal_low = rows_of(fmin(a, b), -fmin(a, b));
+    s->reciprocal_high = rows_of(fmax(a, b), -fmax(a, b));
+    return all(down == (b < 0.0f));
 }
 
 /// Ends the segments that meet anything, by the version of the traversal that suits them.
-inline void test_visibility(Segments* s, const global BvhNode* nodes, const global BvhTriangle* triangles) {
+inline void test_visibility(Segments* s, const PacketBounds* bounds, const global BvhNode* nodes,
+                            const global BvhTriangle* triangles) {
     if (first_open_group(s, 0) == GATHER_GROUPS) {
         return;
     }
-    const bool one_way_x = one_way(s, s->reciprocal_x, &s->near_x);
-    const bool one_way_y = one_way(s, s->reciprocal_y, &s->near_y);
-    const bool one_way_z = one_way(s, s->reciprocal_z, &s->near_z);
-    if (one_way_x && one_way_y && one_way_z) {
+    if (bound_segments(s, bounds)) {
         trace_segments(s, nodes, triangles, true);
     } else {
         trace_segments(s, nodes, triangles, false);
@@ -259,17 +293,16 @@ inline void connect(Segments* s, const global Vpl* vpl, const global ReceiverPac
     }
 }
 
-/// The middle of the receivers that are there: which child a packet visits first depends on it.
-inline float3 packet_center(const global ReceiverPacket* packet, uint first_lane) {
-    float3 sum = (float3)0.0f;
-    float count = 0.0f;
+inline PacketBounds bounds_of(const global ReceiverPacket* packet, uint first_lane) {
+    PacketBounds bounds = {(float3)INFINITY, (float3)-INFINITY};
     for (uint i = first_lane; i < first_lane + GATHER_PACKET_WIDTH; ++i) {
         if (packet->nx[i] != 0.0f || packet->ny[i] != 0.0f || packet->nz[i] != 0.0f) {
-            sum += (float3)(packet->px[i], packet->py[i], packet->pz[i]);
-            count += 1.0f;
+            const float3 position = (float3)(packet->px[i], packet->py[i], packet->pz[i]);
+            bounds.low = fmin(bounds.low, position);  // fmin() and fmax() pass over NaN
+            bounds.high = fmax(bounds.high, position);
         }
     }
-    return sum / fmax(count, 1.0f);
+    return bounds;
 }
 
 #ifdef GATHER_RECORD
@@ -330,19 +363,18 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     if (packet >= end_packet) {
         return;
     }
-    const float3 center = packet_center(receivers + packet, first_lane);
+    const PacketBounds bounds = bounds_of(receivers + packet, first_lane);
     Segments segments;
     Accumulator sum;
     for (uint chunk = first_vpl; chunk < end_vpl || chunk == 0; chunk += GATHER_CHUNK) {
         clear(&sum);
         for (uint i = chunk; i < min(chunk + GATHER_CHUNK, end_vpl); ++i) {
             connect(&segments, vpls + i, receivers + packet, first_lane, clamp_radius_squared);
-            segments.axis = center - segments.origin;
 #ifdef GATHER_RECORD
             global uchar* pairs = record + gather_record_index(packet, i, record_vpl_count, first_lane);
             record_open(&segments, pairs);
 #endif
-            test_visibility(&segments, nodes, triangles);
+            test_visibility(&segments, &bounds, nodes, triangles);
 #ifdef GATHER_RECORD
             record_occluded(&segments, pairs);
 #endif

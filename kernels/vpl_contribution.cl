@@ -35,7 +35,7 @@ kernel void vpl_contribution(const global BvhNode* restrict nodes, const global 
         const float3 response = load3(vertices[i].throughput) * load3(vertices[i].albedo);
         const float geometry = cos_x * cos_y / (squared * fmax(squared, clamp_radius * clamp_radius));
         const float value = luminance(response * power) * geometry / (M_PI_F * M_PI_F);
-        if (value > 0.0f && !occluded(nodes, triangles, y, d, 1e-5f, 1.0f - 1e-5f)) {
+        if (value > 0.0f && !occluded(nodes, triangles, y, d, NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX)) {
             sum += value;
         }
     }

@@ -65,6 +65,9 @@ void check_output(const std::string& file) {
     if (fs::is_directory(file, error)) {
         throw Error(ExitCode::file, "cannot write '" + file + "': it is a folder; name a file");
     }
+    if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
+        throw Error(ExitCode::file, "cannot write '" + file + "': it is there and read-only; name another file");
+    }
     if (access(folder.c_str(), W_OK) != 0) {
         throw Error(ExitCode::file, "cannot write '" + file + "': the folder '" + folder.string() + "' is not writable");
     }

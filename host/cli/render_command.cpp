@@ -37,6 +37,27 @@ const std::map<std::string, Policy> kPolicies{{"partition", Policy::partition}, 
 const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
+/// A picture of 2^30 pixels with all layers is a file of up to 64 GiB; more than that is a slip of the finger.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;
+
+/// The option takes one of the names only, and says so.
+template <typename Choice>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
+                        const std::map<std::string, Choice>& choices, const std::string& description) {
+    const auto choose = [option, &value, &choices](const std::string& text) {
+        std::string names;
+        for (const auto& [name, choice] : choices) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+        const auto found = choices.find(text);
+        if (found == choices.end()) {
+            throw Error(ExitCode::usage, fmt::format("{} does not know '{}'; there are: {}", option, text, names));
+        }
+        value = found->second;
+    };
+    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
+}
+
 /// "auto", or a number in [low, high].
 std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low, float high) {
     if (text == "auto") {
@@ -113,6 +134,20 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     return json;
 }
 
+/// What is asked for, yet worth a word; refuses pictures that no file system would thank for.
+void check_request(const Scene& scene, const RenderSettings& settings) {
+    const int width = settings.width.value_or(scene.camera.width);
+    const int height = settings.height.value_or(scene.camera.height);
+    if (std::int64_t{width} * height > kMostPixels) {
+        throw Error(ExitCode::out_of_memory,
+                    fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
+                                width, height, kMostPixels >> 20));
+    }
+    if (settings.vpl_count == 0) {
+        spdlog::warn("--vpls 0: the picture has no indirect light");
+    }
+}
+
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
                  report.distant_vpls, seconds);
@@ -128,6 +163,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     Stopwatch watch;
     const Scene scene = load_scene(options.scene);
     const double load_seconds = watch.lap();
+    check_request(scene, settings);
     const auto device = open_device(options.device);
 
     catch_interrupts();
@@ -154,13 +190,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
 
 void add_method_options(CLI::App& command, RenderOptions& options) {
     RenderSettings& settings = options.settings;
-    command.add_option("--sampler", settings.sampler, "Where VPLs come from: close-range or instant-radiosity")
-        ->transform(CLI::Transformer(kSamplers, CLI::ignore_case))
-        ->type_name("NAME")
+    add_choice(command, "--sampler", settings.sampler, kSamplers, "Where VPLs come from: close-range or instant-radiosity")
         ->default_str("close-range");
-    command.add_option("--policy", settings.policy, "Of close-range: partition (unbiased) or paper (loses bounces)")
-        ->transform(CLI::Transformer(kPolicies, CLI::ignore_case))
-        ->type_name("NAME")
+    add_choice(command, "--policy", settings.policy, kPolicies, "Of close-range: partition (unbiased) or paper (loses bounces)")
         ->default_str("partition");
     command.add_option("--vpls", settings.vpl_count, "Virtual point lights to aim at")
         ->check(CLI::Range(0u, 50'000'000u))
@@ -181,9 +213,7 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
     command.add_option("--seed", settings.seed, "Another seed, another noise")->type_name("N")->capture_default_str();
-    command.add_option("--gather", settings.gather_kernel, "Gather kernel: auto, packets or rays")
-        ->transform(CLI::Transformer(kGatherKernels, CLI::ignore_case))
-        ->type_name("NAME")
+    add_choice(command, "--gather", settings.gather_kernel, kGatherKernels, "Gather kernel: auto, packets or rays")
         ->default_str("auto");
 }
 

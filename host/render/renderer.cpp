@@ -154,10 +154,10 @@ RenderReport render(Device& device, const Scene& scene, const RenderSettings& se
     Stopwatch watch;
     RenderStages stages(device, settings);
     report.seconds.compile = watch.lap();
-    const SceneBvhs bvhs = building.get();
+    building.wait();
 
     watch.lap();
-    const DeviceScene device_scene = upload_scene(device, scene, bvhs);
+    const DeviceScene device_scene = upload_scene(device, scene, building.get());  // the host's trees end here
     const View view = choose_view(device, stages.camera_pass, device_scene, scene, settings);
     const VplSet vpls = sample_vpls(stages.samplers, {.scene = device_scene,
                                                       .view = view.pilot,

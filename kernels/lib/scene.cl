@@ -114,7 +114,7 @@ inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 dir
 
 /// True if no opaque surface lies between two points that both stand off their surfaces.
 inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
-    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, 1e-5f, 1.0f - 1e-5f);
+    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
 }
 
 inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {

@@ -25,11 +25,12 @@ inline std::string file_text(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// `arguments` are words of a shell command line, redirections included.
-inline ProgramResult run_program(const std::string& arguments) {
+/// `arguments` are words of a shell command line, redirections included; so is what stands before the
+/// program, as in `VARIABLE=value`.
+inline ProgramResult run_program(const std::string& arguments, const std::string& before = "") {
     const TemporaryFolder folder;
-    const std::string command = std::string(NEARLIGHT_PROGRAM) + " >" + (folder / "output").string() + " 2>" +
-                                (folder / "errors").string() + " " + arguments;
+    const std::string command = before + " " + NEARLIGHT_PROGRAM + " >" + (folder / "output").string() +
+                                " 2>" + (folder / "errors").string() + " " + arguments;
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / "output"),
             file_text(folder / "errors")};

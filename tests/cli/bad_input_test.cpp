@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people and disks do wrong, through the real program: one clear line, the contract's exit code, and old
+// pictures left alone.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "host/cl/device_list.h"
+#include "tests/cli/run_program.h"
+
+namespace nearlight {
+namespace {
+
+const std::string kCamera =
+    "<sensor type='perspective'><float name='fov' value='60'/><transform name='to_world'>"
+    "<lookat origin='0,0,-0.9' target='0,0,1' up='0,1,0'/></transform></sensor>\n";
+const std::string kRoom =
+    "<bsdf type='diffuse' id='white'><rgb name='reflectance' value='0.5,0.5,0.5'/></bsdf>\n"
+    "<shape type='cube'><boolean name='flip_normals' value='true'/><ref id='white'/></shape>\n";
+const std::string kLamp =
+    "<shape type='rectangle'><transform name='to_world'><scale value='0.3'/><rotate x='1' angle='90'/>"
+    "<translate y='0.95'/></transform><emitter type='area'><rgb name='radiance' "
+    "value='9,9,9'/></emitter></shape>\n";
+const std::string kPlyHeader =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t result = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++result;
+    }
+    return result;
+}
+
+class BadInput : public testing::Test {
+  protected:
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    std::filesystem::path write_scene(const std::string& body) const {
+        return write("scene.xml", "<scene version='3.0.0'>\n" + kCamera + body + "</scene>\n");
+    }
+    std::filesystem::path good_scene() const { return write_scene(kRoom + kLamp); }
+    [[nodiscard]] std::filesystem::path picture() const { return folder_ / "picture.png"; }
+
+    /// Renders a small picture, unless `more` wants another size, where an old one is. `before` is set in
+    /// front of the program, as in `VAR=value`.
+    ProgramResult render(const std::filesystem::path& scene, const std::string& more = "",
+                         const std::string& before = "") {
+        write("picture.png", "old");
+        std::string arguments = "render " + quoted(scene) + " -o " + quoted(picture()) + " " + more;
+        for (const auto& [option, value] :
+             {std::pair{"--size", " 16x16"}, {"--spp", " 1"}, {"--vpls", " 16"}}) {
+            arguments += contains(more, option) ? "" : std::string(" ") + option + value;
+        }
+        return run_program(arguments, before);
+    }
+    void expect_error(const ProgramResult& result, int exit_code, const std::string& part) const {
+        EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+        EXPECT_EQ(result.output, "");
+        EXPECT_EQ(count(result.errors, "nearlight: error: "), 1u) << result.errors;
+        EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+        EXPECT_EQ(file_text(picture()), "old");
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+            EXPECT_FALSE(contains(entry.path().string(), ".partial")) << entry.path();
+        }
+    }
+    void expect_picture(const ProgramResult& result, const std::string& warning) const {
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        EXPECT_EQ(count(result.errors, warning), 1u) << result.errors;
+        EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG"));
+    }
+    static bool has_device() { return !list_devices().devices.empty(); }
+
+    TemporaryFolder folder_;
+};
+
+/// Those that reach a device.
+class BadInputOnDevice : public BadInput {
+  protected:
+    void SetUp() override {
+        if (!has_device()) {
+            GTEST_SKIP() << "no OpenCL device";
+        }
+    }
+};
+
+TEST_F(BadInput, BrokenXml) {
+    expect_error(render(folder_ / "missing.xml"), 3, "no such scene file");
+    expect_error(render(write("empty.xml", "")), 3, "empty.xml:1: broken XML");
+    expect_error(render(write("cut.xml", "<scene version='3.0.0'>\n<shape type='cu")), 3,
+                 "cut.xml:2: broken XML");
+    expect_error(render(write("tags.xml", "<scene version='3.0.0'><shape></scene>")), 3,
+                 "tags.xml:1: broken XML");
+    expect_error(render(write_scene("<shape type='nosuch'/>\n")), 3, "scene.xml:3: unknown shape 'nosuch'");
+    expect_error(render(write("scene.abc", "")), 3, "unknown scene format");
+    expect_error(render(folder_.path()), 3, "is a directory");
+}
+
+TEST_F(BadInput, BrokenMeshes) {
+    const std::string shape = "<shape type='ply'><string name='filename' value='mesh.ply'/></shape>\n";
+    expect_error(render(write_scene(shape)), 3, "mesh.ply: no such file");
+    write("mesh.ply", kPlyHeader + "0 0 0\n1 0");
+    expect_error(render(write_scene(shape)), 3, "truncated");
+    expect_error(render(write("bad.obj", "v 0 0 0\nf 1 2 9\n")), 3, "bad.obj:2: face refers to vertex");
+}
+
+TEST_F(BadInputOnDevice, OddMeshesAreTakenAsTheyAre) {
+    const std::string shape = "<shape type='ply'><string name='filename' value='mesh.ply'/></shape>\n";
+    write("mesh.ply", kPlyHeader + "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 1 2 3\n");
+    expect_picture(render(write_scene(kRoom + kLamp + shape)), "1 triangles with NaN or infinite corners");
+    write("mesh.ply", kPlyHeader + "0 0 0\n1 0 0\n2 0 0\n0 1 0\n3 0 1 2\n3 0 0 0\n");
+    expect_picture(render(write_scene(kRoom + kLamp + shape)), "wrote ");
+}
+
+TEST_F(BadInputOnDevice, ScenesInWhichThereIsNothingToSee) {
+    expect_picture(render(write_scene("")), "the scene has no triangles");
+    expect_picture(render(write_scene(kRoom)), "nothing in the scene emits light");
+    expect_picture(render(good_scene(), "--vpls 0"), "no indirect light");
+    expect_picture(render(write_scene(kRoom + kLamp +
+                                      "<shape type='cube'><transform name='to_world'>"
+                                      "<scale value='0.05'/><translate z='-0.9'/></transform></shape>")),
+                   "the camera sees no diffuse surface");
+}
+
+TEST_F(BadInputOnDevice, MissingTextureIsGrey) {
+    const std::string textured =
+        "<bsdf type='diffuse' id='white'><texture name='reflectance' type='bitmap'>"
+        "<string name='filename' value='nosuch.png'/></texture></bsdf>\n"
+        "<shape type='cube'><boolean name='flip_normals' value='true'/><ref id='white'/></shape>\n";
+    expect_picture(render(write_scene(textured + kLamp)), "replaced by mid-grey");
+    expect_error(render(write_scene(textured + kLamp), "--strict"), 3, "nosuch.png");
+}
+
+TEST_F(BadInput, Options) {
+    const auto scene = good_scene();
+    for (const char* size : {"0x0", "-5x5", "1000000x1"}) {
+        expect_error(render(scene, std::string("--size ") + size), 2, "is no size");
+    }
+    expect_error(render(scene, "--spp 0"), 2, "--spp");
+    expect_error(render(scene, "--vpls -3"), 2, "--vpls");
+    expect_error(render(scene, "--max-depth 0"), 2, "--max-depth");
+    expect_error(render(scene, "--range nan"), 2, "--range");
+    expect_error(render(scene, "-D x"), 2, "NAME=VALUE");
+    expect_error(render(scene, "--layers nosuch"), 2, "unknown layer 'nosuch'; there are");
+    for (const char* sampler : {"nosuch", "7", ""}) {
+        expect_error(render(scene, "--sampler '" + std::string(sampler) + "'"), 2,
+                     "there are: close-range, instant-radiosity");
+    }
+    expect_error(run_program("render " + quoted(scene)), 2, "--output is required");
+}
+
+TEST_F(BadInput, Outputs) {
+    const auto scene = good_scene();
+    expect_error(render(scene, "-o " + quoted(folder_ / "x.jpg")), 2, "pictures end in .exr or .png");
+    expect_error(render(scene, "-o " + quoted(folder_ / "x")), 2, "pictures end in .exr or .png");
+    expect_error(render(scene, "-o " + quoted(folder_ / "none" / "x.png")), 3, "there is no folder");
+    std::filesystem::create_directory(folder_ / "folder.png");
+    expect_error(render(scene, "-o " + quoted(folder_ / "folder.png")), 3, "it is a folder");
+    if (geteuid() != 0) {  // nothing is read-only for root
+        std::filesystem::permissions(write("fixed.png", ""), std::filesystem::perms::owner_read);
+        expect_error(render(scene, "-o " + quoted(folder_ / "fixed.png")), 3, "read-only");
+    }
+}
+
+TEST_F(BadInputOnDevice, OutputThatFailsLate) {
+    if (!std::filesystem::exists("/proc/self")) {
+        GTEST_SKIP() << "no /proc here";
+    }
+    expect_error(render(good_scene(), "-o /proc/x.png"), 3, "/proc/x.png");
+}
+
+TEST_F(BadInput, NoDevice) {
+    const auto scene = good_scene();
+    expect_error(render(scene, "", "OCL_ICD_VENDORS=/nonexistent"), 4, "install a driver");
+    const auto icd = write("broken.icd", "libnearlight-nosuch.so\n");
+    expect_error(render(scene, "", "OCL_ICD_VENDORS=" + quoted(icd.parent_path())), 4, "install a driver");
+}
+
+TEST_F(BadInputOnDevice, UnknownDevice) {
+    expect_error(render(good_scene(), "--device nosuch"), 4, "there are: 0 = ");
+    expect_error(render(good_scene(), "--device 99"), 4, "there are: 0 = ");
+}
+
+TEST_F(BadInputOnDevice, BrokenKernel) {
+    const auto kernels = folder_ / "kernels";
+    std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
+                          std::filesystem::copy_options::recursive);
+    std::ofstream(kernels / "film.cl", std::ios::app) << "kernel void broken( {\n";
+    expect_error(render(good_scene(), "--kernel-dir " + quoted(kernels)), 5,
+                 "kernels/film.cl does not compile");
+    expect_error(render(good_scene(), "--kernel-dir " + quoted(folder_ / "none")), 5, "check --kernel-dir");
+}
+
+TEST_F(BadInputOnDevice, MoreThanMemoryHolds) {
+    expect_error(render(good_scene(), "--size 65536x65536"), 6, "use a smaller --size");
+    // One GiB; where the device is not PoCL's, its memory may well be enough.
+    const ProgramResult result =
+        render(good_scene(), "--vpls 4000000 --direct-samples 1", "POCL_MEMORY_LIMIT=1");
+    if (result.exit_code != 0) {
+        expect_error(result, 6, "use a smaller");
+    }
+}
+
+TEST_F(BadInputOnDevice, InterruptSavesWhatIsThere) {
+    const ProgramResult result = run_program("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
+                                                 " --size 1024x1024 --spp 1024 --vpls 1000 --quiet",
+                                             "timeout --preserve-status --signal=INT 8");
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG"));
+    EXPECT_EQ(folder_.file_count(), 2u);  // the scene and the picture
+}
+
+}  // namespace
+}  // namespace nearlight
