@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
-
 #include "host/scene/ply_loader.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/real_scenes.h"
 
 namespace nearlight {
 namespace {
 
 using namespace test;
-
-// Empty where the scenes are not on this machine.
-std::filesystem::path real_scene(const std::string& name) {
-    const char* folder = std::getenv("NEARLIGHT_TEST_SCENES");
-    const std::filesystem::path root =
-        folder != nullptr ? folder : std::filesystem::path(NEARLIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
-    return std::filesystem::exists(root / name) ? root / name : std::filesystem::path();
-}
 
 TEST(RealScenes, ModernHall) {
     const auto file = real_scene("modern-hall/scene.xml");
