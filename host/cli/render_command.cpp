@@ -37,7 +37,7 @@ const std::map<std::string, Policy> kPolicies{{"partition", Policy::partition}, 
 const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
-/// A picture of 2^30 pixels with all layers is a file of up to 64 GiB; more than that is a slip of the finger.
+/// A picture of 2^30 pixels with all layers is a file of up to 64 GiB; more is a slip of the finger.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;
 
 /// The option takes one of the names only, and says so.
