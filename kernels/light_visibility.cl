@@ -3,12 +3,13 @@
 //
 // One work-item a triangle of `ids`, any work-group size: selected[id] = 1 if any of a few points of it, on any
 // side that reflects, sees any light; entries of other triangles are left alone. This only steers where VPLs are
-// placed: a triangle that is missed here is left to light tracing, so nothing is lost (docs/method.md).
+// placed: a triangle that is missed here is left to light tracing, so nothing is lost (docs/method.md). Therefore one
+// point for each area_per_point (m²) of a triangle is enough, up to MAX_POINTS.
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
 
-#define POINTS_PER_TRIANGLE 8u
+#define MAX_POINTS 8u
 #define LIGHTS_PER_POINT 2u
 
 inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
@@ -35,8 +36,8 @@ inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point,
     return false;
 }
 
-kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, uint id_count, uint seed,
-                             global uint* restrict selected) {
+kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, uint id_count, float area_per_point,
+                             uint seed, global uint* restrict selected) {
     const uint index = (uint)get_global_id(0);
     if (index >= id_count) {
         return;
@@ -46,7 +47,8 @@ kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, 
     const global Material* material = scene.materials + scene.triangles[id].material;
     const uint key = random_uint4((uint4)(id, seed, 0x715u, 0x1u)).x;
     const bool two_sided = reflects(material, 0);
-    for (uint i = 0; i < POINTS_PER_TRIANGLE; ++i) {
+    const uint point_count = (uint)clamp(triangle_area(&scene, id) / area_per_point, 1.0f, (float)MAX_POINTS);
+    for (uint i = 0; i < point_count; ++i) {
         float3 normal;
         const float3 point = triangle_point(&scene, id, square_to_triangle(sample_2d(i, 0, key)), &normal);
         if (point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key) ||

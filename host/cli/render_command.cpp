@@ -156,6 +156,13 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
     }
 }
 
+/// Device time of each kernel, for those who look for where it goes.
+void tell_kernel_times(Device& device) {
+    for (const auto& [kernel, total] : device.profiler().totals()) {
+        spdlog::debug("{:<24} {:8.3f} s in {} launches", kernel, total.seconds, total.launches);
+    }
+}
+
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const RenderSettings settings = settled(options);
     check_outputs(options.picture);
@@ -183,6 +190,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     files.commit(total.seconds());
     if (global.json) {
         print_json(to_json(options, settings, report, device->entry(), load_seconds));
+    }
+    if (global.verbose) {
+        tell_kernel_times(*device);
     }
     tell(options, report, total.seconds());
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;

@@ -140,6 +140,13 @@ inline float3 triangle_point(const SceneView* scene, uint triangle_id, float2 ba
     return a + barycentrics.x * edge1 + barycentrics.y * edge2;
 }
 
+inline float triangle_area(const SceneView* scene, uint triangle_id) {
+    const Triangle triangle = scene->triangles[triangle_id];
+    const float3 a = load3(scene->vertices[triangle.v0].position);
+    return 0.5f * length(cross(load3(scene->vertices[triangle.v1].position) - a,
+                               load3(scene->vertices[triangle.v2].position) - a));
+}
+
 /// One-sample estimate of the irradiance at x from one emissive triangle, sampled uniformly over its area.
 inline float3 triangle_irradiance(const SceneView* scene, const global Emitter* emitter, float3 x, float3 n, float2 u) {
     float3 light_normal;
