@@ -6,7 +6,7 @@
 namespace nearlight {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.file, "Mitsuba XML (.xml), glTF (.gltf, .glb) or OBJ (.obj)")
+    command.add_option("SCENE", options.file, "Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
         ->required();
     command
         .add_option("-D,--define", options.definitions,
