@@ -9,20 +9,10 @@
 #include <type_traits>
 
 #include "host/base/error.h"
+#include "host/reference/embree_handles.h"
 
 namespace nearlight {
 namespace {
-
-template <auto release>
-struct Release {
-    template <typename T>
-    void operator()(T* object) const {
-        release(object);
-    }
-};
-using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcReleaseDevice>>;
-using EmbreeTree = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>>;
-using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
 
 EmbreeTree build_tree(RTCDevice device, const Scene& scene, std::span<const uint> ids,
                       RTCBuildQuality quality) {

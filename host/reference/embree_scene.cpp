@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/reference/embree_handles.h"
 
 namespace nearlight {
 namespace {
@@ -23,17 +24,6 @@ static_assert(offsetof(RayPacket16, t_max) == offsetof(RTCRay16, tfar));
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of a segment: what its end points' own surfaces may take.
 constexpr float kSegmentMargin = 1e-5f;
-
-template <auto release>
-struct Release {
-    template <typename T>
-    void operator()(T* object) const {
-        release(object);
-    }
-};
-using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcReleaseDevice>>;
-using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>>;
-using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
 
 /// The first error that Embree reported, possibly from a thread of its own.
 struct Report {
@@ -69,8 +59,8 @@ RTCBuildQuality build_quality(EmbreeOptions::Quality quality) {
     return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-Geometry make_geometry(RTCDevice device, const Scene& scene, std::span<const uint> ids) {
-    Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+EmbreeGeometry make_geometry(RTCDevice device, const Scene& scene, std::span<const uint> ids) {
+    EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
         geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), scene.vertices.size()));
     auto* indices = static_cast<uint*>(rtcSetNewGeometryBuffer(
@@ -91,16 +81,16 @@ Geometry make_geometry(RTCDevice device, const Scene& scene, std::span<const uin
     return geometry;
 }
 
-SceneHandle make_scene(RTCDevice device, const Scene& scene, std::span<const uint> ids,
-                       const EmbreeOptions& options) {
-    SceneHandle handle(rtcNewScene(device));
+EmbreeTree make_scene(RTCDevice device, const Scene& scene, std::span<const uint> ids,
+                      const EmbreeOptions& options) {
+    EmbreeTree handle(rtcNewScene(device));
     if (handle == nullptr) {
         return handle;
     }
     rtcSetSceneFlags(handle.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(handle.get(), build_quality(options.quality));
     if (!ids.empty()) {
-        if (const Geometry geometry = make_geometry(device, scene, ids)) {
+        if (const EmbreeGeometry geometry = make_geometry(device, scene, ids)) {
             rtcAttachGeometry(handle.get(), geometry.get());
         }
     }
@@ -131,11 +121,11 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float t_min, float t_max) {
 
 struct EmbreeScene::State {
     Report report;
-    Device device;
+    EmbreeDevice device;
     std::vector<uint> opaque_ids;
     std::vector<uint> glass_ids;
-    SceneHandle opaque;
-    SceneHandle glass;
+    EmbreeTree opaque;
+    EmbreeTree glass;
     RTCIntersectContextFlags context_flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 
     [[nodiscard]] RTCIntersectContext make_context() const {

@@ -8,6 +8,7 @@
 
 #include "host/cl/device_list.h"
 #include "tests/cli/run_program.h"
+#include "tests/support/device_required.h"
 
 namespace nearlight {
 namespace {
@@ -77,19 +78,13 @@ class BadInput : public testing::Test {
         EXPECT_EQ(count(result.errors, warning), 1u) << result.errors;
         EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG"));
     }
-    static bool has_device() { return !list_devices().devices.empty(); }
-
     TemporaryFolder folder_;
 };
 
 /// Those that reach a device.
 class BadInputOnDevice : public BadInput {
   protected:
-    void SetUp() override {
-        if (!has_device()) {
-            GTEST_SKIP() << "no OpenCL device";
-        }
-    }
+    void SetUp() override { NEARLIGHT_NEEDS_DEVICE(); }
 };
 
 TEST_F(BadInput, BrokenXml) {

@@ -8,6 +8,7 @@
 
 #include "host/cl/device_list.h"
 #include "tests/cli/run_program.h"
+#include "tests/support/device_required.h"
 
 namespace nearlight {
 namespace {
@@ -40,10 +41,7 @@ std::string hash_with_threads(const std::filesystem::path& scene, const std::fil
 }
 
 TEST(ThreadCount, DoesNotChangeABit) {
-    const DeviceList list = list_devices();
-    if (list.devices.empty()) {
-        GTEST_SKIP() << "no OpenCL device";
-    }
+    NEARLIGHT_NEEDS_DEVICE();
     const TemporaryFolder folder;
     const std::filesystem::path scene = folder / "scene.xml";
     std::ofstream(scene) << kScene;

@@ -5,20 +5,13 @@
 
 #include "host/cl/device_list.h"
 #include "tests/cli/run_program.h"
+#include "tests/support/device_required.h"
 
 namespace nearlight {
 namespace {
 
-bool has_device() {
-    const DeviceList list = list_devices();
-    return std::any_of(list.devices.begin(), list.devices.end(),
-                       [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
-}
-
 TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
-    if (!has_device()) {
-        GTEST_SKIP() << "no OpenCL device";
-    }
+    NEARLIGHT_NEEDS_DEVICE();
     const ProgramResult result = run_program("selftest --json --device all");
     ASSERT_EQ(result.exit_code, 0) << result.output << result.errors;
     const nlohmann::json json = nlohmann::json::parse(result.output);
@@ -43,9 +36,7 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
 
 /// A kernel that does not compute what it should is found: one with a planted fault, read from a folder.
 TEST(Selftest, ABrokenKernelFailsItsCheckAndNoOther) {
-    if (!has_device()) {
-        GTEST_SKIP() << "no OpenCL device";
-    }
+    NEARLIGHT_NEEDS_DEVICE();
     const TemporaryFolder folder;
     const std::filesystem::path kernels = folder / "kernels";
     std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
