@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each VPL brings to the camera: the column sums of the receiver × VPL matrix, over some receivers.
 //
-// One work-item a VPL; any work-group size. contribution = Σ luminance(response · G · V · power/π) over the
-// receivers of `packet_count` packets, response the reflectance (divided by π) times the weight of the camera path.
-// Used by the pilot that splits the budget.
+// The matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the receivers of
+// the camera send out importance like VPLs (importons, host/stages/pilot_view.h), and the VPLs receive it.
+// contribution = Σ luminance(response · G · V · power/π) over the importons, response the reflectance (divided by π)
+// times the weight of the camera path.
+//
+// vpl_receivers:    VPL i becomes lane i % 64 of packet i / 64; the last packet is filled up with absent ones.
+// vpl_contribution: importance that arrived, and power, to luminance.
+// One work-item a lane; any work-group size.
 
-#include "lib/bvh_traverse.cl"
+#include "lib/math.cl"
 
-kernel void vpl_contribution(const global BvhNode* restrict nodes, const global BvhTriangle* restrict triangles,
-                             const global Vpl* restrict vpls, uint vpl_count,
-                             const global ReceiverPacket* restrict receivers,
-                             const global CameraVertex* restrict vertices, uint packet_count, float clamp_radius,
-                             global float* restrict contribution) {
+kernel void vpl_receivers(const global Vpl* restrict vpls, uint vpl_count, uint lane_count,
+                          global ReceiverPacket* restrict receivers) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= lane_count) {
+        return;
+    }
+    global ReceiverPacket* packet = receivers + index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    const bool present = index < vpl_count;
+    const float3 position = present ? load3(vpls[index].position) : (float3)(0.0f);
+    const float3 normal = present ? load3(vpls[index].normal) : (float3)(0.0f);
+    packet->px[lane] = position.x;
+    packet->py[lane] = position.y;
+    packet->pz[lane] = position.z;
+    packet->nx[lane] = normal.x;
+    packet->ny[lane] = normal.y;
+    packet->nz[lane] = normal.z;
+}
+
+kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
+                             const global IrradiancePacket* restrict importance, global float* restrict contribution) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
         return;
     }
-    const Vpl vpl = vpls[index];
-    const float3 y = load3(vpl.position);
-    const float3 n_y = load3(vpl.normal);
-    const float3 power = load3(vpl.power);
-    float sum = 0.0f;
-    for (uint i = 0; i < packet_count * NEARLIGHT_PACKET_SIZE; ++i) {
-        const global ReceiverPacket* packet = receivers + i / NEARLIGHT_PACKET_SIZE;
-        const uint lane = i % NEARLIGHT_PACKET_SIZE;
-        const float3 d = (float3)(packet->px[lane], packet->py[lane], packet->pz[lane]) - y;
-        const float3 n_x = (float3)(packet->nx[lane], packet->ny[lane], packet->nz[lane]);
-        const float cos_x = -dot(n_x, d);
-        const float cos_y = dot(n_y, d);
-        if (!(cos_x > 0.0f) || !(cos_y > 0.0f)) {
-            continue;
-        }
-        const float squared = dot(d, d);
-        const float3 response = load3(vertices[i].throughput) * load3(vertices[i].albedo);
-        const float geometry = cos_x * cos_y / (squared * fmax(squared, clamp_radius * clamp_radius));
-        const float value = luminance(response * power) * geometry / (M_PI_F * M_PI_F);
-        if (value > 0.0f && !occluded(nodes, triangles, y, d, NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX)) {
-            sum += value;
-        }
-    }
-    contribution[index] = sum;
+    const global IrradiancePacket* packet = importance + index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    const float3 arrived = (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
+    contribution[index] = luminance(arrived * load3(vpls[index].power)) * M_1_PI_F;
 }

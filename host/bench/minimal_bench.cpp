@@ -151,7 +151,7 @@ bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
         }
     };
     const RenderReport report = render(
-        device, work.scene, settings, [](const RenderReport&, const View&) {}, take_rows,
+        device, work.scene, settings, [](const RenderReport&, const View&, const VplSet&) {}, take_rows,
         [](const std::string&, double) { return true; });
     const bool good = finite && sum > 0.0;
     std::printf("picture by %s: %s, %zu close and %zu distant VPLs, %.2f s, mean %.5f, hash %s\n",
@@ -171,8 +171,8 @@ bool run_on(const DeviceEntry& entry, const Workload& work) {
         good = check_pairs(device, work, gatherer) && good;
         time_gather(device, work, gatherer);
     }
-    for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::instant_radiosity}) {
-        good = check_picture(device, work, sampler) && good;
+    for (const SamplerEntry& sampler : all_samplers()) {
+        good = check_picture(device, work, sampler.kind) && good;
     }
     return good;
 }

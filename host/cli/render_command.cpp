@@ -31,9 +31,6 @@ struct RenderOptions {
     std::string clamp_radius = "auto";
 };
 
-const std::map<std::string, SamplerKind> kSamplers{{"close-range", SamplerKind::close_range},
-                                                   {"instant-radiosity", SamplerKind::instant_radiosity}};
-const std::map<std::string, Policy> kPolicies{{"partition", Policy::partition}, {"paper", Policy::paper}};
 const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
@@ -44,7 +41,7 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;
 template <typename Choice>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
                         const std::map<std::string, Choice>& choices, const std::string& description) {
-    const auto choose = [option, &value, &choices](const std::string& text) {
+    const auto choose = [option, &value, choices](const std::string& text) {
         std::string names;
         for (const auto& [name, choice] : choices) {
             names += (names.empty() ? "" : ", ") + name;
@@ -114,7 +111,10 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     json["height"] = report.height;
     json["sampler"] = to_string(settings.sampler);
     json["policy"] = settings.sampler == SamplerKind::close_range ? nlohmann::ordered_json(to_string(settings.policy)) : nullptr;
-    json["vpls"] = {{"requested", settings.vpl_count}, {"close", report.close_vpls}, {"distant", report.distant_vpls}};
+    json["vpls"] = {{"requested", settings.vpl_count},
+                    {"close", report.close_vpls},
+                    {"distant", report.distant_vpls},
+                    {"sparse", report.sparse_vpls}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.clamp_radius;
@@ -178,7 +178,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     PictureFiles files(options.picture);
     const RenderReport report = render(
         *device, scene, settings,
-        [&](const RenderReport& started, const View& view) {
+        [&](const RenderReport& started, const View& view, const VplSet&) {
             files.open(started.width, started.height, metadata_of(scene, settings, started, view, device->entry()));
         },
         [&](std::span<const float> rows) { files.write_rows(rows); },
@@ -200,10 +200,20 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
 
 void add_method_options(CLI::App& command, RenderOptions& options) {
     RenderSettings& settings = options.settings;
-    add_choice(command, "--sampler", settings.sampler, kSamplers, "Where VPLs come from: close-range or instant-radiosity")
-        ->default_str("close-range");
-    add_choice(command, "--policy", settings.policy, kPolicies, "Of close-range: partition (unbiased) or paper (loses bounces)")
-        ->default_str("partition");
+    std::map<std::string, SamplerKind> samplers;
+    std::string sampler_help = "Where VPLs are put: ";
+    for (const SamplerEntry& entry : all_samplers()) {
+        samplers.emplace(entry.name, entry.kind);
+        sampler_help += fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
+    }
+    add_choice(command, "--sampler", settings.sampler, samplers, sampler_help)->default_str(to_string(settings.sampler));
+    std::map<std::string, Policy> policies;
+    std::string policy_help = "Of close-range: ";
+    for (const PolicyEntry& entry : all_policies()) {
+        policies.emplace(entry.name, entry.policy);
+        policy_help += fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
+    }
+    add_choice(command, "--policy", settings.policy, policies, policy_help)->default_str(to_string(settings.policy));
     command.add_option("--vpls", settings.vpl_count, "Virtual point lights to aim at")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")

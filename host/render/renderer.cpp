@@ -14,12 +14,11 @@ namespace {
 
 /// Every stage of a render, compiled.
 struct RenderStages {
-    RenderStages(Device& device, const RenderSettings& settings)
-        : camera_pass(device), samplers(device), gatherer(device, {.kernel = settings.gather_kernel}), film(device), vpl_order(device) {}
+    RenderStages(Device& device, GatherKernel gather_kernel)
+        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device), vpl_order(device) {}
 
     CameraPass camera_pass;
     SamplerStages samplers;
-    Gatherer gatherer;
     Film film;
     VplOrder vpl_order;
 };
@@ -64,9 +63,13 @@ bool render_batch(RenderStages& stages, const Picture& picture, const CameraBand
     const std::size_t packets = packet_count(band, width);
     stages.camera_pass.run(picture.scene, picture.camera, width, picture.close_range, band, picture.settings.seed,
                            buffers.receivers, buffers.vertices);
-    stages.samplers.direct_light.run(picture.scene, buffers.receivers, packets,
-                                     direct_samples_per_sample(picture.settings), picture.settings.seed, buffers.direct);
-    const bool finished = stages.gatherer.gather(
+    if (picture.settings.indirect_only) {
+        buffers.direct.fill_zero();
+    } else {
+        stages.samplers.direct_light.run(picture.scene, buffers.receivers, packets, direct_samples_per_sample(picture.settings),
+                                         picture.settings.seed, buffers.direct);
+    }
+    const bool finished = stages.samplers.gatherer.gather(
         {.nodes = picture.scene.nodes,
          .triangles = picture.scene.bvh_triangles,
          .vpls = picture.vpls,
@@ -134,48 +137,75 @@ void fill_report(const View& view, const VplSet& vpls, RenderReport& report) {
     report.max_depth = view.max_depth;
     report.close_vpls = vpls.close_count;
     report.distant_vpls = vpls.distant_count;
+    report.sparse_vpls = vpls.sparse_count;
     report.close_fraction = vpls.close_fraction;
+}
+
+SamplingTask sampling_task(const DeviceScene& scene, const View& view, const RenderSettings& settings) {
+    return {.scene = scene,
+            .view = view.pilot,
+            .sampler = settings.sampler,
+            .policy = settings.policy,
+            .vpl_count = settings.vpl_count,
+            .bounce_count = view.bounce_count(),
+            .close_fraction = settings.close_fraction,
+            .close_range = view.close_range,
+            .clamp_radius = view.clamp_radius,
+            .seed = settings.seed};
 }
 
 }  // namespace
 
-RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress) {
-    RenderReport report;
-    const Stopwatch total;
+struct Renderer::State {
+    Device& device;
+    const Scene& scene;
+    RenderSeconds seconds;  ///< of getting ready
+    RenderStages stages;
+    DeviceScene device_scene;
 
-    // Kernels compile while the tree is built: one waits for the driver, the other for memory.
-    auto building = std::async(std::launch::async, [&] {
+    /// Kernels compile while the tree is built: one waits for the driver, the other for memory.
+    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel) {
+        const Stopwatch total;
+        RenderSeconds seconds;
+        auto building = std::async(std::launch::async, [&] {
+            Stopwatch watch;
+            SceneBvhs bvhs = build_scene_bvhs(scene);
+            seconds.build_bvh = watch.seconds();
+            return bvhs;
+        });
         Stopwatch watch;
-        SceneBvhs bvhs = build_scene_bvhs(scene);
-        report.seconds.build_bvh = watch.seconds();
-        return bvhs;
-    });
-    Stopwatch watch;
-    RenderStages stages(device, settings);
-    report.seconds.compile = watch.lap();
-    building.wait();
+        auto state = std::unique_ptr<State>(new State{device, scene, {}, RenderStages(device, gather_kernel), {}});
+        seconds.compile = watch.lap();
+        building.wait();
+        watch.lap();
+        state->device_scene = upload_scene(device, scene, building.get());  // the host's trees end here
+        seconds.generate = watch.lap();
+        seconds.total = total.seconds();
+        state->seconds = seconds;
+        return state;
+    }
+};
 
-    watch.lap();
-    const DeviceScene device_scene = upload_scene(device, scene, building.get());  // the host's trees end here
+Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel)
+    : state_(State::make(device, scene, gather_kernel)) {}
+Renderer::~Renderer() = default;
+
+RenderReport Renderer::render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
+                              const RenderProgress& progress) {
+    auto& [device, scene, seconds, stages, device_scene] = *state_;
+    RenderReport report{.seconds = std::exchange(seconds, {})};
+    Stopwatch watch;
+    const Stopwatch total;
     const View view = choose_view(device, stages.camera_pass, device_scene, scene, settings);
-    const VplSet vpls = sample_vpls(stages.samplers, {.scene = device_scene,
-                                                      .view = view.pilot,
-                                                      .sampler = settings.sampler,
-                                                      .policy = settings.policy,
-                                                      .vpl_count = settings.vpl_count,
-                                                      .bounce_count = view.bounce_count(),
-                                                      .close_fraction = settings.close_fraction,
-                                                      .close_range = view.close_range,
-                                                      .clamp_radius = view.clamp_radius,
-                                                      .seed = settings.seed});
+    const VplSet vpls = sample_vpls(stages.samplers, sampling_task(device_scene, view, settings));
     const Buffer<Vpl> vpl_buffer = stages.vpl_order.upload_sorted(vpls.vpls);
-    report.seconds.generate = watch.lap();
+    report.seconds.generate += watch.lap();
 
     fill_report(view, vpls, report);
-    start(report, view);
+    start(report, view, vpls);
     const Buffer<PinholeCamera> camera(device, std::span(&view.camera, 1));
     const Buffer<CloseRange> close_range(device, std::span(&view.close_range, 1));
+    watch.lap();
     render_bands(device, stages,
                  {.scene = device_scene,
                   .view = view,
@@ -186,9 +216,14 @@ RenderReport render(Device& device, const Scene& scene, const RenderSettings& se
                   .vpl_count = vpls.vpls.size()},
                  sink, progress, report);
     report.seconds.gather = watch.lap();
-    report.seconds.total = total.seconds();
+    report.seconds.total += total.seconds();
     report.device_bytes = device.peak_bytes();
     return report;
+}
+
+RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
+                    const RowSink& sink, const RenderProgress& progress) {
+    return Renderer(device, scene, settings.gather_kernel).render(settings, start, sink, progress);
 }
 
 }  // namespace nearlight

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -35,6 +36,7 @@ struct RenderReport {
     uint max_depth = 0;
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
+    std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
     float close_fraction = 0;
     RenderSeconds seconds;
     std::size_t device_bytes = 0;  ///< most at any time
@@ -43,9 +45,27 @@ struct RenderReport {
 };
 
 /// Called when all settings are decided and before the first row, so that files can be opened with the right size
-/// and metadata.
-using RenderStart = std::function<void(const RenderReport&, const View&)>;
+/// and metadata, and VPLs be looked at.
+using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
+/// A scene on a device, ready for any number of pictures: kernels compiled, tree built, everything uploaded.
+class Renderer {
+  public:
+    /// Refers to `device` and `scene`, which must outlive it.
+    Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel = GatherKernel::automatic);
+    ~Renderer();
+
+    /// A picture. The report's seconds of building and compiling are the constructor's, once; so its total is what a
+    /// render takes from the scene on.
+    RenderReport render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
+                        const RenderProgress& progress);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The only picture of a scene.
 RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress);
 

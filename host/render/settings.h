@@ -21,6 +21,7 @@ struct RenderSettings {
     std::optional<int> height{};
     uint samples_per_pixel = 4;
     uint direct_samples_per_pixel = 64;  ///< for area and environment lights
+    bool indirect_only = false;  ///< leave out direct light (its layer is emission only); for comparisons
     uint seed = 0;
     GatherKernel gather_kernel = GatherKernel::automatic;
 };

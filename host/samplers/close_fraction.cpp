@@ -25,8 +25,7 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
         const std::vector<Vpl> vpls = stages.light_tracer.run(task.scene, region, keep, walks);
         const Buffer<Vpl> buffer(stages.device, std::span<const Vpl>(vpls));
         Buffer<float> contribution(stages.device, vpls.size());
-        stages.vpl_contribution.run(task.scene, buffer, static_cast<uint>(vpls.size()), task.view.receivers,
-                                    task.view.vertices, task.view.packet_count, task.clamp_radius, contribution);
+        stages.vpl_contribution.run(task.scene, buffer, vpls.size(), task.view, task.clamp_radius, contribution);
         double sum = 0;
         for (const float c : contribution.download()) {
             sum += static_cast<double>(c) * c;

@@ -1,25 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+#include <algorithm>
+#include <array>
 
-std::string to_string(SamplerKind kind) {
-    return kind == SamplerKind::close_range ? "close-range" : "instant-radiosity";
+namespace nearlight {
+namespace {
+
+constexpr std::array kSamplers{
+    SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera", sample_close_range},
+    SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land", sample_instant_radiosity},
+};
+constexpr std::array kPolicies{
+    PolicyEntry{Policy::partition, "partition", "unbiased"},
+    PolicyEntry{Policy::paper, "paper", "loses bounces"},
+};
+
+const SamplerEntry& entry_of(SamplerKind kind) {
+    return *std::ranges::find(kSamplers, kind, &SamplerEntry::kind);
 }
 
-std::string to_string(Policy policy) { return policy == Policy::paper ? "paper" : "partition"; }
+}  // namespace
+
+std::span<const SamplerEntry> all_samplers() { return kSamplers; }
+std::span<const PolicyEntry> all_policies() { return kPolicies; }
+
+std::string to_string(SamplerKind kind) { return entry_of(kind).name; }
+std::string to_string(Policy policy) { return std::ranges::find(kPolicies, policy, &PolicyEntry::policy)->name; }
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task) {
     if (task.vpl_count == 0 || task.bounce_count == 0 || task.scene.host_info.emitter_count == 0) {
         return {};
     }
-    switch (task.sampler) {
-        case SamplerKind::instant_radiosity:
-            return sample_instant_radiosity(stages, task);
-        case SamplerKind::close_range:
-            return sample_close_range(stages, task);
-    }
-    return {};
+    return entry_of(task.sampler).sample(stages, task);
 }
 
 }  // namespace nearlight

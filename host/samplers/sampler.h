@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@
 namespace nearlight {
 
 enum class SamplerKind {
-    instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
+    instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
@@ -43,12 +44,29 @@ struct VplSet {
     std::size_t close_count = 0;     ///< placed on close-range patches
     std::size_t distant_count = 0;   ///< deposited by light walks
     std::size_t close_triangles = 0; ///< triangles that patches were placed on
+    std::size_t sparse_count = 0;    ///< VPLs that only lit other VPLs and are not gathered by the picture
+    std::size_t candidate_count = 0; ///< that `vpls` were chosen from; 0: there was no choice
     float close_fraction = 0.0f;     ///< that was used
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
-VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+
+/// A row of the table of samplers, by which commands know them.
+struct SamplerEntry {
+    SamplerKind kind;
+    const char* name;
+    const char* description;  ///< a few words, for help texts
+    VplSet (*sample)(SamplerStages& stages, const SamplingTask& task);
+};
+struct PolicyEntry {
+    Policy policy;
+    const char* name;
+    const char* description;
+};
+std::span<const SamplerEntry> all_samplers();
+std::span<const PolicyEntry> all_policies();
 
 }  // namespace nearlight

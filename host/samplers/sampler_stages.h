@@ -4,6 +4,7 @@
 
 #include "host/stages/compaction.h"
 #include "host/stages/direct_light.h"
+#include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/light_visibility.h"
 #include "host/stages/morton_sort.h"
@@ -15,8 +16,9 @@
 namespace nearlight {
 
 struct SamplerStages {
-    explicit SamplerStages(Device& on_device)
+    explicit SamplerStages(Device& on_device, const GatherConfig& gather_config = {})
         : device(on_device),
+          gatherer(device, gather_config),
           triangle_classifier(device),
           light_visibility(device),
           compaction(device),
@@ -25,9 +27,13 @@ struct SamplerStages {
           patch_vpls(device),
           direct_light(device),
           light_tracer(device),
-          vpl_contribution(device) {}
+          vpl_contribution(device, gatherer) {}
+
+    SamplerStages(const SamplerStages&) = delete;  // stages refer to one another
+    SamplerStages& operator=(const SamplerStages&) = delete;
 
     Device& device;
+    Gatherer gatherer;
     TriangleClassifier triangle_classifier;
     LightVisibility light_visibility;
     Compaction compaction;

@@ -28,6 +28,25 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
 
 }  // namespace
 
+std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets, const std::vector<CameraVertex>& vertices) {
+    std::vector<Vpl> importons;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const ReceiverPacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
+        const Vec3 response = vertices[i].throughput * vertices[i].albedo;
+        if (!is_zero(normal) && luminance(response) > 0.0f) {
+            importons.push_back({.position = {packet.px[lane], packet.py[lane], packet.pz[lane]},
+                                 .depth = 0,
+                                 .normal = normal,
+                                 .flags = 0,
+                                 .power = response,
+                                 .pad0 = 0.0f});
+        }
+    }
+    return importons;
+}
+
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene, const SceneCamera& camera,
                         uint seed) {
     const double aspect = static_cast<double>(camera.width) / camera.height;
@@ -44,7 +63,11 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
     camera_pass.run(scene, camera_buffer, pinhole.width, close_range, band, seed, view.receivers, view.vertices);
-    view.distances = receiver_distances(view.receivers.download(), pinhole.origin);
+    const std::vector<ReceiverPacket> packets = view.receivers.download();
+    view.distances = receiver_distances(packets, pinhole.origin);
+    const std::vector<Vpl> importons = make_importons(packets, view.vertices.download());
+    view.importons = Buffer<Vpl>(device, std::span(importons));
+    view.importon_count = importons.size();
     return view;
 }
 

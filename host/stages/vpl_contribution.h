@@ -4,20 +4,34 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
+#include "host/stages/gatherer.h"
+#include "host/stages/pilot_view.h"
 
 namespace nearlight {
 
 class VplContribution {
   public:
-    explicit VplContribution(Device& device);
+    /// Gathers with `gatherer`, which must outlive it.
+    VplContribution(Device& device, Gatherer& gatherer);
 
-    /// One luminance for each of the first `vpl_count` VPLs, summed over all receivers of `packet_count` packets.
-    void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, uint vpl_count, const Buffer<ReceiverPacket>& receivers,
-             const Buffer<CameraVertex>& vertices, uint packet_count, float clamp_radius, Buffer<float>& contribution);
+    /// VPLs as receivers, receiver_packet_count(vpl_count) packets.
+    void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers);
+
+    /// One luminance for each of the first `vpl_count` VPLs, summed over all importons of the view.
+    void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
+             float clamp_radius, Buffer<float>& contribution);
 
   private:
+    Device* device_;
+    Gatherer* gatherer_;
     Program program_;
+    Kernel vpl_receivers_;
     Kernel vpl_contribution_;
 };
+
+/// Packets that hold so many receivers.
+inline std::size_t receiver_packet_count(std::size_t receiver_count) {
+    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
+}
 
 }  // namespace nearlight

@@ -17,7 +17,7 @@ inline Rendering render_image(Device& device, const Scene& scene, const RenderSe
     Rendering rendering;
     rendering.report = render(
         device, scene, settings,
-        [&](const RenderReport& report, const View&) {
+        [&](const RenderReport& report, const View&, const VplSet&) {
             rendering.image = {report.width, report.height, layer_channels(), {}};
         },
         [&](std::span<const float> rows) {

@@ -50,11 +50,14 @@ TEST_F(VplContributionTest, IsTheColumnSumOfAPlainLoop) {
     on_each_device([&](Device& device) {
         const test::SceneOnDevice on_device(device, data.scene);
         Buffer<float> contribution(device, std::vector<float>(data.vpls.size(), -1.0f));
-        const auto vpl_count = static_cast<uint>(data.vpls.size() - 1);
-        VplContribution(device).run(
-            on_device.buffers, Buffer<Vpl>(device, data.vpls), vpl_count,
-            Buffer<ReceiverPacket>(device, data.receivers), Buffer<CameraVertex>(device, vertices),
-            static_cast<uint>(data.receivers.size()), data.clamp_radius, contribution);
+        const std::size_t vpl_count = data.vpls.size() - 1;
+        const std::vector<Vpl> importons = make_importons(data.receivers, vertices);
+        PilotView view;
+        view.importons = Buffer<Vpl>(device, std::span(importons));
+        view.importon_count = importons.size();
+        Gatherer gatherer(device);
+        VplContribution(device, gatherer)
+            .run(on_device.buffers, Buffer<Vpl>(device, data.vpls), vpl_count, view, data.clamp_radius, contribution);
         const std::vector<float> found = contribution.download();
         uint seen = 0;
         for (std::size_t v = 0; v < vpl_count; ++v) {
