@@ -56,8 +56,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
             return;
         }
         flux *= light_albedo(&scene, material, hit.uv);
-        const bool is_close = keep != KEEP_ALL && is_close_surface(close_range, close_triangles, whole_triangles,
-                                                                   hit.triangle, hit.position);
+        const bool is_close =
+            is_close_surface(close_range, close_triangles, whole_triangles, hit.triangle, hit.position);
         const bool kept = keep == KEEP_ALL || !is_close || (keep == KEEP_INDIRECT_INSIDE && bounce > 0);
         origin = offset_point(&scene, hit.position, hit.geometric);
         if (kept && !is_black(flux)) {

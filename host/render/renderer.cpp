@@ -7,7 +7,6 @@
 #include "host/base/stopwatch.h"
 #include "host/render/plan.h"
 #include "host/stages/film.h"
-#include "host/stages/vpl_order.h"
 
 namespace nearlight {
 namespace {
@@ -15,12 +14,11 @@ namespace {
 /// Every stage of a render, compiled.
 struct RenderStages {
     RenderStages(Device& device, GatherKernel gather_kernel)
-        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device), vpl_order(device) {}
+        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device) {}
 
     CameraPass camera_pass;
     SamplerStages samplers;
     Film film;
-    VplOrder vpl_order;
 };
 
 /// Device memory that all batches of a picture use in turn.
@@ -198,7 +196,7 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
     const Stopwatch total;
     const View view = choose_view(device, stages.camera_pass, device_scene, scene, settings);
     const VplSet vpls = sample_vpls(stages.samplers, sampling_task(device_scene, view, settings));
-    const Buffer<Vpl> vpl_buffer = stages.vpl_order.upload_sorted(vpls.vpls);
+    const Buffer<Vpl> vpl_buffer = stages.samplers.vpl_order.upload_sorted(vpls.vpls);
     report.seconds.generate += watch.lap();
 
     fill_report(view, vpls, report);

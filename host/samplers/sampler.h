@@ -19,6 +19,7 @@ enum class SamplerKind {
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
+    complete,   ///< patches carry light of all depths, so none are needed inside: unbiased
     paper,      ///< dropped, whatever their depth: loses multi-bounce light
     partition,  ///< those of depth 2 and more are kept: unbiased
 };
@@ -29,10 +30,11 @@ struct SamplingTask {
     const DeviceScene& scene;
     const PilotView& view;  ///< a few receivers of the picture
     SamplerKind sampler = SamplerKind::close_range;
-    Policy policy = Policy::partition;
-    uint vpl_count = 1000;                 ///< to aim at; walks decide how many there are exactly
-    uint bounce_count = 6;                 ///< deepest VPL
-    std::optional<float> close_fraction;   ///< share of the budget for the close range, [0, 1]; empty: by pilot
+    Policy policy = Policy::complete;
+    uint vpl_count = 1000;  ///< to aim at; walks decide how many there are exactly
+    uint bounce_count = 6;  ///< deepest VPL
+    std::optional<float>
+        close_fraction;  ///< share of the budget for the close range, [0, 1]; empty: by pilot
     CloseRange close_range{};
     float clamp_radius = 0.0f;
     uint seed = 0;
@@ -41,12 +43,12 @@ struct SamplingTask {
 /// Ready to be gathered: powers add up to the scene's reflected flux in expectation.
 struct VplSet {
     std::vector<Vpl> vpls;
-    std::size_t close_count = 0;     ///< placed on close-range patches
-    std::size_t distant_count = 0;   ///< deposited by light walks
-    std::size_t close_triangles = 0; ///< triangles that patches were placed on
-    std::size_t sparse_count = 0;    ///< VPLs that only lit other VPLs and are not gathered by the picture
-    std::size_t candidate_count = 0; ///< that `vpls` were chosen from; 0: there was no choice
-    float close_fraction = 0.0f;     ///< that was used
+    std::size_t close_count = 0;      ///< placed on close-range patches
+    std::size_t distant_count = 0;    ///< deposited by light walks
+    std::size_t close_triangles = 0;  ///< triangles that patches were placed on
+    std::size_t sparse_count = 0;     ///< VPLs that only lit other VPLs and are not gathered by the picture
+    std::size_t candidate_count = 0;  ///< that `vpls` were chosen from; 0: there was no choice
+    float close_fraction = 0.0f;      ///< that was used
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);

@@ -2,6 +2,7 @@
 // The stages that samplers draw on, compiled once for a device.
 #pragma once
 
+#include "host/stages/bounce_tracer.h"
 #include "host/stages/compaction.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
@@ -11,6 +12,8 @@
 #include "host/stages/patch_vpls.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_contribution.h"
+#include "host/stages/vpl_light.h"
+#include "host/stages/vpl_order.h"
 #include "host/stages/vpl_placement.h"
 
 namespace nearlight {
@@ -26,7 +29,10 @@ struct SamplerStages {
           vpl_placement(device),
           patch_vpls(device),
           direct_light(device),
+          vpl_light(device),
+          bounce_tracer(device),
           light_tracer(device),
+          vpl_order(device),
           vpl_contribution(device, gatherer) {}
 
     SamplerStages(const SamplerStages&) = delete;  // stages refer to one another
@@ -41,7 +47,10 @@ struct SamplerStages {
     VplPlacement vpl_placement;
     PatchVpls patch_vpls;
     DirectLight direct_light;
+    VplLight vpl_light;
+    BounceTracer bounce_tracer;
     LightTracer light_tracer;
+    VplOrder vpl_order;
     VplContribution vpl_contribution;
 };
 

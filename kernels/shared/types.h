@@ -181,7 +181,8 @@ typedef struct Vpl {
     Vec3 power;
     float pad0;
 } Vpl;
-#define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+#define NEARLIGHT_VPL_CLOSE 1u    // lies in the close range
+#define NEARLIGHT_VPL_SQUARED 2u  // a gather sums the squares of its geometry terms (importons, pilot_view.h)
 
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {

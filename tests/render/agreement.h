@@ -19,9 +19,10 @@ namespace nearlight::test {
 /// Pictures are square, so many pixels wide.
 inline constexpr int kAgreementSize = 48;
 
-inline RenderSettings agreement_settings(SamplerKind sampler, float clamp_radius, uint seed) {
+inline RenderSettings agreement_settings(SamplerKind sampler, float clamp_radius, uint seed,
+                                         Policy policy = Policy::partition) {
     return {.sampler = sampler,
-            .policy = Policy::partition,
+            .policy = policy,
             .vpl_count = 4000,
             .clamp_radius = clamp_radius,
             .max_depth = 6,
@@ -75,14 +76,15 @@ inline double reference_error(const Image& reference, const std::string& channel
 /// reference together (Student's t with 11 degrees of freedom: a false alarm in 10⁴ comparisons) for each of 16 blocks
 /// of the picture, 5 for the whole. A block of a few pixels that is lit by rare paths has a distribution with a long
 /// tail, for which a variance from as few batches says too little; 0.4 % of the value is granted for that.
-inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius) {
+inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
+                             Policy policy = Policy::partition) {
     constexpr uint kSeeds = 12;
     const Image reference =
         trace_paths(scene, {.spp = 512, .max_depth = 6, .clamp_radius = clamp_radius, .seed = 9});
     std::vector<Image> images;
     for (uint seed = 0; seed < kSeeds; ++seed) {
         images.push_back(
-            render_image(device, scene, agreement_settings(sampler, clamp_radius, 100 + seed)).image);
+            render_image(device, scene, agreement_settings(sampler, clamp_radius, 100 + seed, policy)).image);
     }
     for (const std::string channel : {"direct.R", "direct.B", "indirect.R", "indirect.G", "indirect.B"}) {
         std::vector<double> means;

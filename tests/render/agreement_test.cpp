@@ -95,5 +95,21 @@ TEST_F(Agreement, PartitionUnderSky) {
     });
 }
 
+TEST_F(Agreement, CompleteWithPointLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_point_light(), SamplerKind::close_range, kClampRadius, Policy::complete);
+    });
+}
+TEST_F(Agreement, CompleteWithAreaLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_area_light(), SamplerKind::close_range, kClampRadius, Policy::complete);
+    });
+}
+TEST_F(Agreement, CompleteUnderSky) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius, Policy::complete);
+    });
+}
+
 }  // namespace
 }  // namespace nearlight
