@@ -95,6 +95,36 @@ inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<do
     scene.camera.fov_x_degrees = fov;
 }
 
+/// A floor of two triangles, 40 × 40, which is a checkerboard of cells of 0.5; on it a wall and a block,
+/// under a point light. The camera sees a few square metres of it, so any close range cuts through both
+/// triangles.
+inline Scene checkered_plain() {
+    Scene scene;
+    SceneTexture checkerboard;
+    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
+    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
+    checkerboard.parameters.color0 = {0.8f, 0.7f, 0.6f};
+    checkerboard.parameters.color1 = {0.1f, 0.15f, 0.3f};
+    scene.textures.push_back(checkerboard);
+    Material tiles = lambertian({1, 1, 1});
+    tiles.base_texture = 0;
+    add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
+    for (Vertex& vertex : scene.vertices) {
+        vertex.u = vertex.position.x;  // a period of the pattern is two cells
+        vertex.v = vertex.position.z;
+    }
+    const uint plaster = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    const uint brick = add_material(scene, lambertian({0.6f, 0.25f, 0.15f}));
+    add_quad(scene, {-2, 0, 2}, {0, 1.5f, 0}, {4, 0, 0}, plaster);  // the wall, facing the camera
+    add_quad(scene, {0.3f, 0, 0.6f}, {0, 0.6f, 0}, {0.6f, 0, 0.2f}, brick);
+    add_quad(scene, {0.3f, 0, 0.6f}, {-0.2f, 0, 0.6f}, {0, 0.6f, 0}, brick);
+    add_quad(scene, {0.3f, 0.6f, 0.6f}, {-0.2f, 0, 0.6f}, {0.6f, 0, 0.2f}, brick);
+    add_point_light(scene, {-0.8f, 1.8f, -0.2f}, {4, 4, 4});
+    set_camera(scene, {0, 1.2, -1.5}, {0, 0.3, 1.2}, 60);
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+
 /// Mean of a channel over the picture.
 inline double channel_mean(const Image& image, std::string_view channel) {
     const auto index = static_cast<std::size_t>(image.find_channel(channel));
