@@ -11,6 +11,7 @@
 #include "host/reference/path_tracer.h"
 #include "host/scene/scene_loader.h"
 #include "tests/render/rendering.h"
+#include "tests/render/variants.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/real_scenes.h"
 #include "tests/support/small_scenes.h"
@@ -19,7 +20,9 @@ namespace nearlight {
 namespace {
 
 using namespace small_scenes;
+using test::all_variants;
 using test::judge_convergence;
+using test::Variant;
 using test::Verdict;
 
 constexpr uint kSeeds = 24;
@@ -33,25 +36,6 @@ struct Case {
     int size = 32;  ///< of the picture, pixels each way
     int spp = 512;  ///< of the truth
 };
-
-struct Variant {
-    SamplerKind sampler;
-    Policy policy;
-    [[nodiscard]] std::string name() const { return to_string(sampler) + " " + to_string(policy); }
-};
-
-/// Policies are of close-range sampling; other samplers do not read them.
-std::vector<Variant> all_variants() {
-    std::vector<Variant> variants;
-    for (const SamplerEntry& sampler : all_samplers()) {
-        for (const PolicyEntry& policy : all_policies()) {
-            if (sampler.kind == SamplerKind::close_range || policy.policy == Policy::partition) {
-                variants.push_back({sampler.kind, policy.policy});
-            }
-        }
-    }
-    return variants;
-}
 
 Image trace_truth(const Case& test_case, uint max_depth) {
     return trace_paths(test_case.scene, {.width = test_case.size,
