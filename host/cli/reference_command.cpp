@@ -2,6 +2,7 @@
 #include "host/cli/reference_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -118,7 +119,8 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
 /// Hours of rendering must not end at a path that cannot be written.
 void check_outputs(const std::vector<std::filesystem::path>& outputs) {
     for (const std::filesystem::path& output : outputs) {
-        const ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
+        ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
+        not_committed.write_rows(std::array{0.0f, 0.0f, 0.0f});  // or libpng complains
     }
 }
 

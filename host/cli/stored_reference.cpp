@@ -51,9 +51,9 @@ std::vector<std::string> differences(const Metadata& stored, const Metadata& wan
 }
 
 int fewest_samples(const Image& image, const std::filesystem::path& file) {
-    const int channel = image.find_channel("count.samples");
+    const int channel = image.find_channel("count.X");
     if (channel < 0) {
-        refuse(file, "it has no channel count.samples");
+        refuse(file, "it has no channel count.X");
     }
     float fewest = image.at(0, 0, static_cast<std::size_t>(channel));
     for (std::size_t i = static_cast<std::size_t>(channel); i < image.values.size();

@@ -47,10 +47,11 @@ struct LongTrace {
 /// Channels R, G, B (beauty: direct + indirect), direct.* (with emission), indirect.*, albedo.* (of the
 /// receiver, seen through mirrors and glass), N.X… and P.X… (of the receiver, world space), depth.Z (to the
 /// first surface, m; mean over the samples that met one), variance.* (of the mean of beauty),
-/// indirectVariance.* and count.samples, count.receivers, count.surfaces (samples that found one; all that
-/// going on needs). A variance is infinite where a pixel has fewer than two batches. A stopped rendering has,
-/// in each pixel, the mean of the samples it got. Throws what completed() throws, Error(ExitCode::file) if
-/// `earlier` is not a picture to go on from, and Embree's errors.
+/// indirectVariance.*, and count.X, count.Y and count.Z: samples, those that found a receiver, and those that
+/// found a surface, which is all that going on needs besides. A variance is infinite where a pixel has fewer
+/// than two batches. A stopped rendering has, in each pixel, the mean of the samples it got. Throws what
+/// completed() throws, Error(ExitCode::file) if `earlier` is not a picture to go on from, and Embree's
+/// errors.
 Image trace_paths(const Scene& scene, const PathTracerSettings& settings, const Progress& progress = {},
                   const LongTrace& long_trace = {});
 

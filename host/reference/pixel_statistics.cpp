@@ -79,7 +79,7 @@ std::vector<std::string> channel_names() {
             names.push_back(std::string(layer) + color);
         }
     }
-    names.insert(names.end(), {"count.samples", "count.receivers", "count.surfaces"});
+    names.insert(names.end(), {"count.X", "count.Y", "count.Z"});
     return names;
 }
 

@@ -140,7 +140,7 @@ TEST_F(Reference, AnInterruptedOneGoesOn) {
     EXPECT_EQ(std::get<int>(metadata.at("nearlight:complete")), 0);
     const Image part = read_image(output_);
     const int samples =
-        static_cast<int>(part.at(7, 5, static_cast<std::size_t>(part.find_channel("count.samples"))));
+        static_cast<int>(part.at(7, 5, static_cast<std::size_t>(part.find_channel("count.X"))));
     ASSERT_GT(samples, 0);
     ASSERT_EQ(
         run_program("reference --resume --spp " + std::to_string(samples + 64) + " " + files()).exit_code, 0);

@@ -304,7 +304,7 @@ TEST(PathTracer, AStoppedPictureCanBeGoneOnWith) {
     PathTracerSettings settings{.width = 40, .height = 40, .spp = 64, .max_depth = 3, .batch_size = 4};
     int calls = 0;
     const Image part = trace_paths(scene, settings, [&](double) { return ++calls < 20; });
-    const auto samples = static_cast<std::size_t>(part.find_channel("count.samples"));
+    const auto samples = static_cast<std::size_t>(part.find_channel("count.X"));
     std::set<float> counts;
     for (std::size_t i = samples; i < part.values.size(); i += part.channel_count()) {
         counts.insert(part.values[i]);
@@ -317,7 +317,7 @@ TEST(PathTracer, SavesThePictureSoFar) {
     const Scene scene = furnace(0.5f);
     std::vector<float> samples;
     const auto save = [&](const Image& image) {
-        samples.push_back(image.at(3, 3, static_cast<std::size_t>(image.find_channel("count.samples"))));
+        samples.push_back(image.at(3, 3, static_cast<std::size_t>(image.find_channel("count.X"))));
     };
     trace_paths(scene, {.width = 8, .height = 8, .spp = 12, .batch_size = 4}, {},
                 {.save = save, .seconds_between_saves = 0});

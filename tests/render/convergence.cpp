@@ -74,7 +74,7 @@ struct Comparison {
 
 double batches_of(const Image& truth) {
     const int samples =
-        static_cast<int>(truth.at(0, 0, static_cast<std::size_t>(truth.find_channel("count.samples"))));
+        static_cast<int>(truth.at(0, 0, static_cast<std::size_t>(truth.find_channel("count.X"))));
     return double(samples) / samples_per_batch(samples);
 }
 

@@ -50,7 +50,7 @@ Image noisy_truth(Pcg32& random) {
     constexpr int kBatches = 16;
     Image truth = make_image(kSize, kSize,
                              {"indirect.R", "indirect.G", "indirect.B", "indirectVariance.R",
-                              "indirectVariance.G", "indirectVariance.B", "count.samples"});
+                              "indirectVariance.G", "indirectVariance.B", "count.X"});
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -95,7 +95,7 @@ class ConvergenceMistakes : public test::DeviceTest {
         const Image& first = renders.front();
         Image truth = make_image(first.width, first.height,
                                  {"indirect.R", "indirect.G", "indirect.B", "indirectVariance.R",
-                                  "indirectVariance.G", "indirectVariance.B", "count.samples"});
+                                  "indirectVariance.G", "indirectVariance.B", "count.X"});
         const auto n = static_cast<float>(renders.size());
         for (int y = 0; y < first.height; ++y) {
             for (int x = 0; x < first.width; ++x) {

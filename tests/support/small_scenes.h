@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "host/image/image.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_loader.h"
 
 namespace nearlight::small_scenes {
 
@@ -123,6 +126,25 @@ inline Scene checkered_plain() {
     set_camera(scene, {0, 1.2, -1.5}, {0, 0.3, 1.2}, 60);
     scene.camera.width = scene.camera.height = 32;
     return scene;
+}
+
+/// Views that were chosen against close-range sampling, from scenes/: see the READMEs there.
+inline Scene hard_view(const std::string& name) {
+    Scene scene = load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes" / name / "scene.xml");
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+/// An empty wall, the lamp and furniture behind the camera.
+inline Scene wall_view() {
+    return hard_view("wall");
+}
+/// A room in one view.
+inline Scene whole_room_view() {
+    return hard_view("whole-room");
+}
+/// A room that is lit through a door.
+inline Scene next_room_view() {
+    return hard_view("next-room");
 }
 
 /// Mean of a channel over the picture.
