@@ -122,6 +122,9 @@ TEST_F(Convergence, CheckeredPlain) {
     expect_all_converge(
         {.scene = checkered_plain(), .clamp_radius = 0.2f, .range = 3.0f, .max_depth = 5, .vpl_count = 4000});
 }
+TEST_F(Convergence, CourtUnderSky) {
+    expect_all_converge({.scene = court_under_sky(), .clamp_radius = 0.2f});
+}
 TEST_F(Convergence, Wall) {
     expect_all_converge({.scene = wall_view(), .clamp_radius = 0.2f, .size = 16});
 }

@@ -128,6 +128,27 @@ inline Scene checkered_plain() {
     return scene;
 }
 
+/// A court of 2 × 2 between walls of different colours, open above to a sky that is brighter on one side.
+inline Scene court_under_sky() {
+    Scene scene;
+    const uint white = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    const uint red = add_material(scene, lambertian({0.6f, 0.1f, 0.1f}));
+    const uint green = add_material(scene, lambertian({0.1f, 0.5f, 0.1f}));
+    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);  // floor
+    add_quad(scene, {-1, -1, 1}, {0, 1.6f, 0}, {2, 0, 0}, white);
+    add_quad(scene, {-1, -1, -1}, {0, 1.6f, 0}, {0, 0, 2}, red);
+    add_quad(scene, {1, -1, -1}, {0, 0, 2}, {0, 1.6f, 0}, green);
+    add_quad(scene, {-0.3f, -0.3f, 0.1f}, {0, 0, 0.5f}, {0.6f, 0, 0.1f}, white);  // a block's top and front
+    add_quad(scene, {-0.3f, -1, 0.1f}, {0, 0.7f, 0}, {0.6f, 0, 0.1f}, white);
+    scene.environment = {.width = 2,
+                         .height = 2,
+                         .radiance = {{2, 2, 2}, {0.5f, 0.5f, 1}, {0.1f, 0.1f, 0.1f}, {0, 0, 0}},
+                         .to_world = {}};
+    set_camera(scene, {0.1, 0.3, -1.4}, {0, -0.4, 1}, 70);
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+
 /// Views that were chosen against close-range sampling, from scenes/: see the READMEs there.
 inline Scene hard_view(const std::string& name) {
     Scene scene = load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes" / name / "scene.xml");
