@@ -14,12 +14,11 @@ namespace {
 
 constexpr std::array<const char*, 3> kColors{".R", ".G", ".B"};
 constexpr int kTests = 5;
+constexpr int kPoolBlocks = 4;
 
 double square(double x) {
     return x * x;
 }
-
-constexpr int kPoolBlocks = 4;
 
 /// Means over a grid of blocks × blocks, of all three channels of a layer one after the other.
 std::vector<double> block_means(const Image& image, const std::string& layer, int blocks_x, int blocks_y) {
@@ -65,7 +64,11 @@ struct Comparison {
         const double total = a + b;
         return total > 0 ? total * total / (a * a / render_freedom + b * b / truth_freedom) : render_freedom;
     }
+    /// How likely chance alone deviates as much; 0 for what is not a number.
     [[nodiscard]] double tail(std::size_t cell) const {
+        if (!std::isfinite(mean[cell])) {
+            return 0.0;
+        }
         const double gap = deviation(cell);
         // Below four standard errors no distribution's tail is small enough to matter, and most cells are.
         return std::abs(gap) <= 4.0 * error(cell) ? 1.0 : student_tail(gap / error(cell), freedom(cell));

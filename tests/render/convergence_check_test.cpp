@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "host/base/random.h"
@@ -158,6 +159,9 @@ TEST_F(ConvergenceMistakes, AreFound) {
             << "a dark corner";
         EXPECT_FALSE(judge(multiply(0.5f, [](int x, int y) { return x == 9 && y == 12; })).agrees)
             << "a pixel";
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_FALSE(judge(multiply(nan, [](int x, int y) { return x == 0 && y == 0; })).agrees)
+            << "not a number";
         EXPECT_FALSE(judge(multiply(1.06f, [](int x, int y) { return (x + y) % 2 == 0; })).agrees)
             << "every other pixel";
     });

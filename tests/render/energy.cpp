@@ -151,7 +151,8 @@ Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photogr
         const double error = std::hypot(std::sqrt(variance), expected.error);
         verdict.relative_error = std::max(verdict.relative_error, error / expected.mean);
         const double gap = mean - expected.mean;
-        const double tail = std::abs(gap) > 1e-5 * expected.mean ? student_tail(gap / error, n - 1) : 1.0;
+        const bool differs = std::abs(gap) > 1e-5 * expected.mean;  // more than by rounding
+        const double tail = !std::isfinite(gap) ? 0.0 : differs ? student_tail(gap / error, n - 1) : 1.0;
         if (tail < worst) {
             worst = tail;
             verdict.agrees = false;
