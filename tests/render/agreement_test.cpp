@@ -79,35 +79,19 @@ TEST_F(Agreement, InstantRadiosityUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::instant_radiosity, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionWithPointLight) {
+TEST_F(Agreement, CompleteWithPointLight) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_point_light(), SamplerKind::close_range, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionWithAreaLight) {
+TEST_F(Agreement, CompleteWithAreaLight) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_area_light(), SamplerKind::close_range, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionUnderSky) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
-    });
-}
-
-TEST_F(Agreement, CompleteWithPointLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_point_light(), SamplerKind::close_range, kClampRadius, Policy::complete);
-    });
-}
-TEST_F(Agreement, CompleteWithAreaLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_area_light(), SamplerKind::close_range, kClampRadius, Policy::complete);
-    });
-}
 TEST_F(Agreement, CompleteUnderSky) {
     on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius, Policy::complete);
+        test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
 }
 
