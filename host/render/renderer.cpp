@@ -8,7 +8,6 @@
 #include "host/render/plan.h"
 #include "host/stages/film.h"
 #include "host/stages/local_lights.h"
-#include "host/stages/vpl_order.h"
 
 namespace nearlight {
 namespace {
@@ -16,12 +15,11 @@ namespace {
 /// Every stage of a render, compiled.
 struct RenderStages {
     RenderStages(Device& device, GatherKernel gather_kernel)
-        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device), vpl_order(device) {}
+        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device) {}
 
     CameraPass camera_pass;
     SamplerStages samplers;
     Film film;
-    VplOrder vpl_order;
     std::optional<LocalLights> local_lights{};  ///< compiled when first wanted
 };
 
@@ -216,7 +214,7 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
     if (vpls.local && !stages.local_lights) {
         stages.local_lights.emplace(device);
     }
-    const Buffer<Vpl> vpl_buffer = stages.vpl_order.upload_sorted(vpls.vpls);
+    const Buffer<Vpl> vpl_buffer = stages.samplers.vpl_order.upload_sorted(vpls.vpls);
     report.seconds.generate += watch.lap();
 
     fill_report(view, vpls, report);

@@ -10,6 +10,7 @@ namespace {
 constexpr std::array kSamplers{
     SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera", sample_close_range},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land", sample_instant_radiosity},
+    SamplerEntry{SamplerKind::bidirectional, "bidirectional", "where walks from lights and from the view land", sample_bidirectional},
     SamplerEntry{SamplerKind::local, "local", "the same, smoothed, with lights of each tile for what is near", sample_local},
 };
 constexpr std::array kPolicies{

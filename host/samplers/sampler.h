@@ -17,6 +17,7 @@ namespace nearlight {
 enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
+    bidirectional,      ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
     local,              ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
@@ -57,6 +58,7 @@ VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_local(SamplerStages& stages, const SamplingTask& task);
 
 /// A row of the table of samplers, by which commands know them.

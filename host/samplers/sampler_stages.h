@@ -9,8 +9,11 @@
 #include "host/stages/light_visibility.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
+#include "host/stages/path_light.h"
+#include "host/stages/reverse_vpls.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_contribution.h"
+#include "host/stages/vpl_order.h"
 #include "host/stages/vpl_placement.h"
 
 namespace nearlight {
@@ -26,8 +29,11 @@ struct SamplerStages {
           vpl_placement(device),
           patch_vpls(device),
           direct_light(device),
+          path_light(device),
           light_tracer(device),
-          vpl_contribution(device, gatherer) {}
+          vpl_order(device),
+          vpl_contribution(device, gatherer),
+          reverse_vpls(device, gatherer) {}
 
     SamplerStages(const SamplerStages&) = delete;  // stages refer to one another
     SamplerStages& operator=(const SamplerStages&) = delete;
@@ -41,8 +47,11 @@ struct SamplerStages {
     VplPlacement vpl_placement;
     PatchVpls patch_vpls;
     DirectLight direct_light;
+    PathLight path_light;
     LightTracer light_tracer;
+    VplOrder vpl_order;
     VplContribution vpl_contribution;
+    ReverseVpls reverse_vpls;
 };
 
 }  // namespace nearlight

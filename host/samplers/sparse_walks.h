@@ -13,7 +13,8 @@ CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
 
 /// About `wanted` deposits. A small independent pilot measures how many a walk leaves, so that the number of walks
 /// does not depend on the walks themselves: stopping at a number of deposits would be biased.
+/// @param walk_count set to the number of walks that were launched.
 std::vector<Vpl> trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
-                             KeepDeposits keep, uint wanted);
+                             KeepDeposits keep, uint wanted, uint* walk_count = nullptr);
 
 }  // namespace nearlight

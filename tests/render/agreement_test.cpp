@@ -94,6 +94,21 @@ TEST_F(Agreement, PartitionUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
 }
+TEST_F(Agreement, BidirectionalWithPointLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_point_light(), SamplerKind::bidirectional, kClampRadius);
+    });
+}
+TEST_F(Agreement, BidirectionalWithAreaLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_area_light(), SamplerKind::bidirectional, kClampRadius);
+    });
+}
+TEST_F(Agreement, BidirectionalUnderSky) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_window(), SamplerKind::bidirectional, kClampRadius);
+    });
+}
 TEST_F(Agreement, LocalWithPointLight) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_point_light(), SamplerKind::local, kClampRadius);

@@ -13,10 +13,10 @@ struct Rendering {
     RenderReport report;
 };
 
-inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
+inline Rendering render_image(Renderer& renderer, const RenderSettings& settings) {
     Rendering rendering;
-    rendering.report = render(
-        device, scene, settings,
+    rendering.report = renderer.render(
+        settings,
         [&](const RenderReport& report, const View&, const VplSet&) {
             rendering.image = {report.width, report.height, layer_channels(), {}};
         },
@@ -25,6 +25,11 @@ inline Rendering render_image(Device& device, const Scene& scene, const RenderSe
         },
         [](const std::string&, double) { return true; });
     return rendering;
+}
+
+inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
+    Renderer renderer(device, scene, settings.gather_kernel);
+    return render_image(renderer, settings);
 }
 
 }  // namespace nearlight::test
