@@ -12,7 +12,8 @@
 // is the density of all these rays together (probability-density summation: the balance heuristic over the receivers),
 // so every receiver of the packet may use every light of it: the sum's expectation is the integral wherever p > 0, and
 // where (G_R − G_Rg) V > 0 for some x, p > 0 by x alone. As p ≥ m·G_0/π, no term exceeds L_o·π/m. L_o = albedo·E/π,
-// E from a path with next-event estimation to the depth limit, so that light on its way to y is not bounded.
+// E is direct light by next-event estimation, and that of some global VPLs, bounded at R_g in their turn; what this
+// leaves out comes from the next short ray, and so on (lib/path_walk.cl), so light on its way to y is not bounded.
 //
 // local_light_rays:    one work-item a ray. Slot (packet · m + ray) · 64 + lane of `lights` gets a light with power
 //                      albedo · E, and the slot of `flags` 1, where there is one. Packets count from first_packet.
@@ -65,8 +66,8 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
 }
 
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                             uint slot_count, uint rays_per_receiver, float radius, uint bounce_count,
-                             uint direct_samples, uint seed, global Vpl* restrict lights, global uint* restrict flags) {
+                             uint slot_count, uint rays_per_receiver, float radius, const global Vpl* restrict vpls,
+                             uint vpl_count, uint connections, uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights, global uint* restrict flags) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= slot_count) {
         return;
@@ -95,8 +96,10 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
         return;
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
+    const Connections to = {vpls, vpl_count, connections, radius};
     const float3 exitance =
-        albedo * walk_irradiance(&scene, light.position, light.normal, bounce_count, direct_samples, walk_key);
+        albedo *
+        short_walk_irradiance(&scene, &to, light.position, light.normal, bounce_count, direct_samples, walk_key);
     if (is_black(exitance)) {
         return;
     }

@@ -71,7 +71,7 @@ bool gather_indirect(RenderStages& stages, const Picture& picture, std::size_t p
          .clamp_radius = picture.local ? picture.local->gather_radius : clamp_radius},
         buffers.indirect, progress);
     if (finished && picture.local) {
-        report.local_lights += stages.local_lights->add(picture.scene, buffers.receivers, packets, clamp_radius,
+        report.local_lights += stages.local_lights->add(picture.scene, picture.vpls, picture.vpl_count, buffers.receivers, packets, clamp_radius,
                                                         *picture.local, buffers.indirect);
     }
     return finished;

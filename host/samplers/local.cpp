@@ -4,13 +4,10 @@
 // they are smooth, and lights of each tile of the picture supply what it takes away (kernels/local_lights.cl
 // has the mathematics).
 //
-// Unlike the original, global VPLs are summed one by one instead of being clustered by visibility, tiles are
-// those of the gather (8 × 8 pixels of one camera sample), and what falls on a local light comes from a path
-// with next-event estimation instead of connections to some global VPLs: those would have to be bounded too,
-// and then lose light, or not, and then flare up. So the sum has the expectation that every other sampler
-// has, at any width of the clamp.
-#include <algorithm>
-
+// Unlike the original, global VPLs are summed one by one instead of being clustered by visibility, and tiles
+// are those of the gather (8 × 8 pixels of one camera sample). What falls on a local light comes from some of
+// the global VPLs, as in the original; but there too the wide clamp takes light away, and short paths supply
+// it. So the sum has the expectation that every other sampler has, at any width of the clamp.
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 
@@ -21,6 +18,7 @@ namespace {
 constexpr float kGatherToClampRadius = 8.0f;
 constexpr float kGatherRadiusToRange = 0.15f;
 constexpr uint kRaysPerReceiver = 2;
+constexpr uint kConnections = 32;
 constexpr uint kDirectSamples = 2;
 constexpr uint kLocalSeed = 0x10ca1u;
 
@@ -32,6 +30,7 @@ VplSet sample_local(SamplerStages& stages, const SamplingTask& task) {
                                                   : kGatherRadiusToRange * task.close_range.range;
     set.local = LocalLightPlan{.gather_radius = radius,
                                .rays_per_receiver = kRaysPerReceiver,
+                               .connections = kConnections,
                                .direct_samples = kDirectSamples,
                                .bounce_count = task.bounce_count,
                                .seed = task.seed ^ kLocalSeed};

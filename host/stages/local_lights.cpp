@@ -22,22 +22,24 @@ LocalLights::LocalLights(Device& device)
       gather_(program_, "local_light_gather"),
       compaction_(device) {}
 
-std::size_t LocalLights::make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                              std::size_t first_packet, std::size_t packet_count, const LocalLightPlan& plan,
-                              LocalLightSlots& slots) {
+std::size_t LocalLights::make(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                              const Buffer<ReceiverPacket>& receivers, std::size_t first_packet,
+                              std::size_t packet_count, const LocalLightPlan& plan, LocalLightSlots& slots) {
     const std::size_t slot_count = packet_count * NEARLIGHT_PACKET_SIZE * plan.rays_per_receiver;
     const uint first = static_cast<uint>(first_packet);
     rays_.launch_items(slot_count, scene, receivers, first, static_cast<uint>(slot_count),
-                       plan.rays_per_receiver, plan.gather_radius, plan.bounce_count, plan.direct_samples,
-                       plan.seed, slots.lights, slots.flags);
+                       plan.rays_per_receiver, plan.gather_radius, vpls, static_cast<uint>(vpl_count),
+                       plan.connections, plan.bounce_count, plan.direct_samples, plan.seed, slots.lights,
+                       slots.flags);
     const std::size_t light_count = compaction_.list_set(slots.flags, slot_count, slots.indices);
     density_.launch_items(light_count, scene, receivers, first, plan.rays_per_receiver, plan.gather_radius,
                           slots.indices, static_cast<uint>(light_count), slots.lights, slots.seen_by);
     return light_count;
 }
 
-std::size_t LocalLights::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                             std::size_t packet_count, float clamp_radius, const LocalLightPlan& plan,
+std::size_t LocalLights::add(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                             const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+                             float clamp_radius, const LocalLightPlan& plan,
                              Buffer<IrradiancePacket>& irradiance) {
     const std::size_t slots_per_packet = std::size_t{NEARLIGHT_PACKET_SIZE} * plan.rays_per_receiver;
     const std::size_t packets_at_a_time = std::clamp<std::size_t>(
@@ -46,7 +48,7 @@ std::size_t LocalLights::add(const DeviceScene& scene, const Buffer<ReceiverPack
     std::size_t light_count = 0;
     for (std::size_t first = 0; first < packet_count; first += packets_at_a_time) {
         const std::size_t packets = std::min(packets_at_a_time, packet_count - first);
-        light_count += make(scene, receivers, first, packets, plan, slots);
+        light_count += make(scene, vpls, vpl_count, receivers, first, packets, plan, slots);
         gather_.launch_items(packets * NEARLIGHT_PACKET_SIZE, scene, receivers, static_cast<uint>(first),
                              static_cast<uint>(packets * NEARLIGHT_PACKET_SIZE), plan.rays_per_receiver,
                              plan.gather_radius, clamp_radius, slots.lights, slots.flags, slots.seen_by,

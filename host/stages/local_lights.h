@@ -10,9 +10,9 @@ namespace nearlight {
 
 /// What local lights are to supply, and how.
 struct LocalLightPlan {
-    float gather_radius =
-        0.0f;  ///< R_g, with which VPLs are gathered; local lights lie within it, scene units
+    float gather_radius = 0.0f;  ///< R_g, that of the VPLs' gather; local lights lie within it, m
     uint rays_per_receiver = 1;  ///< that look for lights
+    uint connections = 1;        ///< from each light to VPLs, chosen evenly among them
     uint direct_samples = 1;     ///< towards area and environment lights, from each light
     uint bounce_count = 1;       ///< most steps that light takes to a local light
     uint seed = 0;
@@ -37,17 +37,17 @@ class LocalLights {
     explicit LocalLights(Device& device);
 
     /// Adds to the irradiance of each receiver what the geometry term bounded at `clamp_radius` has and that
-    /// bounded at plan.gather_radius has not, as an unbiased estimate. Returns how many local lights there
-    /// were.
-    std::size_t add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                    std::size_t packet_count, float clamp_radius, const LocalLightPlan& plan,
-                    Buffer<IrradiancePacket>& irradiance);
+    /// bounded at plan.gather_radius has not, as an unbiased estimate. `vpls` are those of the gather, of
+    /// all depths, in an order in which neighbours are alike. Returns how many local lights there were.
+    std::size_t add(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                    const Buffer<ReceiverPacket>& receivers, std::size_t packet_count, float clamp_radius,
+                    const LocalLightPlan& plan, Buffer<IrradiancePacket>& irradiance);
 
     /// Its first part: the lights of the packets [first_packet, first_packet + packet_count). Returns their
     /// number.
-    std::size_t make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                     std::size_t first_packet, std::size_t packet_count, const LocalLightPlan& plan,
-                     LocalLightSlots& slots);
+    std::size_t make(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                     const Buffer<ReceiverPacket>& receivers, std::size_t first_packet,
+                     std::size_t packet_count, const LocalLightPlan& plan, LocalLightSlots& slots);
 
   private:
     Device* device_;

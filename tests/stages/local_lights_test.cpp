@@ -108,9 +108,9 @@ TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
         const Bvh& bvh = on_device.bvhs.opaque;
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
-        const std::size_t count =
-            LocalLights(device).make(on_device.buffers, Buffer<ReceiverPacket>(device, std::span(receivers)),
-                                     0, receivers.size(), plan_of(1), slots);
+        const std::size_t count = LocalLights(device).make(
+            on_device.buffers, Buffer<Vpl>(device, 0), 0,
+            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(1), slots);
         const std::vector<Vpl> lights = slots.lights.download();
         const std::vector<uint> flags = slots.flags.download();
         EXPECT_EQ(count, static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1u)));
@@ -137,9 +137,9 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
         const SceneOnDevice on_device(device, corner());
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
-        const std::size_t count =
-            LocalLights(device).make(on_device.buffers, Buffer<ReceiverPacket>(device, std::span(receivers)),
-                                     0, receivers.size(), plan_of(3), slots);
+        const std::size_t count = LocalLights(device).make(
+            on_device.buffers, Buffer<Vpl>(device, 0), 0,
+            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(3), slots);
         std::vector<uint> indices = slots.indices.download();
         indices.resize(count);
         const std::vector<Vpl> lights = slots.lights.download();
@@ -172,7 +172,8 @@ std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
     irradiance.fill_zero();
     for (int run = 0; run < runs; ++run) {
         plan.seed = 100 + static_cast<uint>(run);
-        stage.add(scene.buffers, input, receivers.size(), clamp_radius, plan, irradiance);
+        stage.add(scene.buffers, Buffer<Vpl>(device, 0), 0, input, receivers.size(), clamp_radius, plan,
+                  irradiance);
     }
     const std::vector<IrradiancePacket> sums = irradiance.download();
     std::vector<Vec3> means;
