@@ -15,7 +15,7 @@ namespace nearlight {
 namespace {
 
 /// Of the wide clamp to the user's; where that is 0, to the close range.
-constexpr float kGatherToClampRadius = 8.0f;
+constexpr float kGatherToClampRadius = 6.0f;
 constexpr float kGatherRadiusToRange = 0.15f;
 constexpr uint kRaysPerReceiver = 2;
 constexpr uint kConnections = 32;
