@@ -38,6 +38,7 @@ struct RenderReport {
     std::size_t distant_vpls = 0;
     std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
     float close_fraction = 0;
+    std::size_t local_lights = 0;  ///< of all tiles
     RenderSeconds seconds;
     std::size_t device_bytes = 0;  ///< most at any time
     std::uint64_t image_hash = 0;  ///< of the beauty's bits; equal pictures have equal hashes

@@ -45,8 +45,8 @@ constexpr uint kDepositsPerVpl = 16;  ///< candidates from walks
 constexpr uint kMostCandidates =
     1u << 22u;  ///< of each kind; where more VPLs are wanted, there is less choice
 constexpr uint kRoughSparseVpls = 256;
-constexpr IncidentQuality kRough{.direct_samples = 4, .short_paths = 1};
-constexpr IncidentQuality kFull{.direct_samples = 64, .short_paths = 4};
+constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
+constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
 /// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
 constexpr float kAmbientShare = 0.3f;
 /// Part of the mean probability (per watt) that every candidate has; the camera's points may miss what it
@@ -84,26 +84,6 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     const std::vector<Vpl> sorted = stages.vpl_order.upload_sorted(deposits.vpls).download();
     candidates.vpls.insert(candidates.vpls.end(), sorted.begin(), sorted.end());
     return candidates;
-}
-
-/// Light of all depths that arrives at each of `points`, W/m².
-std::vector<Vec3> light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
-                           std::span<const Vpl> points, const IncidentQuality& quality, uint seed) {
-    const std::size_t packets = receiver_packet_count(points.size());
-    const Buffer<Vpl> vpls(stages.device, points);
-    Buffer<ReceiverPacket> receivers(stages.device, packets);
-    Buffer<IrradiancePacket> irradiance(stages.device, packets);
-    stages.vpl_light.make_receivers(vpls, points.size(), receivers);
-    gather_incident_light(stages, task, sparse, receivers, packets, quality, seed, irradiance);
-    const std::vector<IrradiancePacket> found = irradiance.download();
-    std::vector<Vec3> light;
-    light.reserve(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const IrradiancePacket& packet = found[i / NEARLIGHT_PACKET_SIZE];
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-        light.push_back({packet.r[lane], packet.g[lane], packet.b[lane]});
-    }
-    return light;
 }
 
 /// The part of each candidate's light that is its own: step 2.
@@ -208,7 +188,7 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     const Candidates candidates = make_candidates(stages, task, surface);
     const SparseSet rough_sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed);
     std::vector<Vec3> rough =
-        light_at(stages, task, rough_sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
+        incident_light_at(stages, task, rough_sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
     const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
     for (Vec3& light : rough) {
         light = light + Vec3{ambient, ambient, ambient};
@@ -227,7 +207,7 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
         choice.indices.begin());
     const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
     const std::vector<Vec3> light =
-        light_at(stages, task, sparse, std::span(set.vpls).first(patch_count), kFull, task.seed);
+        incident_light_at(stages, task, sparse, std::span(set.vpls).first(patch_count), kFull, task.seed);
     for (std::size_t i = 0; i < patch_count; ++i) {
         set.vpls[i].power = set.vpls[i].power * light[i];
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/incident_light.h"
 
+#include <limits>
 #include <span>
 
 #include "host/samplers/sparse_walks.h"
@@ -30,6 +31,12 @@ SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint
     return sparse;
 }
 
+SparseSet no_sparse_set() {
+    SparseSet none;
+    none.clamp_radius = std::numeric_limits<float>::infinity();
+    return none;
+}
+
 void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
                            const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance) {
@@ -50,11 +57,34 @@ void gather_incident_light(SamplerStages& stages, const SamplingTask& task, cons
         stages.vpl_light.add(gathered, packet_count, irradiance);
         stages.device.finish();  // `gathered` must outlive the kernel
     }
-    const BouncePaths paths{.sample_count = quality.short_paths,
+    const BouncePaths paths{.sample_count = quality.paths,
                             .bounce_count = task.bounce_count - 1,
                             .clamp_radius = sparse.clamp_radius,
                             .seed = seed ^ kSparseSeed};
     stages.bounce_tracer.run(task.scene, receivers, packet_count, paths, irradiance);
+}
+
+std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t count) {
+    const std::vector<IrradiancePacket> packets = buffer.download();
+    std::vector<Vec3> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const IrradiancePacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        values.push_back({packet.r[lane], packet.g[lane], packet.b[lane]});
+    }
+    return values;
+}
+
+std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+                                    std::span<const Vpl> points, const IncidentQuality& quality, uint seed) {
+    const std::size_t packets = receiver_packet_count(points.size());
+    const Buffer<Vpl> vpls(stages.device, points);
+    Buffer<ReceiverPacket> receivers(stages.device, packets);
+    Buffer<IrradiancePacket> irradiance(stages.device, packets);
+    stages.vpl_light.make_receivers(vpls, points.size(), receivers);
+    gather_incident_light(stages, task, sparse, receivers, packets, quality, seed, irradiance);
+    return unpack(irradiance, points.size());
 }
 
 }  // namespace nearlight

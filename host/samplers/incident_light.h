@@ -16,16 +16,25 @@ struct SparseSet {
 /// About `wanted` VPLs of up to task.bounce_count − 1 bounces; none where there are no further bounces.
 SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed);
 
+/// No VPLs: paths bring all of the further bounces.
+SparseSet no_sparse_set();
+
 /// How much is spent on each point.
 struct IncidentQuality {
     uint direct_samples = 64;  ///< for area and environment lights
-    uint short_paths = 4;      ///< for what the clamp radius of the sparse set leaves out; 0: leave it out
+    uint paths = 4;            ///< for what the clamp radius of the sparse set leaves out; 0: leave it out
 };
 
 /// Irradiance of all depths at the receivers (W/m²): what a VPL of depth up to task.bounce_count there
-/// reflects. Without bias if short_paths > 0.
+/// reflects. Without bias if paths > 0.
 void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
                            const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance);
+
+/// The same at each of `points`: multiplies the power of a VPL that was made for an irradiance of 1 W/m².
+std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+                                    std::span<const Vpl> points, const IncidentQuality& quality, uint seed);
+/// The first `count` lanes.
+std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
 
 }  // namespace nearlight

@@ -9,6 +9,7 @@
 
 #include "host/samplers/sampler_stages.h"
 #include "host/stages/device_scene.h"
+#include "host/stages/local_lights.h"
 #include "host/stages/pilot_view.h"
 
 namespace nearlight {
@@ -16,6 +17,8 @@ namespace nearlight {
 enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
+    bidirectional,      ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
+    local,              ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
@@ -49,12 +52,16 @@ struct VplSet {
     std::size_t sparse_count = 0;     ///< VPLs that only lit other VPLs and are not gathered by the picture
     std::size_t candidate_count = 0;  ///< that `vpls` were chosen from; 0: there was no choice
     float close_fraction = 0.0f;      ///< that was used
+    /// Where set, VPLs are to be gathered with its radius, and local lights supply the rest.
+    std::optional<LocalLightPlan> local{};
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_local(SamplerStages& stages, const SamplingTask& task);
 
 /// A row of the table of samplers, by which commands know them.
 struct SamplerEntry {

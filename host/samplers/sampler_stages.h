@@ -10,6 +10,7 @@
 #include "host/stages/light_visibility.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
+#include "host/stages/reverse_vpls.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_contribution.h"
 #include "host/stages/vpl_light.h"
@@ -33,7 +34,8 @@ struct SamplerStages {
           bounce_tracer(device),
           light_tracer(device),
           vpl_order(device),
-          vpl_contribution(device, gatherer) {}
+          vpl_contribution(device, gatherer),
+          reverse_vpls(device, gatherer) {}
 
     SamplerStages(const SamplerStages&) = delete;  // stages refer to one another
     SamplerStages& operator=(const SamplerStages&) = delete;
@@ -52,6 +54,7 @@ struct SamplerStages {
     LightTracer light_tracer;
     VplOrder vpl_order;
     VplContribution vpl_contribution;
+    ReverseVpls reverse_vpls;
 };
 
 }  // namespace nearlight

@@ -30,34 +30,39 @@ Scene terrace() {
     return scene;
 }
 
-RenderSettings terrace_settings(uint seed) {
-    return {.vpl_count = 120, .samples_per_pixel = 6, .direct_samples_per_pixel = 12, .seed = seed};
+RenderSettings terrace_settings(uint seed, SamplerKind sampler = SamplerKind::close_range) {
+    return {.sampler = sampler, .vpl_count = 120, .samples_per_pixel = 6, .direct_samples_per_pixel = 12, .seed = seed};
 }
 
 class Determinism : public test::DeviceTest {};
 
 TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
     on_each_device([](Device& device) {
-        const std::uint64_t whole =
-            test::render_image(device, terrace(), terrace_settings(1)).report.image_hash;
-        for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
-            DeviceEntry entry = device.entry();
-            entry.max_allocation_bytes = largest;  // 60 000 receivers do not fit: the picture is cut
-            Device small(entry, device.options());
-            EXPECT_EQ(test::render_image(small, terrace(), terrace_settings(1)).report.image_hash, whole)
-                << largest;
+        // Of those whose work on the picture itself differs.
+        for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
+            const RenderSettings settings = terrace_settings(1, sampler);
+            const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
+            for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
+                DeviceEntry entry = device.entry();
+                entry.max_allocation_bytes = largest;  // 60 000 receivers do not fit: the picture is cut
+                Device small(entry, device.options());
+                EXPECT_EQ(test::render_image(small, terrace(), settings).report.image_hash, whole)
+                    << to_string(sampler) << ", " << largest;
+            }
         }
     });
 }
 
 TEST_F(Determinism, RepeatingGivesTheSamePictureAndAnotherSeedAnother) {
     on_each_device([](Device& device) {
-        const auto hash = [&](uint seed) {
-            return test::render_image(device, terrace(), terrace_settings(seed)).report.image_hash;
-        };
-        const std::uint64_t first = hash(1);
-        EXPECT_EQ(hash(1), first);
-        EXPECT_NE(hash(2), first);
+        for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::bidirectional, SamplerKind::local}) {
+            const auto hash = [&](uint seed) {
+                return test::render_image(device, terrace(), terrace_settings(seed, sampler)).report.image_hash;
+            };
+            const std::uint64_t first = hash(1);
+            EXPECT_EQ(hash(1), first) << to_string(sampler);
+            EXPECT_NE(hash(2), first) << to_string(sampler);
+        }
     });
 }
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bidirectional instant radiosity [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]: VPLs of light
+// walks lie where light is; reverse VPLs, one step from what the camera sees, lie where light would matter.
+// Few are chosen out of many of both, by what they bring to the camera.
+//
+// At y, reverse VPLs have the density n(y), summed over exactly the points that sent them
+// (host/stages/reverse_vpls.h), and those of W walks about q(y) = W·E(y)/Φ, Φ the power of all lights. Unlike
+// the original, which gives each kind one half, they are weighted with n/(n + q) and q/(n + q) (balance
+// heuristic). Weights add up to 1 wherever a VPL can lie, so that light is counted once; for that E need only
+// be the same function of the place for both kinds, and is a rough estimate whose random numbers are hashes
+// of the place. The power of a reverse VPL is albedo·E'·(n/(n + q))/n, with a thorough estimate E' of all the
+// light that arrives, made for the chosen ones only and with other random numbers than the weights. Walks are
+// counted as they are launched, and their number comes from an independent pilot.
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/math.h"
+#include "host/base/message.h"
+#include "host/base/random.h"
+#include "host/samplers/candidates.h"
+#include "host/samplers/incident_light.h"
+#include "host/samplers/sparse_walks.h"
+
+namespace nearlight {
+namespace {
+
+/// Candidates of each kind, as a multiple of the budget, and at least.
+constexpr double kCandidatesPerVpl = 4;
+constexpr uint kFewestCandidates = 256;
+constexpr std::size_t kMostCameraPoints = 512;
+/// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
+constexpr IncidentQuality kRough{.direct_samples = 8, .paths = 4};
+/// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
+constexpr float kLeastLight = 0.1f;
+constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 64};
+
+constexpr uint kReverseSeed = 0x4e7e45eu;
+constexpr uint kRoughSeed = 0x20061u;
+constexpr uint kPointStream = 0xca3e7au;
+constexpr uint kChoiceStream = 0x5e1ec8u;
+
+uint multiple_of_budget(double factor, const SamplingTask& task) {
+    return static_cast<uint>(std::min(std::round(factor * task.vpl_count), 1e8));
+}
+
+/// The points that send reverse rays: an even part of the importons, from a random one on.
+CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& task, uint wanted_rays) {
+    const std::vector<Vpl> importons = task.view.importons.download();
+    const std::size_t count =
+        std::min({task.view.importon_count, kMostCameraPoints, std::size_t{wanted_rays}});
+    const double step = static_cast<double>(task.view.importon_count) / static_cast<double>(count);
+    const double shift = Pcg32(task.seed, kPointStream).uniform();
+    std::vector<Vpl> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        points.push_back(importons[static_cast<std::size_t>((static_cast<double>(i) + shift) * step)]);
+    }
+    return make_camera_points(stages.device, points, static_cast<uint>((wanted_rays + count - 1) / count));
+}
+
+/// VPLs of one kind, along the Morton curve, and what their weights are made of.
+struct Candidates {
+    std::vector<Vpl> vpls;
+    std::vector<Vec3> rough_light;        ///< irradiance
+    std::vector<float> reverse_density;   ///< n, 1/m²
+    std::vector<float> standard_density;  ///< q, 1/m²
+};
+
+/// What the weights depend on, the same for both kinds of candidates.
+struct Balance {
+    CameraPoints points;
+    float walks_per_watt = 0.0f;
+};
+
+Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balance& balance,
+                   std::span<const Vpl> vpls) {
+    Candidates candidates;
+    const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
+    candidates.vpls = sorted.download();
+    candidates.rough_light =
+        incident_light_at(stages, task, no_sparse_set(), candidates.vpls, kRough, task.seed ^ kRoughSeed);
+
+    const std::size_t packets = receiver_packet_count(vpls.size());
+    Buffer<ReceiverPacket> receivers(stages.device, packets);
+    Buffer<IrradiancePacket> density(stages.device, packets);
+    stages.vpl_light.make_receivers(sorted, vpls.size(), receivers);
+    stages.reverse_vpls.measure_density(task.scene, balance.points, receivers, packets, density);
+    for (const Vec3 n : unpack(density, vpls.size())) {
+        candidates.reverse_density.push_back(n.x);
+    }
+    for (const Vec3 e : candidates.rough_light) {
+        candidates.standard_density.push_back(balance.walks_per_watt * luminance(e));
+    }
+    return candidates;
+}
+
+/// Powers of reverse candidates for an irradiance of 1, weighted. Where rounding says that no point sees one,
+/// n = 0, walks answer for all of the light there.
+std::vector<Vpl> weigh_reverse(const Candidates& reverse) {
+    std::vector<Vpl> vpls = reverse.vpls;
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        const float n = reverse.reverse_density[i];
+        vpls[i].power *= n > 0.0f ? 1.0f / (n + reverse.standard_density[i]) : 0.0f;
+    }
+    return vpls;
+}
+
+std::vector<Vpl> weigh_standard(const Candidates& standard) {
+    std::vector<Vpl> vpls = standard.vpls;
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        const float n = standard.reverse_density[i];
+        const float q = standard.standard_density[i];
+        vpls[i].power *= n > 0.0f ? q / (n + q) : 1.0f;
+    }
+    return vpls;
+}
+
+/// Rough light with some of its mean added, to choose by: of a point that only seems dark, light would be
+/// lost for good if it could not be chosen.
+std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
+    Vec3 sum{0, 0, 0};
+    for (const Vec3 e : rough_light) {
+        sum += e;
+    }
+    const float mean = luminance(sum) / static_cast<float>(std::max<std::size_t>(rough_light.size(), 1));
+    const float least = mean > 0.0f ? kLeastLight * mean : 1.0f;
+    std::vector<Vec3> light(rough_light.begin(), rough_light.end());
+    for (Vec3& e : light) {
+        e += Vec3{least, least, least};
+    }
+    return light;
+}
+
+/// Multiplies powers by the light that arrives.
+void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance) {
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        vpls[i].power *= irradiance[i];
+    }
+}
+
+}  // namespace
+
+VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
+    if (task.view.importon_count == 0) {
+        return sample_instant_radiosity(stages, task);  // nothing to go backwards from
+    }
+    const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));
+    const Deposits deposits =
+        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
+    const Balance balance{.points = choose_camera_points(stages, task, wanted),
+                          .walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power};
+
+    const Candidates reverse =
+        examine(stages, task, balance,
+                stages.reverse_vpls.trace(task.scene, balance.points, task.seed ^ kReverseSeed));
+    const std::vector<Vpl> unlit = weigh_reverse(reverse);
+    std::vector<Vpl> candidates = unlit;
+    illuminate(candidates, never_dark(reverse.rough_light));
+    const std::vector<Vpl> standard = weigh_standard(examine(stages, task, balance, deposits.vpls));
+    candidates.insert(candidates.end(), standard.begin(), standard.end());
+
+    const Choice choice = choose_by_contribution(stages, task, candidates, kChoiceStream);
+    std::ranges::copy(unlit, candidates.begin());
+    VplSet set;
+    set.vpls = take(choice, candidates);
+    const auto chosen_reverse = static_cast<std::size_t>(
+        std::ranges::lower_bound(choice.indices, static_cast<uint>(unlit.size())) - choice.indices.begin());
+    const std::span reverse_vpls = std::span(set.vpls).first(chosen_reverse);
+    illuminate(reverse_vpls,
+               incident_light_at(stages, task, no_sparse_set(), reverse_vpls, kThorough, task.seed));
+
+    set.distant_count = set.vpls.size();
+    set.candidate_count = candidates.size();
+    say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(set.vpls.size()) +
+              " VPLs are reverse ones");
+    return set;
+}
+
+}  // namespace nearlight

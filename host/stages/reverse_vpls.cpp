@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/reverse_vpls.h"
+
+namespace nearlight {
+
+CameraPoints make_camera_points(Device& device, std::span<const Vpl> importons, uint rays_per_point) {
+    std::vector<Vpl> points(importons.begin(), importons.end());
+    const auto rays = static_cast<float>(rays_per_point);
+    for (Vpl& point : points) {
+        point.flags = 0;
+        point.power = {rays, rays, rays};
+    }
+    return {.points = Buffer<Vpl>(device, std::span<const Vpl>(points)),
+            .count = static_cast<uint>(points.size()),
+            .rays_per_point = rays_per_point};
+}
+
+ReverseVpls::ReverseVpls(Device& device, Gatherer& gatherer)
+    : device_(&device),
+      gatherer_(&gatherer),
+      program_(device, "reverse_vpls.cl"),
+      reverse_vpls_(program_, "reverse_vpls"),
+      compaction_(device) {}
+
+std::vector<Vpl> ReverseVpls::trace(const DeviceScene& scene, const CameraPoints& points, uint seed) {
+    const std::size_t ray_count = std::size_t{points.count} * points.rays_per_point;
+    Buffer<Vpl> slots(*device_, ray_count);
+    Buffer<Vpl> kept(*device_, ray_count);
+    Buffer<uint> flags(*device_, ray_count);
+    Buffer<uint> indices(*device_, ray_count);
+    reverse_vpls_.launch_items(ray_count, scene, points.points, points.count, points.rays_per_point, seed,
+                               slots, flags);
+    const std::size_t kept_count = compaction_.list_set(flags, ray_count, indices);
+    compaction_.gather(slots, indices, kept_count, kept);
+    std::vector<Vpl> vpls(kept_count);
+    kept.download(vpls);
+    return vpls;
+}
+
+void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& points,
+                                  const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+                                  Buffer<IrradiancePacket>& density) {
+    gatherer_->gather({.nodes = scene.nodes,
+                       .triangles = scene.bvh_triangles,
+                       .vpls = points.points,
+                       .vpl_count = points.count,
+                       .receivers = receivers,
+                       .packet_count = packet_count,
+                       .clamp_radius = 0.0f},
+                      density);
+}
+
+}  // namespace nearlight

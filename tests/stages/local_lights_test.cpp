@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/local_lights.h"
+
+#include "host/base/random.h"
+#include "host/scene/ray_epsilon.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight {
+namespace {
+
+using namespace small_scenes;
+using test::receiver_at;
+using test::ReceiverPoint;
+using test::SceneOnDevice;
+
+class LocalLightsTest : public test::DeviceTest {};
+
+constexpr uint kRays = 2;
+constexpr std::size_t kSlotsPerPacket = std::size_t{kRays} * NEARLIGHT_PACKET_SIZE;
+constexpr Vec3 kLamp{0.3f, 0.9f, 0.2f};
+constexpr Vec3 kIntensity{3, 2, 1};
+
+/// The inside of a corner: floor, two walls of other albedos, and a square on legs of air that casts shadows.
+Scene corner() {
+    Scene scene;
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.8f, 0.7f, 0.6f})));
+    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.5f, 0.2f, 0.1f})));
+    add_quad(scene, {1, 0, -1}, {0, 0, 2}, {0, 2, 0}, add_material(scene, lambertian({0.1f, 0.6f, 0.2f})));
+    Material both = lambertian({0.3f, 0.3f, 0.9f});
+    both.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    add_quad(scene, {0.5f, 0.2f, 0.5f}, {0, 0, 0.3f}, {0.3f, 0, 0}, add_material(scene, both));
+    add_point_light(scene, kLamp, kIntensity);
+    return scene;
+}
+
+Vec3 albedo_at(const Vpl& light) {
+    if (light.normal.z < -0.5f) {
+        return {0.5f, 0.2f, 0.1f};
+    }
+    if (light.normal.x < -0.5f) {
+        return {0.1f, 0.6f, 0.2f};
+    }
+    return light.position.y < 0.1f ? Vec3{0.8f, 0.7f, 0.6f} : Vec3{0.3f, 0.3f, 0.9f};
+}
+
+/// Two packets on the floor and the back wall near the corner, some absent, and a third without any.
+std::vector<ReceiverPacket> receivers_in_corner() {
+    constexpr float kExtent = 2.0f;  // of the corner
+    Pcg32 random(5);
+    std::vector<ReceiverPoint> points;
+    for (int i = 0; i < 3 * NEARLIGHT_PACKET_SIZE; ++i) {
+        const float a = 0.4f + 0.6f * random.uniform();
+        const float b = 0.6f * random.uniform();
+        const Vec3 normal = i % 3 == 0 ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
+        const Vec3 position = i % 3 == 0 ? Vec3{a, b, 1} : Vec3{a, 0, 1 - b};
+        const bool absent = i % 5 == 4 || i >= 2 * NEARLIGHT_PACKET_SIZE;
+        points.push_back({stand_off(position, normal, kExtent), absent ? Vec3{0, 0, 0} : normal});
+    }
+    return test::pack_receivers(points);
+}
+
+/// The unbounded geometry term times visibility, in double precision but for the ray.
+double pair_geometry(const Bvh& bvh, const ReceiverPoint& receiver, const Vpl& light, float radius) {
+    const Vec3 between = receiver.position - light.position;
+    const double height = dot(light.normal, between);
+    const double cosine = -dot(receiver.normal, between);
+    const double squared = dot(between, between);
+    if (!(height > 2e-6) || !(cosine > 0) || !(squared < radius * radius) ||
+        occluded(bvh, light.position, between, 1e-5f, 1.0f - 1e-5f)) {
+        return 0;
+    }
+    return height * cosine / (squared * squared);
+}
+
+double density(const Bvh& bvh, const std::vector<ReceiverPacket>& receivers, std::size_t packet,
+               const Vpl& light, float radius) {
+    double sum = 0;
+    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+        sum +=
+            pair_geometry(bvh, receiver_at(receivers, packet * NEARLIGHT_PACKET_SIZE + lane), light, radius);
+    }
+    return kRays * sum / M_PI;
+}
+
+/// Exitance of a surface that only the lamp lights.
+Vec3 exitance(const Bvh& bvh, const Vpl& light) {
+    const Vec3 to_lamp = kLamp - light.position;
+    const float squared = dot(to_lamp, to_lamp);
+    const float cosine = dot(light.normal, to_lamp) / std::sqrt(squared);
+    const bool dark = cosine <= 0 || occluded(bvh, light.position, to_lamp, 1e-5f, 1.0f - 1e-5f);
+    return dark ? Vec3{0, 0, 0} : albedo_at(light) * kIntensity * (cosine / squared);
+}
+
+constexpr float kRadius = 0.5f;
+LocalLightPlan plan_of(uint bounce_count) {
+    return {.gather_radius = kRadius,
+            .rays_per_receiver = kRays,
+            .direct_samples = 1,
+            .bounce_count = bounce_count,
+            .seed = 3};
+}
+
+TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
+    on_each_device([](Device& device) {
+        const SceneOnDevice on_device(device, corner());
+        const Bvh& bvh = on_device.bvhs.opaque;
+        const std::vector<ReceiverPacket> receivers = receivers_in_corner();
+        LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
+        const std::size_t count = LocalLights(device).make(
+            on_device.buffers, Buffer<Vpl>(device, 0), 0,
+            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(1), slots);
+        const std::vector<Vpl> lights = slots.lights.download();
+        const std::vector<uint> flags = slots.flags.download();
+        EXPECT_EQ(count, static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1u)));
+        EXPECT_GT(count, 30u);
+        std::size_t different = 0;
+        for (std::size_t slot = 0; slot < flags.size(); ++slot) {
+            if (flags[slot] == 0) {
+                continue;
+            }
+            const ReceiverPoint maker = receiver_at(
+                receivers, slot / kSlotsPerPacket * NEARLIGHT_PACKET_SIZE + slot % NEARLIGHT_PACKET_SIZE);
+            ASSERT_FALSE(is_zero(maker.normal));
+            EXPECT_LT(length(maker.position - lights[slot].position), kRadius);
+            const double p = density(bvh, receivers, slot / kSlotsPerPacket, lights[slot], kRadius);
+            const Vec3 expected = exitance(bvh, lights[slot]) / static_cast<float>(p);
+            different += length(lights[slot].power - expected) > 1e-3f * length(expected) ? 1 : 0;
+        }
+        EXPECT_LE(different, count / 50) << "more than shadow rays that meet an edge";
+    });
+}
+
+TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
+    on_each_device([](Device& device) {
+        const SceneOnDevice on_device(device, corner());
+        const std::vector<ReceiverPacket> receivers = receivers_in_corner();
+        LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
+        const std::size_t count = LocalLights(device).make(
+            on_device.buffers, Buffer<Vpl>(device, 0), 0,
+            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(3), slots);
+        std::vector<uint> indices = slots.indices.download();
+        indices.resize(count);
+        const std::vector<Vpl> lights = slots.lights.download();
+        const std::vector<std::uint64_t> seen_by = slots.seen_by.download();
+        int bits = 0;
+        int wrong = 0;
+        for (const uint slot : indices) {
+            for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+                const ReceiverPoint receiver =
+                    receiver_at(receivers, slot / kSlotsPerPacket * NEARLIGHT_PACKET_SIZE + lane);
+                const bool expected =
+                    pair_geometry(on_device.bvhs.opaque, receiver, lights[slot], kRadius) > 0;
+                const bool found = (seen_by[slot] >> lane & 1u) != 0;
+                bits += found ? 1 : 0;
+                wrong += found != expected ? 1 : 0;
+            }
+        }
+        EXPECT_GT(bits, 500);
+        EXPECT_LE(wrong, bits / 200) << "more than rays that meet an edge";
+    });
+}
+
+/// What local lights add to each receiver, over many seeds.
+std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
+                                const std::vector<ReceiverPacket>& receivers, float clamp_radius,
+                                LocalLightPlan plan, int runs) {
+    LocalLights stage(device);
+    const Buffer<ReceiverPacket> input(device, std::span(receivers));
+    Buffer<IrradiancePacket> irradiance(device, receivers.size());
+    irradiance.fill_zero();
+    for (int run = 0; run < runs; ++run) {
+        plan.seed = 100 + static_cast<uint>(run);
+        stage.add(scene.buffers, Buffer<Vpl>(device, 0), 0, input, receivers.size(), clamp_radius, plan,
+                  irradiance);
+    }
+    const std::vector<IrradiancePacket> sums = irradiance.download();
+    std::vector<Vec3> means;
+    for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        means.push_back(test::irradiance_at(sums, i) / static_cast<float>(runs));
+    }
+    return means;
+}
+
+/// ∫ (G_R − G_Rg) over the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2, from a point of the floor, by the midpoint
+/// rule.
+double wall_remainder(Vec3 x, double clamp_radius, double gather_radius) {
+    constexpr int kSteps = 1000;
+    const double step = 2.0 / kSteps;
+    const double depth = 1.0 - x.z;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps; ++j) {
+            const double dx = -1 + (i + 0.5) * step - x.x;
+            const double dy = (j + 0.5) * step - x.y;
+            const double squared = dx * dx + dy * dy + depth * depth;
+            if (squared < gather_radius * gather_radius && dy > 0) {
+                sum += depth * dy / squared *
+                       (1 / std::max(squared, clamp_radius * clamp_radius) -
+                        1 / (gather_radius * gather_radius));
+            }
+        }
+    }
+    return sum * step * step;
+}
+
+/// A white wall on a black floor. The lamp is so far away that the wall's irradiance is even, I/d² = π, and
+/// the radiance that it reflects 1.
+TEST_F(LocalLightsTest, AddTheRemainderOfAWall) {
+    Scene scene;
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0, 0, 0})));
+    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_point_light(scene, {0, 1, -1000}, {1e6f * kPi, 1e6f * kPi, 1e6f * kPi});
+    std::vector<ReceiverPoint> points;
+    Pcg32 random(8);
+    for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+        const float x = 0.2f * random.uniform();
+        points.push_back({{x, 1e-4f, 0.55f + 0.4f * random.uniform()}, {0, 1, 0}});
+    }
+    on_each_device([&](Device& device) {
+        const SceneOnDevice on_device(device, scene);
+        const std::vector<Vec3> found =
+            mean_addition(device, on_device, test::pack_receivers(points), 0.1f, plan_of(1), 400);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double expected = wall_remainder(points[i].position, 0.1, kRadius);
+            EXPECT_NEAR(found[i].y, expected, 0.02 * expected + 0.002) << "receiver " << i;
+        }
+    });
+}
+
+TEST_F(LocalLightsTest, NothingRemainsWhereBothRadiiAreTheSame) {
+    on_each_device([](Device& device) {
+        const SceneOnDevice on_device(device, corner());
+        const std::vector<ReceiverPacket> receivers = receivers_in_corner();
+        for (const Vec3 e : mean_addition(device, on_device, receivers, kRadius, plan_of(2), 2)) {
+            EXPECT_NEAR(max_component(e), 0.0f, 1e-6f);
+        }
+    });
+}
+
+TEST_F(LocalLightsTest, AbsentReceiversGetNothingAndOthersSomething) {
+    on_each_device([](Device& device) {
+        const SceneOnDevice on_device(device, corner());
+        const std::vector<ReceiverPacket> receivers = receivers_in_corner();
+        const std::vector<Vec3> found = mean_addition(device, on_device, receivers, 0.01f, plan_of(2), 1);
+        int lit = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const bool absent = is_zero(receiver_at(receivers, i).normal);
+            EXPECT_TRUE(!absent || is_zero(found[i])) << i;
+            lit += is_zero(found[i]) ? 0 : 1;
+        }
+        EXPECT_GT(lit, 80);
+    });
+}
+
+}  // namespace
+}  // namespace nearlight
