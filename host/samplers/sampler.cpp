@@ -8,8 +8,11 @@ namespace nearlight {
 namespace {
 
 constexpr std::array kSamplers{
-    SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera", sample_close_range},
-    SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land", sample_instant_radiosity},
+    SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera",
+                 sample_close_range},
+    SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
+                 sample_instant_radiosity},
+    SamplerEntry{SamplerKind::rejection, "rejection", "light walks that the camera needs", sample_rejection},
 };
 constexpr std::array kPolicies{
     PolicyEntry{Policy::partition, "partition", "unbiased"},
@@ -22,11 +25,19 @@ const SamplerEntry& entry_of(SamplerKind kind) {
 
 }  // namespace
 
-std::span<const SamplerEntry> all_samplers() { return kSamplers; }
-std::span<const PolicyEntry> all_policies() { return kPolicies; }
+std::span<const SamplerEntry> all_samplers() {
+    return kSamplers;
+}
+std::span<const PolicyEntry> all_policies() {
+    return kPolicies;
+}
 
-std::string to_string(SamplerKind kind) { return entry_of(kind).name; }
-std::string to_string(Policy policy) { return std::ranges::find(kPolicies, policy, &PolicyEntry::policy)->name; }
+std::string to_string(SamplerKind kind) {
+    return entry_of(kind).name;
+}
+std::string to_string(Policy policy) {
+    return std::ranges::find(kPolicies, policy, &PolicyEntry::policy)->name;
+}
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task) {
     if (task.vpl_count == 0 || task.bounce_count == 0 || task.scene.host_info.emitter_count == 0) {

@@ -94,6 +94,21 @@ TEST_F(Agreement, PartitionUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
 }
+TEST_F(Agreement, RejectionWithPointLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_point_light(), SamplerKind::rejection, kClampRadius);
+    });
+}
+TEST_F(Agreement, RejectionWithAreaLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_area_light(), SamplerKind::rejection, kClampRadius);
+    });
+}
+TEST_F(Agreement, RejectionUnderSky) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_window(), SamplerKind::rejection, kClampRadius);
+    });
+}
 
 }  // namespace
 }  // namespace nearlight

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light by region and depth: what the policy `partition` puts where, against instant radiosity.
+// Light by region and depth: what the policy `partition` and the samplers that look at the camera put where,
+// against instant radiosity.
 #include "tests/render/energy.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ using test::Energies;
 
 constexpr uint kDepths = 4;
 constexpr uint kSeeds = 40;
+constexpr uint kVpls = 60'000;
 constexpr double kSigmas = 3.0;
 
 /// A closed room with a block in it, under a point light.
@@ -41,7 +43,7 @@ Scene room_with_block() {
 }
 
 /// Energies of a sampler's sets, whose powers are multiplied by `scale`.
-Energies sampled_energies(Device& device, SamplerKind sampler, float scale) {
+Energies sampled_energies(Device& device, SamplerKind sampler, float scale, uint vpl_count = kVpls) {
     CameraPass camera_pass(device);
     SamplerStages stages(device);
     const test::SceneOnDevice on_device(device, room_with_block());
@@ -52,7 +54,7 @@ Energies sampled_energies(Device& device, SamplerKind sampler, float scale) {
                                           .view = view.pilot,
                                           .sampler = sampler,
                                           .policy = Policy::partition,
-                                          .vpl_count = 60'000,
+                                          .vpl_count = vpl_count,
                                           .bounce_count = kDepths,
                                           .close_fraction = 0.5f,
                                           .close_range = view.close_range,
@@ -82,6 +84,23 @@ TEST_F(Energy, PartitionPutsTheSameLightInEachRegionAndDepth) {
             EXPECT_GT(test::spread_of(powers).mean, 0.01) << "nothing to compare";
         }
     });
+}
+
+void expect_the_light_of_walks(Device& device, SamplerKind sampler) {
+    const Energies walks = sampled_energies(device, SamplerKind::instant_radiosity, 1.0f);
+    const Energies found = sampled_energies(device, sampler, 1.0f, 2000);  // each costs many candidates
+    for (const auto& [key, powers] : walks) {
+        const test::Spread spread = test::spread_of(found.at(key));
+        EXPECT_LT(deviation(powers, found.at(key)), kSigmas)
+            << (key.first ? "inside" : "outside") << ", depth " << key.second << ": "
+            << test::spread_of(powers).mean << " W by walks, " << spread.mean << " W by "
+            << to_string(sampler);
+        EXPECT_LT(spread.error, 0.02 * spread.mean) << "too noisy to tell";
+    }
+}
+
+TEST_F(Energy, RejectionKeepsTheLightOfEachRegionAndDepth) {
+    on_each_device([](Device& device) { expect_the_light_of_walks(device, SamplerKind::rejection); });
 }
 
 /// The check itself: powers that are 5 % too high must not pass, in any class.
