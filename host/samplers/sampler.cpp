@@ -13,6 +13,7 @@ constexpr std::array kSamplers{
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity},
     SamplerEntry{SamplerKind::rejection, "rejection", "light walks that the camera needs", sample_rejection},
+    SamplerEntry{SamplerKind::metropolis, "metropolis", "where Markov chains find what the camera needs", sample_metropolis},
 };
 constexpr std::array kPolicies{
     PolicyEntry{Policy::partition, "partition", "unbiased"},

@@ -17,6 +17,7 @@ enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
     rejection,          ///< [Georgiev & Slusallek 2010] of many walks, what the camera needs
+    metropolis,         ///< [Segovia et al. 2007] Markov chains over light paths towards what the camera needs
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
@@ -55,6 +56,7 @@ VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task);
 
 /// A row of the table of samplers, by which commands know them.
 struct SamplerEntry {

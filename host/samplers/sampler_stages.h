@@ -2,11 +2,14 @@
 // The stages that samplers draw on, compiled once for a device.
 #pragma once
 
+#include <optional>
+
 #include "host/stages/compaction.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/light_visibility.h"
+#include "host/stages/metropolis_chains.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
 #include "host/stages/triangle_classifier.h"
@@ -43,6 +46,15 @@ struct SamplerStages {
     DirectLight direct_light;
     LightTracer light_tracer;
     VplContribution vpl_contribution;
+
+    /// Made when first asked for: one sampler needs it, and its kernels take long to compile.
+    MetropolisChains& metropolis_chains() {
+        return metropolis_chains_ ? *metropolis_chains_
+                                  : metropolis_chains_.emplace(device, vpl_contribution);
+    }
+
+  private:
+    std::optional<MetropolisChains> metropolis_chains_;
 };
 
 }  // namespace nearlight

@@ -109,6 +109,21 @@ TEST_F(Agreement, RejectionUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::rejection, kClampRadius);
     });
 }
+TEST_F(Agreement, MetropolisWithPointLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_point_light(), SamplerKind::metropolis, kClampRadius);
+    });
+}
+TEST_F(Agreement, MetropolisWithAreaLight) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_area_light(), SamplerKind::metropolis, kClampRadius);
+    });
+}
+TEST_F(Agreement, MetropolisUnderSky) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_window(), SamplerKind::metropolis, kClampRadius);
+    });
+}
 
 }  // namespace
 }  // namespace nearlight

