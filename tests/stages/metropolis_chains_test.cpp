@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/metropolis_chains.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -120,12 +121,6 @@ TEST_F(MetropolisChainsTest, ChainsFollowTheirTarget) {
             const double expected = geometric_shares(kAlbedo).at(i);
             EXPECT_NEAR(shares.at(i), expected, 4.5 * std::sqrt(expected / kStates)) << "depth " << i + 1;
         }
-        // Directions spread evenly: the sphere's centre is the mean of what lies on it.
-        Vec3 mean{0, 0, 0};
-        for (const Vpl& vpl : furnace.states.vpls.download()) {
-            mean += vpl.normal / static_cast<float>(kStates);
-        }
-        EXPECT_NEAR(mean.z, 0.0f, 0.15f);  // the light is off the centre
     });
 }
 
