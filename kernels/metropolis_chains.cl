@@ -8,15 +8,14 @@
 // flux divided by the probability of the depth. Pair p of state i lies at p · count + i. Depths beyond the
 // state's leave their pairs unused.
 //
-// metropolis_seeds:   the numbers of states that are independent of each other, by index into a randomised
-// sequence. metropolis_walks:   numbers to VPLs; of power 0 and without a normal where the walk does not get
-// that far. metropolis_targets: what chains follow: contribution to the camera (given along the Morton curve,
-// for the gather's
-//                     sake: entry i is that of state order[i]), and blind_target for each watt, for what the
-//                     estimate of the contribution misses.
-// metropolis_propose: numbers of the next state to try.
-// metropolis_accept:  moves there with probability min(1, proposed target / current target).
-// metropolis_keep:    VPLs of the states as they are, of power · scale / target.
+// - metropolis_seeds: numbers of independent states, by index into a randomised sequence.
+// - metropolis_walks: numbers to VPLs; of power 0 and without a normal where the walk does not get that far.
+// - metropolis_targets: what chains follow: the contribution to the camera (given along the Morton curve for
+//   the gather's sake: entry i is that of state order[i]), and blind_target for each watt, for what the
+//   estimate of the contribution misses.
+// - metropolis_propose: numbers of the next state to try.
+// - metropolis_accept: moves there with probability min(1, proposed target / current target).
+// - metropolis_keep: VPLs of the states as they are, of power · scale / target.
 // One work-item a state; any work-group size.
 
 #include "lib/light_walk.cl"

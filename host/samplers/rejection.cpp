@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rejection of VPLs that bring little to the camera [Georgiev & Slusallek, Simple and Robust Iterative
 // Importance Sampling of Virtual Point Lights, Eurographics 2010]: candidates come from instant radiosity,
-// and one whose contribution to the picture is estimated at Φ is accepted with probability p = min(Φ/Φv + ε,
-// 1), its power divided by p. So most of those that are accepted bring the same to the camera, Φv.
+// and one whose contribution to the picture is estimated at Φ is accepted with probability
+// p = min(Φ/Φv + ε, 1), its power divided by p. So most of those that are accepted bring the same, Φv.
 //
 // What differs from the original:
 // - It refines Φv from frame to frame, from 0 on. Here an independent pilot fixes Φv and the number of walks
-// before the
-//   pass that uses them, so the pass is unbiased by itself. Powers are divided by the walks launched, never
-//   by what was accepted, and nothing stops at a number of VPLs.
+//   before the pass that uses them, so the pass is unbiased by itself. Powers are divided by the walks
+//   launched, never by what was accepted, and nothing stops at a number of VPLs.
 // - Φv is higher than the mean contribution, so more candidates are weighed and fewer kept, which evens them
-// out further.
+//   out further.
 // - Decisions are not independent of each other: acceptances are equidistant in the running sum of p along
-// the Morton
-//   curve, with one random shift. Each candidate is still accepted with probability p, but their number
-//   hardly varies and neighbours share it evenly.
+//   the Morton curve, with one random shift. Each candidate is still accepted with probability p, but their
+//   number hardly varies and neighbours share it evenly.
 // The estimate of Φ may be anything (here it is a sum over the pilot view's receivers): p is positive
 // everywhere, and the shift depends neither on walks nor on the estimate.
 #include <algorithm>
