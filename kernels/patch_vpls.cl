@@ -33,7 +33,7 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
     const float3 normal = front ? load3(point.normal) : -load3(point.normal);
     Vpl vpl;
     vpl.position = store3(offset_point(&scene, position, normal));
-    vpl.depth = 1;
+    vpl.depth = 0;  // whichever light comes
     vpl.normal = store3(normal);
     vpl.flags = NEARLIGHT_VPL_CLOSE;
     vpl.power = store3(power);

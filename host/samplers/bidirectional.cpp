@@ -29,10 +29,11 @@ constexpr double kCandidatesPerVpl = 4;
 constexpr uint kFewestCandidates = 256;
 constexpr std::size_t kMostCameraPoints = 512;
 /// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
-constexpr IncidentQuality kRough{.direct_samples = 8, .paths = 4};
+constexpr uint kRoughSparseVpls = 512;
+constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 2};
 /// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
 constexpr float kLeastLight = 0.1f;
-constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 64};
+constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;
 constexpr uint kRoughSeed = 0x20061u;
@@ -67,6 +68,7 @@ struct Candidates {
 
 /// What the weights depend on, the same for both kinds of candidates.
 struct Balance {
+    SparseSet sparse;  ///< for the rough light
     CameraPoints points;
     float walks_per_watt = 0.0f;
 };
@@ -77,7 +79,7 @@ Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balanc
     const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
     candidates.vpls = sorted.download();
     candidates.rough_light =
-        incident_light_at(stages, task, no_sparse_set(), candidates.vpls, kRough, task.seed ^ kRoughSeed);
+        incident_light_at(stages, task, balance.sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
 
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
@@ -146,7 +148,8 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));
     const Deposits deposits =
         trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
-    const Balance balance{.points = choose_camera_points(stages, task, wanted),
+    const Balance balance{.sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed),
+                          .points = choose_camera_points(stages, task, wanted),
                           .walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power};
 
     const Candidates reverse =
@@ -165,10 +168,11 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     const auto chosen_reverse = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(unlit.size())) - choice.indices.begin());
     const std::span reverse_vpls = std::span(set.vpls).first(chosen_reverse);
-    illuminate(reverse_vpls,
-               incident_light_at(stages, task, no_sparse_set(), reverse_vpls, kThorough, task.seed));
+    const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
+    illuminate(reverse_vpls, incident_light_at(stages, task, sparse, reverse_vpls, kThorough, task.seed));
 
     set.distant_count = set.vpls.size();
+    set.sparse_count = balance.sparse.count + sparse.count;
     set.candidate_count = candidates.size();
     say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(set.vpls.size()) +
               " VPLs are reverse ones");

@@ -35,6 +35,9 @@ std::vector<Vpl> lit_patches(SamplerStages& stages, const SamplingTask& task, Cl
     stages.vpl_light.apply(irradiance, dark.size(), vpls);
     std::vector<Vpl> lit = vpls.download();
     std::erase_if(lit, [](const Vpl& vpl) { return is_zero(vpl.power); });
+    for (Vpl& vpl : lit) {
+        vpl.depth = 1;
+    }
     return lit;
 }
 

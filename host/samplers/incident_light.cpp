@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/incident_light.h"
 
-#include <limits>
 #include <span>
 
 #include "host/samplers/sparse_walks.h"
@@ -29,12 +28,6 @@ SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint
         sparse.vpls = stages.vpl_order.upload_sorted(vpls);
     }
     return sparse;
-}
-
-SparseSet no_sparse_set() {
-    SparseSet none;
-    none.clamp_radius = std::numeric_limits<float>::infinity();
-    return none;
 }
 
 void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,

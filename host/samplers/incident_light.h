@@ -16,9 +16,6 @@ struct SparseSet {
 /// About `wanted` VPLs of up to task.bounce_count − 1 bounces; none where there are no further bounces.
 SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed);
 
-/// No VPLs: paths bring all of the further bounces.
-SparseSet no_sparse_set();
-
 /// How much is spent on each point.
 struct IncidentQuality {
     uint direct_samples = 64;  ///< for area and environment lights

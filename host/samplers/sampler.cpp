@@ -12,8 +12,13 @@ constexpr std::array kSamplers{
                  sample_close_range},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity},
-    SamplerEntry{SamplerKind::bidirectional, "bidirectional", "where walks from lights and from the view land", sample_bidirectional},
-    SamplerEntry{SamplerKind::local, "local", "the same, smoothed, with lights of each tile for what is near", sample_local},
+    SamplerEntry{SamplerKind::rejection, "rejection", "light walks that the camera needs", sample_rejection},
+    SamplerEntry{SamplerKind::metropolis, "metropolis", "where Markov chains find what the camera needs",
+                 sample_metropolis},
+    SamplerEntry{SamplerKind::bidirectional, "bidirectional",
+                 "where walks from lights and from the view land", sample_bidirectional},
+    SamplerEntry{SamplerKind::local, "local", "the same, smoothed, with lights of each tile for what is near",
+                 sample_local},
 };
 constexpr std::array kPolicies{
     PolicyEntry{Policy::complete, "complete", "unbiased, light of all depths on the patches"},

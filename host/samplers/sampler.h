@@ -17,8 +17,10 @@ namespace nearlight {
 enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
-    bidirectional,      ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
-    local,              ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
+    rejection,          ///< [Georgiev & Slusallek 2010] of many walks, what the camera needs
+    metropolis,     ///< [Segovia et al. 2007] Markov chains over light paths towards what the camera needs
+    bidirectional,  ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
+    local,          ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
@@ -60,6 +62,8 @@ VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_local(SamplerStages& stages, const SamplingTask& task);
 

@@ -2,12 +2,15 @@
 // The stages that samplers draw on, compiled once for a device.
 #pragma once
 
+#include <optional>
+
 #include "host/stages/bounce_tracer.h"
 #include "host/stages/compaction.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/light_visibility.h"
+#include "host/stages/metropolis_chains.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
 #include "host/stages/reverse_vpls.h"
@@ -55,6 +58,15 @@ struct SamplerStages {
     VplOrder vpl_order;
     VplContribution vpl_contribution;
     ReverseVpls reverse_vpls;
+
+    /// Made when first asked for: one sampler needs it, and its kernels take long to compile.
+    MetropolisChains& metropolis_chains() {
+        return metropolis_chains_ ? *metropolis_chains_
+                                  : metropolis_chains_.emplace(device, vpl_contribution);
+    }
+
+  private:
+    std::optional<MetropolisChains> metropolis_chains_;
 };
 
 }  // namespace nearlight

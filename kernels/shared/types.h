@@ -175,7 +175,7 @@ typedef struct PinholeCamera {
 /// with radiant intensity power/π · cosθ. The position stands off its surface by the ray epsilon.
 typedef struct Vpl {
     Vec3 position;
-    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …
+    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …; 0: by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;

@@ -94,35 +94,6 @@ TEST_F(Agreement, CompleteUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
 }
-TEST_F(Agreement, BidirectionalWithPointLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_point_light(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, BidirectionalWithAreaLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_area_light(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, BidirectionalUnderSky) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_window(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalWithPointLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_point_light(), SamplerKind::local, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalWithAreaLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_area_light(), SamplerKind::local, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalUnderSky) {
-    on_each_device(
-        [](Device& d) { test::expect_agreement(d, room_with_window(), SamplerKind::local, kClampRadius); });
-}
 /// No VPL sampler but this one has a picture without any bound.
 TEST_F(Agreement, LocalWithoutClamp) {
     on_each_device(

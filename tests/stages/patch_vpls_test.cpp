@@ -91,7 +91,7 @@ TEST_F(PatchVplsTest, SidesThatReflectInTheRegionBecomeVpls) {
                     const Vpl& vpl = result.vpls[i];
                     EXPECT_EQ(vpl.normal, side);
                     EXPECT_NEAR(length(vpl.position - stand_off(sample.position, side, 4.0f)), 0.0f, 1e-6f);
-                    EXPECT_EQ(vpl.depth, 1u);
+                    EXPECT_EQ(vpl.depth, 0u);
                     EXPECT_EQ(vpl.flags, NEARLIGHT_VPL_CLOSE);
                     ++present;
                 }
