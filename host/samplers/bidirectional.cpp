@@ -27,14 +27,19 @@ namespace {
 constexpr double kCandidatesPerVpl = 4;
 constexpr uint kFewestCandidates = 256;
 constexpr std::size_t kMostCameraPoints = 512;
-/// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
-constexpr LightPaths kRoughPaths{.path_count = 4, .direct_samples = 2};
+/// VPLs that light candidates, for the weights, and, as a multiple of the budget, the reverse ones that are
+/// chosen; bounded at a part of the range.
+constexpr uint kRoughSparse = 512;
+constexpr double kSparsePerVpl = 4;
+constexpr float kSparseRadiusToRange = 0.1f;
+constexpr LightPaths kRoughPaths{.path_count = 2, .connections = 64, .direct_samples = 2};
 /// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
 constexpr float kLeastLight = 0.1f;
-constexpr LightPaths kThoroughPaths{.path_count = 64, .direct_samples = 4};
+constexpr LightPaths kThoroughPaths{.path_count = 8, .connections = 128, .direct_samples = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;
 constexpr uint kRoughSeed = 0x20061u;
+constexpr uint kSparseSeed = 0x5ba5e6u;
 constexpr uint kPointStream = 0xca3e7au;
 constexpr uint kChoiceStream = 0x5e1ec8u;
 
@@ -64,6 +69,15 @@ struct Candidates {
     std::vector<float> standard_density;  ///< q, 1/m²
 };
 
+SparseVpls trace_sparse_vpls(SamplerStages& stages, SamplingTask task, uint wanted, uint seed) {
+    task.seed ^= seed;
+    const std::vector<Vpl> vpls =
+        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
+    return {.vpls = stages.vpl_order.upload_sorted(vpls),
+            .count = vpls.size(),
+            .radius = kSparseRadiusToRange * task.close_range.range};
+}
+
 LightPaths light_paths(LightPaths quality, const SamplingTask& task, uint seed) {
     quality.bounce_count = task.bounce_count;
     quality.seed = task.seed ^ seed;
@@ -72,6 +86,7 @@ LightPaths light_paths(LightPaths quality, const SamplingTask& task, uint seed) 
 
 /// What the weights depend on, the same for both kinds of candidates.
 struct Balance {
+    SparseVpls sparse;
     LightPaths paths;  ///< with a seed of their own
     CameraPoints points;
     float walks_per_watt = 0.0f;
@@ -82,7 +97,7 @@ Candidates examine(SamplerStages& stages, const DeviceScene& scene, const Balanc
     Candidates candidates;
     const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
     candidates.vpls = sorted.download();
-    candidates.rough_light = incident_light_at(stages, scene, candidates.vpls, balance.paths);
+    candidates.rough_light = incident_light_at(stages, scene, balance.sparse, candidates.vpls, balance.paths);
 
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
@@ -152,7 +167,8 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     uint walk_count = 0;
     const std::vector<Vpl> deposits =
         trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted, &walk_count);
-    const Balance balance{.paths = light_paths(kRoughPaths, task, kRoughSeed),
+    const Balance balance{.sparse = trace_sparse_vpls(stages, task, kRoughSparse, kRoughSeed),
+                          .paths = light_paths(kRoughPaths, task, kRoughSeed),
                           .points = choose_camera_points(stages, task, wanted),
                           .walks_per_watt = static_cast<float>(walk_count) / task.scene.total_power};
 
@@ -172,10 +188,13 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     const auto chosen_reverse = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(unlit.size())) - choice.indices.begin());
     const std::span reverse_vpls = std::span(set.vpls).first(chosen_reverse);
-    illuminate(reverse_vpls,
-               incident_light_at(stages, task.scene, reverse_vpls, light_paths(kThoroughPaths, task, 0)));
+    const SparseVpls sparse =
+        trace_sparse_vpls(stages, task, multiple_of_budget(kSparsePerVpl, task), kSparseSeed);
+    illuminate(reverse_vpls, incident_light_at(stages, task.scene, sparse, reverse_vpls,
+                                               light_paths(kThoroughPaths, task, kSparseSeed)));
 
     set.distant_count = set.vpls.size();
+    set.sparse_count = balance.sparse.count + sparse.count;
     set.candidate_count = candidates.size();
     say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(set.vpls.size()) +
               " VPLs are reverse ones");

@@ -40,14 +40,14 @@ std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t cou
     return values;
 }
 
-std::vector<Vec3> incident_light_at(SamplerStages& stages, const DeviceScene& scene,
+std::vector<Vec3> incident_light_at(SamplerStages& stages, const DeviceScene& scene, const SparseVpls& sparse,
                                     std::span<const Vpl> vpls, const LightPaths& paths) {
     const std::size_t packets = receiver_packet_count(vpls.size());
     const Buffer<Vpl> points(stages.device, vpls);
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> irradiance(stages.device, packets);
     stages.vpl_contribution.make_receivers(points, vpls.size(), receivers);
-    stages.path_light.run(scene, receivers, packets, paths, irradiance);
+    stages.path_light.run(scene, receivers, packets, sparse, paths, irradiance);
     return unpack(irradiance, vpls.size());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All the light that arrives at receivers, by path tracing. Kernel: path_light.cl.
+// All the light that arrives at receivers, from VPLs and by short paths. Kernel: path_light.cl.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -7,9 +7,17 @@
 
 namespace nearlight {
 
+/// VPLs that light receivers, of all depths, in an order in which neighbours are alike.
+struct SparseVpls {
+    Buffer<Vpl> vpls;
+    std::size_t count = 0;
+    float radius = 0.0f;  ///< of the bounded geometry term, m; paths supply what it takes away
+};
+
 struct LightPaths {
     uint path_count = 1;      ///< a receiver
     uint bounce_count = 1;    ///< most steps from a light to the receiver; 1 is direct light only
+    uint connections = 1;     ///< of a path's vertex, to VPLs chosen evenly among them
     uint direct_samples = 1;  ///< of a path, towards area and environment lights, at the receiver itself
     uint seed = 0;
 };
@@ -20,7 +28,7 @@ class PathLight {
 
     /// Irradiance without bias, W/m².
     void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-             const LightPaths& paths, Buffer<IrradiancePacket>& irradiance);
+             const SparseVpls& sparse, const LightPaths& paths, Buffer<IrradiancePacket>& irradiance);
 
   private:
     Program program_;

@@ -45,11 +45,12 @@ TEST_F(PathLightTest, EachBounceInAnIntegratingSphereGivesAlbedoTimesTheOneBefor
         const std::vector<ReceiverPacket> packets = test::pack_receivers(points);
         Buffer<IrradiancePacket> irradiance(device, 1);
         PathLight stage(device);
+        const SparseVpls plain{.vpls = Buffer<Vpl>(device, 0), .count = 0, .radius = 1e9f};
         Vec3 expected{0, 0, 0};
         Vec3 bounce{1, 1, 1};
         for (uint bounces = 1; bounces <= 4; ++bounces, bounce *= kAlbedo) {
             expected += bounce;
-            stage.run(scene.buffers, Buffer<ReceiverPacket>(device, std::span(packets)), 1,
+            stage.run(scene.buffers, Buffer<ReceiverPacket>(device, std::span(packets)), 1, plain,
                       {.path_count = 8, .bounce_count = bounces, .direct_samples = 1, .seed = 5}, irradiance);
             const std::vector<IrradiancePacket> found = irradiance.download();
             for (std::size_t i = 0; i < points.size(); ++i) {
