@@ -161,6 +161,30 @@ Image read_linear_image(const fs::path& file) {
     return read(file, true);
 }
 
+Metadata read_metadata(const fs::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input) {
+        fail("cannot read image", file, OIIO::geterror());
+    }
+    Metadata metadata;
+    for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
+        const OIIO::TypeDesc type = attribute.type();
+        const std::string name = attribute.name().string();
+        const std::size_t count = type.numelements() * type.aggregate;
+        if (type == OIIO::TypeInt) {
+            metadata[name] = attribute.get_int();
+        } else if (type == OIIO::TypeFloat) {
+            metadata[name] = attribute.get_float();
+        } else if (type == OIIO::TypeString) {
+            metadata[name] = attribute.get_string();
+        } else if (type.basetype == OIIO::TypeDesc::FLOAT) {
+            const auto* const first = static_cast<const float*>(attribute.data());
+            metadata[name] = std::vector<float>(first, first + count);
+        }
+    }
+    return metadata;
+}
+
 /// Owns the temporary file: whatever is not committed is removed.
 struct ImageWriter::State {
     fs::path target;

@@ -22,6 +22,9 @@ Image read_linear_image(const std::filesystem::path& file);
 
 using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
 
+/// What the file says of itself: numbers and texts; a matrix is 16 floats. Throws Error(ExitCode::file).
+Metadata read_metadata(const std::filesystem::path& file);
+
 struct ImageWriterOptions {
     Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix
     float exposure = 0.0f;  ///< PNG: stops, applied before the sRGB curve

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/plots.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/base/message.h"
+#include "host/compare/files.h"
+
+extern char** environ;
+
+namespace nearlight {
+namespace {
+
+/// Runs gnuplot on a script in the script's folder, silently. Returns whether it succeeded.
+bool run_gnuplot(const std::filesystem::path& script) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, script.parent_path().c_str());
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    std::string program = "gnuplot";
+    std::string file = script.filename().string();
+    const std::array<char*, 3> arguments{program.data(), file.data(), nullptr};
+    pid_t child = 0;
+    const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    return failed == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+           WEXITSTATUS(status) == 0;
+}
+
+/// Error bars on a logarithmic axis: what reaches 0 is cut off at a tenth.
+std::string data_line(const EqualVplsRow& row) {
+    const RmseEstimate& rmse = row.rmse;
+    const double low = std::isfinite(rmse.low) ? std::max(rmse.low, 0.1 * rmse.value) : rmse.value;
+    const double high = std::isfinite(rmse.high) ? rmse.high : rmse.value;
+    return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g}\n", row.gathered_vpls,
+                       row.generate_seconds + row.gather_seconds, rmse.value, low, high);
+}
+
+}  // namespace
+
+std::string plot_script(const std::string& title, const std::string& stem, bool over_seconds,
+                        const CompareSettings& settings, std::span<const EqualVplsRow> rows) {
+    std::string text =
+        fmt::format("# Columns: VPLs gathered, seconds (generate + gather), RMSE, its 95 % interval\n");
+    std::string curves;
+    for (std::size_t i = 0; i < settings.methods.size(); ++i) {
+        const Method& method = settings.methods[i];
+        text += fmt::format("${} << EOD\n", fmt::format("method{}", i));
+        for (const EqualVplsRow& row : rows) {
+            if (row.method == method && row.rmse.value > 0.0) {
+                text += data_line(row);
+            }
+        }
+        text += "EOD\n";
+        curves += fmt::format(
+            "{}$method{} using {}:3:4:5 with yerrorlines linewidth 2 pointtype {} title \"{}\"",
+            i > 0 ? ", \\\n     " : "plot ", i, over_seconds ? 2 : 1, i % 12 + 4, to_string(method));
+    }
+    text += fmt::format(
+        "set title \"{}\" noenhanced\nset logscale xy\nset grid\nset key outside below noenhanced\n"
+        "set xlabel \"{}\"\nset ylabel \"RMSE of indirect light\"\nset format y \"%g\"\n",
+        title, over_seconds ? "seconds (generate + gather)" : "VPLs gathered");
+    text += fmt::format("set terminal svg size 640,480 dynamic background \"white\" font \"sans,13\"\n");
+    text += fmt::format("set output \"{}.svg\"\n{}\n", stem, curves);
+    text += fmt::format(
+        "set terminal pngcairo size 960,720 font \"sans,13\"\nset output \"{}.png\"\nreplot\n", stem);
+    return text;
+}
+
+std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& settings,
+                             std::span<const EqualVplsRow> rows, const std::filesystem::path& folder) {
+    make_folder(folder);
+    std::vector<Plot> plots;
+    for (const bool over_seconds : {false, true}) {
+        const std::string stem = scene + (over_seconds ? "-rmse-seconds" : "-rmse-vpls");
+        Plot plot{.title = scene + ": RMSE over " + (over_seconds ? "seconds" : "VPLs"),
+                  .script = folder / (stem + ".gp")};
+        write_text(plot.script, plot_script(plot.title, stem, over_seconds, settings, rows));
+        const bool has_data =
+            std::ranges::any_of(rows, [](const EqualVplsRow& row) { return row.rmse.value > 0.0; });
+        if (has_data && run_gnuplot(plot.script)) {
+            plot.svg = folder / (stem + ".svg");
+            plot.png = folder / (stem + ".png");
+        }
+        plots.push_back(std::move(plot));
+    }
+    if (std::ranges::any_of(plots, [](const Plot& plot) { return plot.svg.empty(); })) {
+        say_warning("the plots of scene '" + scene +
+                    "' are missing: gnuplot did not draw them; install gnuplot-nox and " +
+                    "run `gnuplot *.gp` in " + folder.string());
+    }
+    return plots;
+}
+
+}  // namespace nearlight
