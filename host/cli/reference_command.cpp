@@ -29,6 +29,7 @@ struct ReferenceOptions {
     std::optional<int> max_depth;
     float clamp_radius = 0.0f;
     bool indirect_only = false;
+    bool pixel_centers = false;
     std::uint64_t seed = 0;
     int threads = 0;
 };
@@ -54,6 +55,7 @@ PathTracerSettings make_settings(const ReferenceOptions& options, const Scene& s
     settings.max_depth = options.max_depth.value_or(scene.max_depth);
     settings.clamp_radius = options.clamp_radius;
     settings.indirect_only = options.indirect_only;
+    settings.pixel_centers = options.pixel_centers;
     settings.seed = options.seed;
     settings.threads = options.threads;
     return settings;
@@ -63,6 +65,8 @@ Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, c
     return {{"nearlight:sampler", std::string("reference")},
             {"nearlight:samplesPerPixel", settings.spp},
             {"nearlight:clampRadius", settings.clamp_radius},
+            {"nearlight:indirectOnly", settings.indirect_only ? 1 : 0},
+            {"nearlight:pixelCenters", settings.pixel_centers ? 1 : 0},
             {"nearlight:maxDepth", settings.max_depth},
             {"nearlight:seed", std::to_string(settings.seed)},
             {"nearlight:version", std::string(NEARLIGHT_VERSION)},
@@ -96,6 +100,7 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
             {"max_depth", settings.max_depth},
             {"clamp_radius", settings.clamp_radius},
             {"indirect_only", settings.indirect_only},
+            {"pixel_centers", settings.pixel_centers},
             {"seed", settings.seed},
             {"seconds",
              {{"load", outcome.load_seconds},
@@ -165,6 +170,8 @@ void add_reference_command(CommandLine& line) {
     command.add_option("--clamp-radius", options->clamp_radius, "Bound 1/r² below this distance; 0: nowhere")
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--indirect-only", options->indirect_only, "Leave out emission and direct light");
+    command.add_flag("--pixel-centers", options->pixel_centers,
+                     "Send all samples through the centres of pixels, as 'nearlight render --spp 1' does");
     command
         .add_option("--max-depth", options->max_depth,
                     "Longest path, 2: direct light only; 0: no limit; default: the scene's")

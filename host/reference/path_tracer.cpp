@@ -142,7 +142,8 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     SampleBatch batch(settings_.seed, pixel_index, static_cast<std::uint64_t>(batch_index), batch_size);
     BatchSum sum;
     for (int sample = 0; sample < batch_size; ++sample) {
-        const Point2 film = batch.point(Decision::film, sample);
+        const Point2 film =
+            settings_.pixel_centers ? Point2{0.5f, 0.5f} : batch.point(Decision::film, sample);
         const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
         const CameraPath path = trace_camera_path(scene_, embree_, lights_, ray, batch, sample);
         Light light;

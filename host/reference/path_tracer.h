@@ -18,6 +18,8 @@ struct PathTracerSettings {
     int max_depth = 0;           ///< 1: emission, 2: direct light too, 3: one bounce, …; 0: no limit
     float clamp_radius = 0.0f;   ///< R of the bounded geometry term, m; 0: unbounded
     bool indirect_only = false;  ///< beauty is the indirect light alone
+    bool pixel_centers =
+        false;  ///< all samples go through the pixel's centre, as the renderer's at 1 a pixel
     std::uint64_t seed = 0;
     int threads = 0;  ///< 0: as many as there are cores. The picture does not depend on it.
 };

@@ -62,6 +62,14 @@ TEST_F(Reference, IndirectOnlyAndSizeAreObeyed) {
     EXPECT_EQ(image.at(2, 1, static_cast<std::size_t>(image.find_channel("R"))), 0.0f);
 }
 
+TEST_F(Reference, PixelCentersAreTold) {
+    const ProgramResult result = run_program("reference --json --spp 4 --pixel-centers " + files());
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["pixel_centers"], true);
+    EXPECT_EQ(json["indirect_only"], false);
+}
+
 TEST_F(Reference, AnUnwritableOutputFailsBeforeTheWork) {
     const ProgramResult result = run_program("reference --spp 16777216 " + quoted(scene_) + " -o " +
                                              quoted(folder_ / "nowhere" / "a.exr"));

@@ -175,6 +175,53 @@ TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
     }
 }
 
+/// A wall that glows from x = 0.1 on to the left, which is inside a pixel of a picture 4 wide.
+Scene glowing_edge() {
+    Scene scene;
+    Material glow = lambertian({0, 0, 0});
+    glow.emission = {1, 1, 1};
+    add_quad(scene, {0.1f, -2, 1}, {0, 4, 0}, {2, 0, 0}, add_material(scene, glow));
+    scene.camera.fov_x_degrees = 90;
+    return scene;
+}
+
+TEST(PathTracer, PixelCentersSeeOneSideOfAnEdge) {
+    // At 90° the film is 2 wide; +X is on the left, so the edge crosses column 1, x from 0.5 to 0, off its
+    // centre.
+    PathTracerSettings settings{.width = 4, .height = 4, .spp = 256};
+    const Image blurred = trace_paths(glowing_edge(), settings);
+    settings.pixel_centers = true;
+    const Image sharp = trace_paths(glowing_edge(), settings);
+    const auto variance = static_cast<std::size_t>(sharp.find_channel("variance.R"));
+    for (int y = 0; y < 4; ++y) {
+        EXPECT_NEAR(blurred.at(1, y, 0), 0.8, 0.05);
+        for (int x = 0; x < 4; ++x) {
+            EXPECT_EQ(sharp.at(x, y, 0), x < 2 ? 1.0f : 0.0f) << x << ' ' << y;
+            EXPECT_EQ(sharp.at(x, y, variance), 0.0f);
+        }
+    }
+}
+
+TEST(PathTracer, PixelCentersAreInTheMiddle) {
+    // A floor 1 below, met 2 ahead by the ray through the middle of the picture.
+    Scene scene;
+    add_quad(scene, {-9, -1, 0}, {0, 0, 9}, {18, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    set_camera(scene, {0, 0, 0}, {0, -1, 2}, 40);
+    const Image image = trace_paths(scene, {.width = 5, .height = 5, .spp = 32, .pixel_centers = true});
+    EXPECT_NEAR(image.at(2, 2, static_cast<std::size_t>(image.find_channel("P.X"))), 0.0, 1e-4);
+    EXPECT_NEAR(image.at(2, 2, static_cast<std::size_t>(image.find_channel("P.Z"))), 2.0, 1e-4);
+}
+
+TEST(PathTracer, PixelCentersLeaveTheMeanOfASmoothSceneAlone) {
+    const Scene scene = furnace(0.6f);
+    PathTracerSettings settings{.width = 12, .height = 12, .spp = 64, .max_depth = 4};
+    const Image anywhere = trace_paths(scene, settings);
+    settings.pixel_centers = true;
+    const Image centers = trace_paths(scene, settings);
+    EXPECT_NEAR(channel_mean(centers, "R"), 1 + 0.6 + 0.36 + 0.216, 4.5 * standard_error(centers) + 2e-4);
+    EXPECT_NE(centers.values, anywhere.values);
+}
+
 TEST(PathTracer, SameBitsForAnyThreadCountOtherBitsForAnotherSeed) {
     const Scene scene = facing_squares(0.7f);
     PathTracerSettings settings{.width = 40, .height = 24, .spp = 8, .seed = 3, .threads = 1};
