@@ -18,8 +18,10 @@ extern char** environ;
 namespace nearlight {
 namespace {
 
-/// Runs gnuplot on a script in the script's folder, silently. Returns whether it succeeded.
-bool run_gnuplot(const std::filesystem::path& script) {
+enum class Drawing { done, no_gnuplot, failed };
+
+/// Runs gnuplot on a script in the script's folder, silently.
+Drawing run_gnuplot(const std::filesystem::path& script) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, script.parent_path().c_str());
@@ -33,8 +35,11 @@ bool run_gnuplot(const std::filesystem::path& script) {
     const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     int status = 0;
-    return failed == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-           WEXITSTATUS(status) == 0;
+    if (failed != 0) {
+        return Drawing::no_gnuplot;
+    }
+    const bool done = waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return done ? Drawing::done : Drawing::failed;
 }
 
 /// Error bars on a logarithmic axis: what reaches 0 is cut off at a tenth.
@@ -80,24 +85,28 @@ std::string plot_script(const std::string& title, const std::string& stem, bool 
 std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& settings,
                              std::span<const EqualVplsRow> rows, const std::filesystem::path& folder) {
     make_folder(folder);
+    const bool has_data =
+        std::ranges::any_of(rows, [](const EqualVplsRow& row) { return row.rmse.value > 0.0; });
     std::vector<Plot> plots;
+    std::string trouble = has_data ? "" : "no RMSE is above the reference's noise";
     for (const bool over_seconds : {false, true}) {
         const std::string stem = scene + (over_seconds ? "-rmse-seconds" : "-rmse-vpls");
         Plot plot{.title = scene + ": RMSE over " + (over_seconds ? "seconds" : "VPLs"),
                   .script = folder / (stem + ".gp")};
         write_text(plot.script, plot_script(plot.title, stem, over_seconds, settings, rows));
-        const bool has_data =
-            std::ranges::any_of(rows, [](const EqualVplsRow& row) { return row.rmse.value > 0.0; });
-        if (has_data && run_gnuplot(plot.script)) {
+        const Drawing drawing = has_data ? run_gnuplot(plot.script) : Drawing::failed;
+        if (drawing == Drawing::done) {
             plot.svg = folder / (stem + ".svg");
             plot.png = folder / (stem + ".png");
+        } else if (has_data) {
+            trouble = drawing == Drawing::no_gnuplot
+                          ? "gnuplot is not installed; with it, run `gnuplot *.gp` in " + folder.string()
+                          : "gnuplot failed; see `gnuplot " + plot.script.string() + "`";
         }
         plots.push_back(std::move(plot));
     }
-    if (std::ranges::any_of(plots, [](const Plot& plot) { return plot.svg.empty(); })) {
-        say_warning("the plots of scene '" + scene +
-                    "' are missing: gnuplot did not draw them; install gnuplot-nox and " +
-                    "run `gnuplot *.gp` in " + folder.string());
+    if (!trouble.empty()) {
+        say_warning("the plots of scene '" + scene + "' are missing: " + trouble);
     }
     return plots;
 }

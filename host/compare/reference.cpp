@@ -181,6 +181,15 @@ Reference load_reference(const std::filesystem::path& file, const ReferenceSpec&
         say_warning(
             fmt::format("'{}' was interrupted: some of its pixels are noisier than others", file.string()));
     }
+    const auto centers = metadata.find("nearlight:pixelCenters");
+    const bool has_centers = centers != metadata.end() && centers->second == Metadata::mapped_type(1);
+    if (has_centers != spec.pixel_centers) {
+        say_warning(fmt::format(
+            "'{}' was traced {}, the comparison's pictures are sampled {}: the difference counts as error",
+            file.string(),
+            has_centers ? "through the pixels' centres" : "all over the pixels (without --pixel-centers)",
+            spec.pixel_centers ? "at the centres (--spp 1)" : "all over the pixels"));
+    }
     reference.display_scale = display_scale(reference.picture);
     return reference;
 }

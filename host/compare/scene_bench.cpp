@@ -177,6 +177,7 @@ std::optional<Image> SceneBench::trace_pass(const ReferenceSpec& spec, std::size
                                       .max_depth = static_cast<int>(spec.max_depth),
                                       .clamp_radius = spec.clamp_radius,
                                       .indirect_only = true,
+                                      .pixel_centers = spec.pixel_centers,
                                       .seed = kReferenceSeed + index},
                                      [&](double fraction) {
                                          stopped = !progress(fraction);
