@@ -2,6 +2,7 @@
 #include "host/cli/compare_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "host/base/log.h"
@@ -91,6 +92,11 @@ void tell(const Comparison& comparison, const CompareSettings& settings) {
     spdlog::info("wrote {}", (settings.output / "report.html").string());
 }
 
+std::string with_interval(const RmseEstimate& rmse) {
+    return fmt::format("{:.3g}", rmse.value) +
+           (std::isfinite(rmse.half_width) ? fmt::format(" ± {:.2g}", rmse.half_width) : "");
+}
+
 /// For those who look at the terminal only.
 std::string to_table(const Comparison& comparison) {
     std::string text;
@@ -101,9 +107,8 @@ std::string to_table(const Comparison& comparison) {
         for (const EqualVplsRow& row : scene.equal_vpls) {
             text += fmt::format(
                 "{:<26} {:>8} {:>9.0f} {:>9.0f} {:>22} {:>10.2f} {:>8.4f} {:>8.4f} {:>10.3f} {:>10.3f}\n",
-                to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls,
-                fmt::format("{:.3g} ± {:.2g}", row.rmse.value, row.rmse.half_width), row.rmse_ratio,
-                row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
+                to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls, with_interval(row.rmse),
+                row.rmse_ratio, row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
         }
     }
     return text;

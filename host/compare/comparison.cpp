@@ -16,9 +16,6 @@
 namespace nearlight {
 namespace {
 
-/// A reference whose noise is more than this part of an RMSE is a poor judge of it.
-constexpr double kNoiseThatCounts = 1.0 / 3.0;
-
 std::string conditions_of(const Device& device, const SceneFacts& facts, const Reference& reference,
                           const CompareSettings& settings) {
     return hex_digits(facts.hash) + "|" + std::to_string(settings.width) + "x" +
@@ -161,25 +158,6 @@ void require_indirect_light(const SceneFacts& facts, const Reference& reference)
     }
 }
 
-void warn_of_noise(const SceneComparison& scene) {
-    const ReferenceNoise& noise = scene.reference.noise;
-    if (!noise.known) {
-        say_warning("scene '" + scene.facts.name +
-                    "': the noise of the reference is not known, and so is not " +
-                    "subtracted from the errors");
-        return;
-    }
-    const double deviation = std::sqrt(noise.mean_variance);
-    const auto quietest = std::ranges::min_element(scene.equal_vpls, {},
-                                                   [](const EqualVplsRow& row) { return row.rmse.value; });
-    if (deviation > kNoiseThatCounts * quietest->rmse.value) {
-        say_warning("scene '" + scene.facts.name + "': the noise of the reference (" +
-                    std::to_string(deviation) + ") is more than a third of the smallest RMSE (" +
-                    std::to_string(quietest->rmse.value) + ", " + to_string(quietest->method) +
-                    "); raise --reference-spp");
-    }
-}
-
 }  // namespace
 
 std::vector<std::string> unique_names(std::span<const Scene> scenes) {
@@ -229,7 +207,9 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
         scene.equal_rmse = equal_rmse(curves_of(settings, scene.equal_vpls), baseline_index(settings));
         scene.figures = make_figures(bench, scene.reference, store, settings, settings.output / "pictures");
         scene.plots = make_plots(scene.facts.name, settings, scene.equal_vpls, settings.output / "plots");
-        warn_of_noise(scene);
+        if (const std::string remark = noise_remark(scene.reference, scene.equal_vpls); !remark.empty()) {
+            say_warning("scene '" + scene.facts.name + "': " + remark);
+        }
         comparison.scenes.push_back(std::move(scene));
     }
     return comparison;

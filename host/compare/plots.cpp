@@ -51,6 +51,23 @@ std::string data_line(const EqualVplsRow& row) {
                        row.generate_seconds + row.gather_seconds, rmse.value, low, high);
 }
 
+/// Left to itself, gnuplot widens logarithmic axes to whole decades.
+std::string axis_ranges(bool over_seconds, std::span<const EqualVplsRow> rows) {
+    double x_low = 1e300, x_high = 0, y_low = 1e300, y_high = 0;
+    for (const EqualVplsRow& row : rows) {
+        if (row.rmse.value > 0.0) {
+            const double x = over_seconds ? row.generate_seconds + row.gather_seconds : row.gathered_vpls;
+            x_low = std::min(x_low, x);
+            x_high = std::max(x_high, x);
+            y_low = std::min(y_low, row.rmse.value);
+            y_high = std::max(y_high, row.rmse.value);
+        }
+    }
+    return x_high > 0.0 ? fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n", x_low / 1.3,
+                                      x_high * 1.3, y_low / 2.0, y_high * 2.0)
+                        : "";
+}
+
 }  // namespace
 
 std::string plot_script(const std::string& title, const std::string& stem, bool over_seconds,
@@ -72,13 +89,15 @@ std::string plot_script(const std::string& title, const std::string& stem, bool 
             i > 0 ? ", \\\n     " : "plot ", i, over_seconds ? 2 : 1, i % 12 + 4, to_string(method));
     }
     text += fmt::format(
-        "set title \"{}\" noenhanced\nset logscale xy\nset grid\nset key outside below noenhanced\n"
+        "set title \"{}\" noenhanced\nset logscale xy\nset grid\nset key outside right top vertical "
+        "noenhanced\n"
         "set xlabel \"{}\"\nset ylabel \"RMSE of indirect light\"\nset format y \"%g\"\n",
         title, over_seconds ? "seconds (generate + gather)" : "VPLs gathered");
-    text += fmt::format("set terminal svg size 640,480 dynamic background \"white\" font \"sans,13\"\n");
+    text += axis_ranges(over_seconds, rows);
+    text += fmt::format("set terminal svg size 820,440 dynamic background \"white\" font \"sans,13\"\n");
     text += fmt::format("set output \"{}.svg\"\n{}\n", stem, curves);
     text += fmt::format(
-        "set terminal pngcairo size 960,720 font \"sans,13\"\nset output \"{}.png\"\nreplot\n", stem);
+        "set terminal pngcairo size 1230,660 font \"sans,13\"\nset output \"{}.png\"\nreplot\n", stem);
     return text;
 }
 

@@ -12,7 +12,7 @@ namespace nearlight {
 namespace {
 
 constexpr std::string_view kStyle =
-    R"(:root { color-scheme: light dark; --line: #8886; --soft: #8881; --good: #0a7d3244; --bad: #c33; }
+    R"(:root { color-scheme: light dark; --line: #8886; --good: #0a7d3244; --bad: #c33; }
 body { font: 15px/1.45 system-ui, sans-serif; max-width: 1500px; margin: 1.5em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { margin-top: 2em; border-bottom: 1px solid var(--line); } h3 { margin-top: 1.6em; }
 p, dl { max-width: 75em; }
@@ -30,6 +30,7 @@ img.dots { width: 300px; } img.plot { width: 560px; max-width: 100%; background:
 .crops, .figures, .plots { display: flex; flex-wrap: wrap; gap: 6px; } .figures, .plots { gap: 14px; }
 .crops { width: 200px; }
 figure { margin: 0; } .figures figure { width: 300px; }
+.remark { color: var(--bad); }
 figcaption, .caption { font-size: .8em; }
 .scale { display: flex; gap: .6em; align-items: center; font-size: .85em; margin: .5em 0; }
 .scale .bar { display: inline-block; width: 220px; height: 12px; border: 1px solid var(--line); }
@@ -123,6 +124,9 @@ void write_scene_facts(HtmlWriter& html, const SceneComparison& scene) {
                            facts.clamp_radius, facts.max_depth, facts.range));
     write_pair(html, "Reference", reference_text(scene.reference));
     html.close();
+    if (const std::string remark = noise_remark(scene.reference, scene.equal_vpls); !remark.empty()) {
+        html.element("p", "Beware: " + remark + ".", {{"class", "remark"}});
+    }
 }
 
 void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
@@ -136,9 +140,9 @@ void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSe
     write_plots(html, scene);
     html.element("h3", fmt::format("Where the VPLs are, {} asked for", settings.vpl_counts.front()));
     html.element("p",
-                 "Orange dots lie in the close range, blue ones elsewhere; those behind something are small "
-                 "and faint. What "
-                 "is not in the picture lies beside or behind the camera.");
+                 "Orange dots were placed on surfaces of the close range, blue ones by light walks; those "
+                 "behind something are "
+                 "small and faint. What is not in the picture lies beside or behind the camera.");
     write_vpl_figures(html, scene);
     html.element("h3", "Indirect light");
     html.element(

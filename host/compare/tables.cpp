@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,8 @@ namespace nearlight {
 namespace {
 
 constexpr double kBiasThatCounts = 0.02;
+/// A reference whose noise is more than this part of an RMSE is a poor judge of it.
+constexpr double kNoiseThatCounts = 1.0 / 3.0;
 
 template <typename Value>
 std::vector<double> column(std::span<const Cell* const> cells, Value&& value) {
@@ -57,6 +61,28 @@ bool is_biased(const EqualVplsRow& row) {
 }
 
 }  // namespace
+
+std::string noise_remark(const Reference& reference, std::span<const EqualVplsRow> rows) {
+    if (!reference.noise.known) {
+        return "the noise of the reference is not known, and so is not subtracted from the errors";
+    }
+    const double noise = std::sqrt(reference.noise.mean_variance);
+    const EqualVplsRow& best =
+        *std::ranges::min_element(rows, {}, [](const EqualVplsRow& row) { return row.rmse.value; });
+    if (noise <= kNoiseThatCounts * best.rmse.value) {
+        return "";
+    }
+    std::string text = fmt::format(
+        "the noise of the reference ({:.3g}) is more than a third of the smallest RMSE ({:.3g}, {})", noise,
+        best.rmse.value, to_string(best.method));
+    const bool traced = reference.method == to_string(ReferenceKind::path_tracing);
+    if (best.rmse.value > 0.0) {
+        const double more = std::pow(noise / (kNoiseThatCounts * best.rmse.value), 2);
+        text += fmt::format("; about {:.2g} {} would do", more * static_cast<double>(reference.samples),
+                            traced ? "samples a pixel (--reference-spp)" : "VPLs (--reference-vpls)");
+    }
+    return text + (traced ? ", or --reference-vpls, whose noise is spread more evenly" : "");
+}
 
 std::size_t baseline_index(const CompareSettings& settings) {
     return static_cast<std::size_t>(std::ranges::find(settings.methods, settings.baseline) -

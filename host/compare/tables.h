@@ -38,6 +38,10 @@ std::vector<EqualVplsRow> equal_vpls_rows(const CompareSettings& settings, std::
 /// 2 %.
 std::vector<Curve> curves_of(const CompareSettings& settings, std::span<const EqualVplsRow> rows);
 
+/// What is to be said of a reference whose noise is not known, or more than a third of the smallest RMSE: it
+/// is a poor judge then, for what is subtracted is an estimate itself. Empty where it is good.
+std::string noise_remark(const Reference& reference, std::span<const EqualVplsRow> rows);
+
 /// Index of the baseline among the methods.
 std::size_t baseline_index(const CompareSettings& settings);
 

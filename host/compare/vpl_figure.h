@@ -27,8 +27,8 @@ struct VplDots {
 };
 
 /// `overview`: the scene, R, G, B; it is dimmed. `depths`: distance of the first surface for each of its
-/// pixels, 0 where there is none. Close VPLs are orange, others blue; those behind something are fainter and
-/// smaller.
+/// pixels, 0 where there is none. Those placed in the close range are orange, others blue; those behind
+/// something are fainter and smaller.
 VplDots draw_vpls(const Image& overview, std::span<const float> depths, const SceneCamera& camera,
                   std::span<const Vpl> vpls);
 
