@@ -25,10 +25,10 @@ struct Cell {
     std::size_t close_vpls = 0;  ///< gathered, as are the distant ones
     std::size_t distant_vpls = 0;
     std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
-    PictureError error;
+    PictureError error{};
     double generate_seconds = 0;  ///< view, pilots and VPLs
     double gather_seconds = 0;    ///< camera pass, gather, film
-    std::string image_hash;       ///< of the picture's bits
+    std::string image_hash{};     ///< of the picture's bits
 
     [[nodiscard]] std::size_t gathered_vpls() const { return close_vpls + distant_vpls; }
     [[nodiscard]] double seconds() const { return generate_seconds + gather_seconds; }

@@ -23,7 +23,7 @@ struct SceneFacts {
     float range = 0;         ///< of the close range, scene units
     float clamp_radius = 0;  ///< scene units
     uint max_depth = 0;      ///< as Mitsuba counts
-    SceneCamera camera;      ///< at the size of the comparison
+    SceneCamera camera{};    ///< at the size of the comparison
 };
 
 /// A picture of indirect light and what it took.

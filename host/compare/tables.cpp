@@ -78,7 +78,7 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
     const bool traced = reference.method == to_string(ReferenceKind::path_tracing);
     if (best.rmse.value > 0.0) {
         const double more = std::pow(noise / (kNoiseThatCounts * best.rmse.value), 2);
-        text += fmt::format("; about {:.2g} {} would do", more * static_cast<double>(reference.samples),
+        text += fmt::format("; about {:.0f} {} would do", more * static_cast<double>(reference.samples),
                             traced ? "samples a pixel (--reference-spp)" : "VPLs (--reference-vpls)");
     }
     return text + (traced ? ", or --reference-vpls, whose noise is spread more evenly" : "");
