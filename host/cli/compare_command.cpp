@@ -23,9 +23,9 @@ struct CompareOptions {
     SceneOptions scene;  ///< what holds for all of them
     DeviceChoice device;
     ImageSize size;
-    std::string samplers;  ///< empty: all
-    std::string vpls;
-    std::string baseline;
+    std::optional<std::string> samplers;  ///< empty: all
+    std::optional<std::string> vpls;
+    std::optional<std::string> baseline;
     std::vector<std::string> crops;
     CompareSettings settings;
 };
@@ -38,17 +38,17 @@ CompareSettings settled(const CompareOptions& options) {
         settings.width = options.size.width;
         settings.height = options.size.height;
     }
-    if (!options.samplers.empty()) {
-        settings.methods = parse_methods(options.samplers);
+    if (options.samplers) {
+        settings.methods = parse_methods(*options.samplers);
     }
-    if (!options.vpls.empty()) {
-        settings.vpl_counts = parse_vpl_counts(options.vpls);
+    if (options.vpls) {
+        settings.vpl_counts = parse_vpl_counts(*options.vpls);
     }
     for (const std::string& crop : options.crops) {
         settings.crops.push_back(parse_crop(crop));
     }
-    if (!options.baseline.empty()) {
-        settings.baseline = parse_method(options.baseline);
+    if (options.baseline) {
+        settings.baseline = parse_method(*options.baseline);
     } else if (std::ranges::find(settings.methods, settings.baseline) == settings.methods.end()) {
         settings.baseline = settings.methods.front();
     }

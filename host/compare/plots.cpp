@@ -94,6 +94,9 @@ std::string plot_script(const std::string& title, const std::string& stem, bool 
         "set xlabel \"{}\"\nset ylabel \"RMSE of indirect light\"\nset format y \"%g\"\n",
         title, over_seconds ? "seconds (generate + gather)" : "VPLs gathered");
     text += axis_ranges(over_seconds, rows);
+    if (!over_seconds) {
+        text += fmt::format("set xtics ({})\n", fmt::join(settings.vpl_counts, ", "));
+    }
     text += fmt::format("set terminal svg size 820,440 dynamic background \"white\" font \"sans,13\"\n");
     text += fmt::format("set output \"{}.svg\"\n{}\n", stem, curves);
     text += fmt::format(

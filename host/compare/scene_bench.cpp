@@ -61,17 +61,18 @@ SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& na
     facts_.hash = scene_hash(scene);
     facts_.triangles = scene.triangles.size();
     require_light(scene, name);
-    look(reference_file);
+    check(look());
+    facts_.clamp_radius = choose_clamp_radius(reference_file);
 }
 
-void SceneBench::look(const std::optional<std::filesystem::path>& reference_file) {
+SceneBench::FirstLook SceneBench::look() {
     RenderSettings settings =
         render_settings(settings_.baseline, settings_.vpl_counts.front(), settings_.first_seed);
     settings.indirect_only = false;
     settings.range = settings_.range;
     settings.clamp_radius = settings_.clamp_radius;
     settings.max_depth = settings_.max_depth;
-    bool sees_something = false;
+    FirstLook found;
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
     renderer_.render(
@@ -80,36 +81,43 @@ void SceneBench::look(const std::optional<std::filesystem::path>& reference_file
             facts_.range = report.range;
             facts_.max_depth = report.max_depth;
             facts_.camera = view.scene_camera;
-            sees_something = !view.pilot.distances.empty();
-            if (settings.sampler == SamplerKind::close_range && vpls.close_count == 0) {
-                say_warning(
-                    "scene '" + facts_.name + "': no VPL is close (range " + std::to_string(report.range) +
-                    "): light reaches nothing in view, or --range is too small; close-range sampling is " +
-                    "instant radiosity here");
-            }
+            found.surface = !view.pilot.distances.empty();
+            found.close_vpls = settings.sampler != SamplerKind::close_range || vpls.close_count > 0;
         },
         [&](std::span<const float> rows) {
             append_channels(rows, channel_index("R"), 3, overview_.values);
             append_channels(rows, channel_index("depth.Z"), 1, depths_);
         },
         go_on);
-    if (!sees_something) {
+    return found;
+}
+
+void SceneBench::check(const FirstLook& found) const {
+    const std::string scene = "scene '" + facts_.name + "' (" + facts_.source + ")";
+    if (!found.surface) {
         throw Error(ExitCode::file,
-                    "scene '" + facts_.name + "' (" + facts_.source +
-                        "): the camera sees no diffuse surface, so there is nothing to compare; " +
+                    scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
                         "turn it to the scene");
     }
-    const bool radius_is_free = !settings_.clamp_radius && !settings_.clamp_fraction;
-    facts_.clamp_radius = reference_file && radius_is_free
-                              ? clamp_radius_of(*reference_file)
-                              : settings_.clamp_radius.value_or(
-                                    settings_.clamp_fraction.value_or(kDefaultClampFraction) * facts_.range);
     if (facts_.max_depth < 3) {
         throw Error(ExitCode::file,
-                    "scene '" + facts_.name + "' (" + facts_.source + ") has a depth of " +
-                        std::to_string(facts_.max_depth) +
+                    scene + " has a depth of " + std::to_string(facts_.max_depth) +
                         ", which leaves no indirect light to compare; give --max-depth 3 or more");
     }
+    if (!found.close_vpls) {
+        say_warning(scene + ": nothing that light reaches is close (range " + std::to_string(facts_.range) +
+                    "), so close-range sampling is instant radiosity here");
+    }
+}
+
+float SceneBench::choose_clamp_radius(const std::optional<std::filesystem::path>& reference_file) const {
+    if (settings_.clamp_radius) {
+        return *settings_.clamp_radius;
+    }
+    if (reference_file && !settings_.clamp_fraction) {
+        return clamp_radius_of(*reference_file);
+    }
+    return settings_.clamp_fraction.value_or(kDefaultClampFraction) * facts_.range;
 }
 
 RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint seed) const {

@@ -59,7 +59,13 @@ class SceneBench {
     [[nodiscard]] ReferenceSpec reference_spec() const;
 
   private:
-    void look(const std::optional<std::filesystem::path>& reference_file);
+    struct FirstLook {
+        bool surface = false;     ///< the camera sees something diffuse
+        bool close_vpls = false;  ///< what is close is lit
+    };
+    FirstLook look();
+    void check(const FirstLook& found) const;
+    [[nodiscard]] float choose_clamp_radius(const std::optional<std::filesystem::path>& reference_file) const;
     [[nodiscard]] RenderSettings render_settings(const Method& method, uint vpls, uint seed) const;
     std::optional<Shot> render_indirect(const RenderSettings& settings, const Progress& progress);
     std::optional<Image> trace_pass(const ReferenceSpec& spec, std::size_t index, std::size_t samples,
