@@ -87,42 +87,52 @@ class SceneRun {
     /// All cells in order; nothing where it was stopped.
     std::optional<std::vector<Cell>> measure(const Reference& reference, const CellStore& store,
                                              Comparison& comparison) {
-        const std::vector<CellId> ids = cells_of(settings_);
-        std::vector<std::optional<Cell>> cells;
         std::vector<CellId> missing;
-        for (const CellId& id : ids) {
+        std::vector<Cell> cells;
+        for (const CellId& id : cells_of(settings_)) {
             const bool whole = id.seed != settings_.first_seed || store.has_picture(id);
-            cells.push_back(whole ? store.load(id) : std::nullopt);
-            if (!cells.back()) {
+            if (const std::optional<Cell> known = whole ? store.load(id) : std::nullopt) {
+                cells.push_back(*known);
+            } else {
                 missing.push_back(id);
             }
         }
-        comparison.reused_cells += ids.size() - missing.size();
+        comparison.reused_cells += cells.size();
         CostModel cost;
-        std::vector<Cell> result;
-        std::size_t done = 0;
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            if (!cells[i]) {
-                const auto left = cost.seconds(std::span(missing).subspan(done));
-                observer_.advance(static_cast<double>(done) / static_cast<double>(missing.size()), left);
-                if (observer_.stopped()) {
-                    return std::nullopt;
-                }
-                const Stopwatch watch;
-                cells[i] = measure_cell(ids[i], reference, store);
-                cost.add(ids[i], watch.seconds());
-                ++done;
-                ++comparison.measured_cells;
+        for (std::size_t i = 0; i < missing.size(); ++i) {
+            if (observer_.stopped()) {
+                return std::nullopt;
             }
-            result.push_back(*cells[i]);
+            const Stopwatch watch;
+            cells.push_back(measure_cell(missing[i], reference, store, progress_of(missing, i, cost)));
+            cost.add(missing[i], watch.seconds());
+            ++comparison.measured_cells;
         }
-        return result;
+        return cells;
     }
 
   private:
-    Cell measure_cell(const CellId& id, const Reference& reference, const CellStore& store) {
-        const std::optional<Shot> shot =
-            bench_.shoot(id.method, id.vpls, id.seed, [](double) { return true; });
+    /// Tells how far all is while cell `index` is measured; that goes on to its end whoever wants to stop.
+    SceneBench::Progress progress_of(std::span<const CellId> cells, std::size_t index,
+                                     const CostModel& cost) const {
+        double before = 0, total = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            before += i < index ? static_cast<double>(cells[i].vpls) : 0.0;
+            total += static_cast<double>(cells[i].vpls);
+        }
+        const double own = static_cast<double>(cells[index].vpls);
+        const std::optional<double> own_seconds = cost.seconds(cells.subspan(index, 1));
+        const std::optional<double> seconds = cost.seconds(cells.subspan(index));
+        return [=, this](double fraction) {
+            const auto left = seconds ? std::optional(*seconds - fraction * *own_seconds) : std::nullopt;
+            observer_.advance((before + fraction * own) / total, left);
+            return true;
+        };
+    }
+
+    Cell measure_cell(const CellId& id, const Reference& reference, const CellStore& store,
+                      const SceneBench::Progress& progress) {
+        const std::optional<Shot> shot = bench_.shoot(id.method, id.vpls, id.seed, progress);
         const RenderReport& report = shot->report;
         const Cell cell{.id = id,
                         .close_vpls = report.close_vpls,
