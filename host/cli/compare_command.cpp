@@ -207,7 +207,8 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
 
 void add_reference_options(CLI::App& command, CompareSettings& settings) {
     command
-        .add_option("--reference-spp", settings.reference_spp, "Samples a pixel of the path-traced reference")
+        .add_option("--reference-spp", settings.reference_spp,
+                    "Samples a pixel of the path-traced reference, rounded up to a multiple of 16")
         ->check(CLI::Range(8, 1 << 24))
         ->type_name("N")
         ->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "host/base/error.h"
@@ -20,6 +21,8 @@ namespace {
 
 /// Samples a pixel of a pass of path tracing; a whole number of the path tracer's batches.
 constexpr std::size_t kPassSamples = 256;
+/// Passes of path tracing are rounded up to whole batches, and enough of them to tell the noise.
+constexpr std::size_t kSampleUnit = 16;
 /// Passes of a reference of VPLs, from whose differences its noise is learnt.
 constexpr std::size_t kVplPasses = 8;
 
@@ -120,11 +123,11 @@ std::uint64_t identity(const Reference& reference) {
 }
 
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples) {
-    const std::size_t size =
-        spec.kind == ReferenceKind::path_tracing ? kPassSamples : (samples + kVplPasses - 1) / kVplPasses;
+    const bool traced = spec.kind == ReferenceKind::path_tracing;
+    const std::size_t size = traced ? kPassSamples : (samples + kVplPasses - 1) / kVplPasses;
     std::vector<std::size_t> sizes(samples / size, size);
-    if (samples % size > 0) {
-        sizes.push_back(samples % size);
+    if (const std::size_t rest = samples % size; rest > 0) {
+        sizes.push_back(traced ? (rest + kSampleUnit - 1) / kSampleUnit * kSampleUnit : rest);
     }
     return sizes;
 }
@@ -147,8 +150,9 @@ std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t s
         }
         sums.add(*pass, static_cast<double>(sizes[index]));
     }
-    Reference reference{
-        .picture = make_picture(spec.width, spec.height), .method = to_string(spec.kind), .samples = samples};
+    Reference reference{.picture = make_picture(spec.width, spec.height),
+                        .method = to_string(spec.kind),
+                        .samples = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0})};
     std::vector<double> variances(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         reference.picture.values[i] = static_cast<float>(sums.mean(i));

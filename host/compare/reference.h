@@ -46,7 +46,8 @@ using PassMaker = std::function<std::optional<Image>(std::size_t index, std::siz
 std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t samples,
                                         const ReferenceStore& store, const PassMaker& make_pass);
 
-/// Samples of each pass of a reference: the kind's pass size, and what is left.
+/// Samples of each pass of a reference: the kind's pass size, and what is left; rounded up to a multiple of
+/// 16 where paths are traced.
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples);
 
 /// A picture made by `nearlight reference`. Throws Error(ExitCode::file) where it is none, or not of this

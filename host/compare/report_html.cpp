@@ -42,6 +42,26 @@ void write_pair(HtmlWriter& html, const std::string& term, const std::string& me
     html.element("dt", term).element("dd", meaning);
 }
 
+std::string reference_text(const Reference& reference) {
+    const std::string unit =
+        reference.method == to_string(ReferenceKind::path_tracing) ? "samples a pixel" : "VPLs";
+    const std::string noise =
+        reference.noise.known
+            ? fmt::format("its own noise is {:.3g} (RMS)", std::sqrt(reference.noise.mean_variance))
+            : std::string("its own noise is not known and not subtracted");
+    return fmt::format("{}, {} {}{}; {}", reference.method, reference.samples, unit,
+                       reference.file.empty() ? "" : " (" + reference.file + ")", noise);
+}
+
+std::string scene_text(const SceneComparison& scene) {
+    const SceneFacts& facts = scene.facts;
+    return fmt::format(
+        "{}, {} triangles; clamp radius {:.4g} scene units, depth {}, close range up to {:.4g} scene units; "
+        "reference: {}",
+        facts.source, facts.triangles, facts.clamp_radius, facts.max_depth, facts.range,
+        reference_text(scene.reference));
+}
+
 void write_conditions(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings) {
     html.open("dl");
     write_pair(html, "Device", comparison.device + ", driver " + comparison.driver);
@@ -55,6 +75,9 @@ void write_conditions(HtmlWriter& html, const Comparison& comparison, const Comp
         fmt::format("{}, from {} on; the same for all methods", settings.seed_count, settings.first_seed));
     write_pair(html, "Baseline",
                to_string(settings.baseline) + ": ratios are a method's number ÷ this one's");
+    for (const SceneComparison& scene : comparison.scenes) {
+        write_pair(html, "Scene " + scene.facts.name, scene_text(scene));
+    }
     write_pair(html, "Program", "nearlight " + settings.program_version);
     html.close();
 }
@@ -101,29 +124,11 @@ void write_meanings(HtmlWriter& html) {
     html.close();
 }
 
-std::string reference_text(const Reference& reference) {
-    const std::string unit =
-        reference.method == to_string(ReferenceKind::path_tracing) ? "samples a pixel" : "VPLs";
-    const std::string noise =
-        reference.noise.known
-            ? fmt::format("its own noise is {:.3g} (RMS)", std::sqrt(reference.noise.mean_variance))
-            : std::string("its own noise is not known and not subtracted");
-    return fmt::format("{}, {} {}{}; {}", reference.method, reference.samples, unit,
-                       reference.file.empty() ? "" : " (" + reference.file + ")", noise);
-}
-
 void write_scene_facts(HtmlWriter& html, const SceneComparison& scene) {
-    const SceneFacts& facts = scene.facts;
     html.open("figure")
-        .image(scene.figures.overview.small, "image/png", facts.name, {{"class", "picture"}})
+        .image(scene.figures.overview.small, "image/png", scene.facts.name, {{"class", "picture"}})
         .close();
-    html.open("dl");
-    write_pair(html, "Scene", fmt::format("{}, {} triangles", facts.source, facts.triangles));
-    write_pair(html, "Light paths",
-               fmt::format("clamp radius {:.4g} scene units, depth {}; close range up to {:.4g} scene units",
-                           facts.clamp_radius, facts.max_depth, facts.range));
-    write_pair(html, "Reference", reference_text(scene.reference));
-    html.close();
+    html.element("p", scene_text(scene) + ".");
     if (const std::string remark = noise_remark(scene.reference, scene.equal_vpls); !remark.empty()) {
         html.element("p", "Beware: " + remark + ".", {{"class", "remark"}});
     }
@@ -159,6 +164,9 @@ std::string comparison_html(const Comparison& comparison, const CompareSettings&
     HtmlWriter html("nearlight: comparison of VPL samplers", kStyle);
     html.element("h1", "Comparison of VPL samplers");
     write_conditions(html, comparison, settings);
+    html.element("h2", "In short");
+    html.element("p", "Geometric means over all counts; below 1 is better than the baseline.");
+    write_summary_table(html, comparison, settings);
     for (const SceneComparison& scene : comparison.scenes) {
         write_scene(html, scene, settings);
     }

@@ -71,7 +71,59 @@ void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row
     html.close();
 }
 
+/// Geometric mean of the ratios of one method; how many there are not, if any.
+class RatioMean {
+  public:
+    void add(double ratio) {
+        if (std::isfinite(ratio) && ratio > 0.0) {
+            logarithms_ += std::log(ratio);
+            ++count_;
+        } else {
+            ++missing_;
+        }
+    }
+    [[nodiscard]] std::string text() const {
+        const std::string mean = count_ > 0 ? ratio_text(std::exp(logarithms_ / count_)) : "";
+        const std::string never =
+            missing_ > 0 ? fmt::format("never in {} of {}", missing_, missing_ + count_) : "";
+        return count_ + missing_ == 0 ? "–" : mean + (mean.empty() || never.empty() ? "" : ", ") + never;
+    }
+
+  private:
+    double logarithms_ = 0;
+    int count_ = 0;
+    int missing_ = 0;
+};
+
+void write_summary_row(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings,
+                       std::size_t index) {
+    RatioMean rmse, vpls, time;
+    for (std::size_t i = index; i < scene.equal_vpls.size(); i += settings.methods.size()) {
+        rmse.add(scene.equal_vpls[i].rmse_ratio);
+    }
+    for (const EqualRmse& group : scene.equal_rmse) {
+        vpls.add(group.rows[index].vpls_ratio);
+        time.add(group.rows[index].time_ratio);
+    }
+    html.open("tr", index == 0 ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
+    html.element("td", index == 0 ? scene.facts.name : "", kName);
+    write_method(html, settings.methods[index]);
+    html.element("td", rmse.text()).element("td", vpls.text()).element("td", time.text()).close();
+}
+
 }  // namespace
+
+void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings) {
+    html.open("div", {{"class", "scroll"}}).open("table");
+    write_header(html, {"scene", "sampler", "policy", "RMSE ÷ baseline, equal VPLs",
+                        "VPLs ÷ baseline, equal RMSE", "time ÷ baseline, equal RMSE"});
+    for (const SceneComparison& scene : comparison.scenes) {
+        for (std::size_t i = 0; i < settings.methods.size(); ++i) {
+            write_summary_row(html, scene, settings, i);
+        }
+    }
+    html.close().close().close();
+}
 
 void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
     html.open("div", {{"class", "scroll"}}).open("table");

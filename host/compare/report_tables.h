@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both tables of a scene as HTML.
+// Tables as HTML: a summary, and both tables of a scene.
 #pragma once
 
 #include "host/compare/comparison.h"
@@ -7,6 +7,8 @@
 
 namespace nearlight {
 
+/// One row for each scene and method: geometric means over all counts.
+void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings);
 void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 

@@ -66,6 +66,14 @@ TEST(Reference, IsMadeOfPassesWeightedBySamples) {
     EXPECT_EQ(reference->samples, 320u);
 }
 
+TEST(Reference, PassesAreWholeBatches) {
+    using Sizes = std::vector<std::size_t>;
+    EXPECT_EQ(pass_sizes(small_spec(), 8), (Sizes{16}));
+    EXPECT_EQ(pass_sizes(small_spec(), 512), (Sizes{256, 256}));
+    EXPECT_EQ(pass_sizes(small_spec(), 257), (Sizes{256, 16}));
+    EXPECT_EQ(pass_sizes(small_spec(ReferenceKind::instant_radiosity), 800), Sizes(8, 100));
+}
+
 TEST(Reference, GoesOnFromWhatIsStored) {
     const TemporaryFolder folder;
     const ReferenceStore store(folder / "references");

@@ -221,6 +221,8 @@ TEST_F(Report, HtmlSaysWhatIsMissingAndWhatNeverHappens) {
     const std::string page = html();
     EXPECT_NE(page.find("missing.gp"), std::string::npos);
     EXPECT_NE(page.find(">never</td>"), std::string::npos);
+    EXPECT_NE(page.find(">never in 1 of 1</td>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"name\">–</td><td>2.00</td>"), std::string::npos);  // RMSE ÷ baseline
     EXPECT_EQ(page.find(">nan<"), std::string::npos);
     EXPECT_EQ(page.find("Beware"), std::string::npos);
     comparison_.scenes[0].reference.noise.known = false;
