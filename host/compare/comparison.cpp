@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -196,22 +198,24 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     const auto reference_files = assign_reference_files(scenes, settings);
     make_folder(settings.output);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        observer.begin(names[i] + ": getting ready");
+        const std::string label =
+            names[i] + (scenes.size() > 1 ? fmt::format(" ({} of {})", i + 1, scenes.size()) : "");
+        observer.begin(label + ": getting ready");
         SceneBench bench(device, scenes[i], names[i], settings, reference_files[i]);
         SceneRun run(device, bench, settings, observer);
-        observer.begin(names[i] + ": reference");
+        observer.begin(label + ": reference");
         std::optional<Reference> reference = run.find_reference(reference_files[i]);
         if (!reference) {
             return std::nullopt;
         }
         require_indirect_light(bench.facts(), *reference);
         const CellStore store = run.cell_store(*reference);
-        observer.begin(names[i] + ": measuring");
+        observer.begin(label + ": measuring");
         const std::optional<std::vector<Cell>> cells = run.measure(*reference, store, comparison);
         if (!cells) {
             return std::nullopt;
         }
-        observer.begin(names[i] + ": figures");
+        observer.begin(label + ": figures");
         SceneComparison scene{.facts = bench.facts(), .reference = std::move(*reference)};
         scene.equal_vpls = equal_vpls_rows(settings, *cells);
         scene.equal_rmse = equal_rmse(curves_of(settings, scene.equal_vpls), baseline_index(settings));

@@ -77,6 +77,7 @@ Json to_json(const SceneComparison& scene, const CompareSettings& settings) {
             {"range", scene.facts.range},
             {"clamp_radius", scene.facts.clamp_radius},
             {"max_depth", scene.facts.max_depth},
+            {"setup_s", {{"build_bvh", scene.facts.setup.build_bvh}, {"compile", scene.facts.setup.compile}}},
             {"reference", to_json(scene.reference)},
             {"equal_vpls", equal_vpls},
             {"equal_rmse", groups}};

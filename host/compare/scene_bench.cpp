@@ -75,11 +75,9 @@ SceneBench::FirstLook SceneBench::look() {
     FirstLook found;
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
-    renderer_.render(
+    const RenderReport report = renderer_.render(
         settings,
-        [&](const RenderReport& report, const View& view, const VplSet& vpls) {
-            facts_.range = report.range;
-            facts_.max_depth = report.max_depth;
+        [&](const RenderReport&, const View& view, const VplSet& vpls) {
             facts_.camera = view.scene_camera;
             found.surface = !view.pilot.distances.empty();
             found.close_vpls = settings.sampler != SamplerKind::close_range || vpls.close_count > 0;
@@ -89,6 +87,9 @@ SceneBench::FirstLook SceneBench::look() {
             append_channels(rows, channel_index("depth.Z"), 1, depths_);
         },
         go_on);
+    facts_.range = report.range;
+    facts_.max_depth = report.max_depth;
+    facts_.setup = {report.seconds.build_bvh, report.seconds.compile};
     return found;
 }
 

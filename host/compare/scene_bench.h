@@ -14,6 +14,12 @@
 
 namespace nearlight {
 
+/// What was done once for the scene, in this run.
+struct SetupSeconds {
+    double build_bvh = 0;
+    double compile = 0;  ///< kernels; what the driver or the cache had ready takes no time
+};
+
 /// What is the same for all methods.
 struct SceneFacts {
     std::string name;    ///< unique in the comparison, fit for names of files
@@ -24,6 +30,7 @@ struct SceneFacts {
     float clamp_radius = 0;  ///< scene units
     uint max_depth = 0;      ///< as Mitsuba counts
     SceneCamera camera{};    ///< at the size of the comparison
+    SetupSeconds setup{};
 };
 
 /// A picture of indirect light and what it took.
