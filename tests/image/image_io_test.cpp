@@ -119,22 +119,6 @@ TEST(ImageIo, ExrKeepsMetadata) {
     EXPECT_TRUE(std::equal(matrix.begin(), matrix.end(), static_cast<const float*>(stored->data())));
 }
 
-TEST(ImageIo, MetadataIsReadAsItWasWritten) {
-    const TemporaryFolder folder;
-    const fs::path file = folder / "a.exr";
-    const Metadata written{{"nearlight:vpls", 1000},
-                           {"nearlight:clampRadius", 0.1f},
-                           {"nearlight:sceneHash", std::string("0123456789abcdef")},
-                           {"worldToCamera", std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}}};
-    write_image(file, noise(3, 2, {"R", "G", "B"}), {.metadata = written});
-    const Metadata read = read_metadata(file);
-    for (const auto& [name, value] : written) {
-        ASSERT_TRUE(read.contains(name)) << name;
-        EXPECT_EQ(read.at(name), value) << name;
-    }
-    EXPECT_THROW(read_metadata(folder / "nowhere.exr"), Error);
-}
-
 TEST(ImageIo, PngIsExposedAndSrgbEncoded) {
     const TemporaryFolder folder;
     Image image = make_image(3, 1, {"depth.Z", "B", "G", "R"});
