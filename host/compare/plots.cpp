@@ -51,21 +51,44 @@ std::string data_line(const EqualVplsRow& row) {
                        row.generate_seconds + row.gather_seconds, rmse.value, low, high);
 }
 
-/// Left to itself, gnuplot widens logarithmic axes to whole decades.
-std::string axis_ranges(bool over_seconds, std::span<const EqualVplsRow> rows) {
-    double x_low = 1e300, x_high = 0, y_low = 1e300, y_high = 0;
-    for (const EqualVplsRow& row : rows) {
-        if (row.rmse.value > 0.0) {
-            const double x = over_seconds ? row.generate_seconds + row.gather_seconds : row.gathered_vpls;
-            x_low = std::min(x_low, x);
-            x_high = std::max(x_high, x);
-            y_low = std::min(y_low, row.rmse.value);
-            y_high = std::max(y_high, row.rmse.value);
+/// Readable on white, also for most who see few colours [Okabe and Ito, Color Universal Design, 2008].
+constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
+                             "#e69f00", "#333333", "#7b3294", "#8c510a"};
+
+/// 1, 2 and 5 times each power of ten between both, for an axis that may not hold a whole decade.
+std::string tics_between(double low, double high) {
+    std::string tics;
+    for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+        for (const double factor : {1.0, 2.0, 5.0}) {
+            const double value = factor * decade;
+            if (value >= low && value <= high) {
+                tics += fmt::format("{}{:.6g}", tics.empty() ? "" : ", ", value);
+            }
         }
     }
-    return x_high > 0.0 ? fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n", x_low / 1.3,
-                                      x_high * 1.3, y_low / 2.0, y_high * 2.0)
-                        : "";
+    return "(" + tics + ")";
+}
+
+/// Left to itself, gnuplot widens logarithmic axes to whole decades, and labels nothing else.
+std::string axes(bool over_seconds, const CompareSettings& settings, std::span<const EqualVplsRow> rows) {
+    constexpr double kFar = 1e300;
+    double x_low = kFar, x_high = 0, y_low = kFar, y_high = 0;
+    for (const EqualVplsRow& row : rows) {
+        const double x = over_seconds ? row.generate_seconds + row.gather_seconds : row.gathered_vpls;
+        if (row.rmse.value > 0.0 && x > 0.0) {
+            x_low = std::min(x_low, x / 1.3);
+            x_high = std::max(x_high, x * 1.3);
+            y_low = std::min(y_low, row.rmse.value / 2.0);
+            y_high = std::max(y_high, row.rmse.value * 2.0);
+        }
+    }
+    if (x_high == 0.0) {
+        return "";
+    }
+    const std::string x_tics = over_seconds ? tics_between(x_low, x_high)
+                                            : fmt::format("({})", fmt::join(settings.vpl_counts, ", "));
+    return fmt::format("set xrange [{:.4g}:{:.4g}]\nset xtics {}\nset yrange [{:.4g}:{:.4g}]\nset ytics {}\n",
+                       x_low, x_high, x_tics, y_low, y_high, tics_between(y_low, y_high));
 }
 
 }  // namespace
@@ -85,18 +108,17 @@ std::string plot_script(const std::string& title, const std::string& stem, bool 
         }
         text += "EOD\n";
         curves += fmt::format(
-            "{}$method{} using {}:3:4:5 with yerrorlines linewidth 2 pointtype {} title \"{}\"",
-            i > 0 ? ", \\\n     " : "plot ", i, over_seconds ? 2 : 1, i % 12 + 4, to_string(method));
+            "{}$method{} using {}:3:4:5 with yerrorlines linewidth 2 linecolor rgb \"{}\" pointtype {} title "
+            "\"{}\"",
+            i > 0 ? ", \\\n     " : "plot ", i, over_seconds ? 2 : 1, kColors[i % kColors.size()], i % 12 + 4,
+            to_string(method));
     }
     text += fmt::format(
         "set title \"{}\" noenhanced\nset logscale xy\nset grid\nset key outside right top vertical "
         "noenhanced\n"
         "set xlabel \"{}\"\nset ylabel \"RMSE of indirect light\"\nset format y \"%g\"\n",
         title, over_seconds ? "seconds (generate + gather)" : "VPLs gathered");
-    text += axis_ranges(over_seconds, rows);
-    if (!over_seconds) {
-        text += fmt::format("set xtics ({})\n", fmt::join(settings.vpl_counts, ", "));
-    }
+    text += axes(over_seconds, settings, rows);
     text += fmt::format("set terminal svg size 820,440 dynamic background \"white\" font \"sans,13\"\n");
     text += fmt::format("set output \"{}.svg\"\n{}\n", stem, curves);
     text += fmt::format(
