@@ -123,7 +123,7 @@ std::vector<Vpl> thin(const std::vector<Vpl>& states, uint wanted, double shift)
     const std::vector<float> weights(states.size(), 1.0f);
     const Choice choice = resample(weights, wanted, shift);
     std::vector<Vpl> thinned;
-    for (const Vpl& vpl : nearlight::apply(choice, states)) {
+    for (const Vpl& vpl : take(choice, states)) {
         if (!thinned.empty() && thinned.back().depth == vpl.depth &&
             is_zero(thinned.back().position - vpl.position)) {
             thinned.back().power += vpl.power;

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <numeric>
 
-#include "tests/render/energy.h"
 #include "tests/samplers/divided_room.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/spread.h"
 
 namespace nearlight {
 namespace {
