@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/cli/bench_command.h"
 #include "host/cli/command.h"
+#include "host/cli/compare_command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
 #include "host/cli/info_command.h"
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
         nearlight::add_render_command(line);
         nearlight::add_reference_command(line);
         nearlight::add_diff_command(line);
+        nearlight::add_compare_command(line);
         nearlight::add_bench_command(line);
         nearlight::add_selftest_command(line);
         nearlight::add_devices_command(line);

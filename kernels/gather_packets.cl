@@ -321,9 +321,10 @@ inline void record_occluded(const Segments* s, global uchar* record) {
 }
 #endif
 
-inline void add_visible(Accumulator* sum, const Segments* s, float3 scale) {
+inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
     for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const float16 weight = s->t_max[group] > 0.0f ? s->weight[group] : (float16)0.0f;
+        const float16 term = s->t_max[group] > 0.0f ? s->weight[group] : (float16)0.0f;
+        const float16 weight = squared ? term * term : term;
         sum->r[group] += scale.x * weight;
         sum->g[group] += scale.y * weight;
         sum->b[group] += scale.z * weight;
@@ -378,7 +379,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
 #ifdef GATHER_RECORD
             record_occluded(&segments, pairs);
 #endif
-            add_visible(&sum, &segments, gather_scale(vpls + i));
+            add_visible(&sum, &segments, gather_scale(vpls + i), gather_squared(vpls + i));
         }
         add_to_irradiance(irradiance + packet, first_lane, &sum, chunk == 0);
     }

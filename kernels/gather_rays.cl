@@ -46,7 +46,7 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const bool open = term > 0.0f;
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
-            sum += visible ? gather_scale(vpl) * term : (float3)0.0f;
+            sum += visible ? gather_scale(vpl) * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
 #ifdef GATHER_RECORD
             record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0
                                                                              : visible

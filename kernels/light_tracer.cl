@@ -9,13 +9,12 @@
 // by how many arrive. With a uniform random shift that is unbiased for every depth.
 
 #include "lib/close_range.cl"
-#include "lib/emitter.cl"
-#include "lib/material.cl"
+#include "lib/light_walk.cl"
 
 // Which deposits a policy keeps of those in the close range (docs/method.md).
-#define KEEP_ALL 0u
+#define KEEP_ALL 0u              // complete, and samplers without a close range
 #define KEEP_INDIRECT_INSIDE 1u  // partition: inside the close range, depth 2 and more
-#define KEEP_OUTSIDE 2u          // paper and complete: nothing inside the close range
+#define KEEP_OUTSIDE 2u          // paper: nothing inside the close range
 
 /// Whether the close-range part answers for direct light at this point: its triangle was selected and, where the
 /// policy decides point by point, the point itself lies in the region.
@@ -37,40 +36,22 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         flags[index * bounce_count + bounce] = 0;
     }
     const uint walk = first_walk + index;
-    const EmittedParticle particle =
+    EmittedParticle particle =
         emit_particle(&scene, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed), sample_2d(walk, 2, seed));
-    float3 origin = particle.origin;
-    float3 direction = particle.direction;
-    float3 flux = particle.flux;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         const float launched = walks_at_depth[bounce];
-        if (!((float)walk + absorption_shift < launched) || is_black(flux)) {
+        SurfaceHit hit;
+        if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) || !land(&scene, &particle, &hit)) {
             return;
         }
-        const SurfaceHit hit = trace_opaque(&scene, origin, direction, INFINITY);
-        if (hit.t < 0.0f) {
-            return;
-        }
-        const global Material* material = scene.materials + hit.material;
-        if (!reflects(material, hit.front)) {
-            return;
-        }
-        flux *= light_albedo(&scene, material, hit.uv);
-        const bool is_close = keep != KEEP_ALL && is_close_surface(close_range, close_triangles, whole_triangles,
-                                                                   hit.triangle, hit.position);
+        const bool is_close =
+            is_close_surface(close_range, close_triangles, whole_triangles, hit.triangle, hit.position);
         const bool kept = keep == KEEP_ALL || !is_close || (keep == KEEP_INDIRECT_INSIDE && bounce > 0);
-        origin = offset_point(&scene, hit.position, hit.geometric);
-        if (kept && !is_black(flux)) {
-            Vpl vpl;
-            vpl.position = store3(origin);
-            vpl.depth = bounce + 1;
-            vpl.normal = store3(hit.geometric);
-            vpl.flags = is_close ? NEARLIGHT_VPL_CLOSE : 0;
-            vpl.power = store3(flux / launched);
-            vpl.pad0 = 0.0f;
-            vpls[index * bounce_count + bounce] = vpl;
+        if (kept && !is_black(particle.flux)) {
+            vpls[index * bounce_count + bounce] = make_deposit(
+                &particle, &hit, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, particle.flux / launched);
             flags[index * bounce_count + bounce] = 1;
         }
-        direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(walk, 3 + bounce, seed)), hit.geometric);
+        scatter(&particle, &hit, sample_2d(walk, 3 + bounce, seed));
     }
 }

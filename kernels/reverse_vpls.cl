@@ -39,7 +39,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, ui
     }
     Vpl vpl;
     vpl.position = store3(y);
-    vpl.depth = 1;
+    vpl.depth = 0;  // whichever light comes
     vpl.normal = store3(hit.geometric);
     vpl.flags = 0;
     vpl.power = store3(albedo);

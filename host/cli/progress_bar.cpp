@@ -28,14 +28,17 @@ std::string minutes_and_seconds(double seconds) {
 
 }  // namespace
 
-std::string progress_line(std::string_view label, double fraction, double elapsed_seconds) {
+std::string progress_line(std::string_view label, double fraction, double elapsed_seconds,
+                          std::optional<double> seconds_left) {
     const double done = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
     std::string bar(kBarWidth, '.');
     std::fill_n(bar.begin(), static_cast<int>(done * kBarWidth), '#');
     std::string percent = std::to_string(static_cast<int>(done * 100.0));
     percent.insert(0, 3 - percent.size(), ' ');
     std::string line = std::string(label) + " " + percent + " %  [" + bar + "]";
-    if (done > 0.0 && elapsed_seconds >= kFirstEstimateSeconds) {
+    if (seconds_left) {
+        line += "  " + minutes_and_seconds(*seconds_left) + " left";
+    } else if (done > 0.0 && elapsed_seconds >= kFirstEstimateSeconds) {
         line += "  " + minutes_and_seconds(elapsed_seconds * (1.0 - done) / done) + " left";
     }
     return line;
@@ -56,14 +59,14 @@ void ProgressBar::start(std::string label) {
     last_tenth_ = 0;
 }
 
-void ProgressBar::update(double fraction) {
+void ProgressBar::update(double fraction, std::optional<double> seconds_left) {
     if (style_ == Style::line) {
         const auto now = Clock::now();
         if (now - last_update_ >= kUpdateInterval) {
             last_update_ = now;
             visible_ = true;
             const double elapsed = std::chrono::duration<double>(now - start_).count();
-            std::fprintf(stderr, "\r%s\033[K", progress_line(label_, fraction, elapsed).c_str());
+            std::fprintf(stderr, "\r%s\033[K", progress_line(label_, fraction, elapsed, seconds_left).c_str());
             std::fflush(stderr);
         }
     } else if (style_ == Style::messages && static_cast<int>(fraction * 10.0) > last_tenth_) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/reference_command.h"
 
-#include <chrono>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -9,10 +10,12 @@
 #include <vector>
 
 #include "host/base/log.h"
+#include "host/base/stopwatch.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/output.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/stored_reference.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 
@@ -30,6 +33,7 @@ struct ReferenceOptions {
     float clamp_radius = 0.0f;
     bool indirect_only = false;
     bool pixel_centers = false;
+    bool resume = false;
     std::uint64_t seed = 0;
     int threads = 0;
 };
@@ -37,21 +41,19 @@ struct ReferenceOptions {
 /// What came out of it.
 struct Outcome {
     Image image;
+    int samples_before = 0;      ///< per pixel
+    double earlier_seconds = 0;  ///< of rendering those
     double load_seconds = 0;
     double render_seconds = 0;
     bool stopped = false;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 PathTracerSettings make_settings(const ReferenceOptions& options, const Scene& scene) {
     PathTracerSettings settings;
     settings.width = options.size.width;
     settings.height = options.size.height;
     const int scene_spp = scene.samples_per_pixel > 0 ? scene.samples_per_pixel : kDefaultSpp;
-    settings.spp = rounded_spp(options.spp.value_or(scene_spp));
+    settings.spp = options.spp.value_or(scene_spp);
     settings.max_depth = options.max_depth.value_or(scene.max_depth);
     settings.clamp_radius = options.clamp_radius;
     settings.indirect_only = options.indirect_only;
@@ -61,18 +63,20 @@ PathTracerSettings make_settings(const ReferenceOptions& options, const Scene& s
     return settings;
 }
 
-Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, const Outcome& outcome) {
-    return {{"nearlight:sampler", std::string("reference")},
-            {"nearlight:samplesPerPixel", settings.spp},
-            {"nearlight:clampRadius", settings.clamp_radius},
-            {"nearlight:indirectOnly", settings.indirect_only ? 1 : 0},
-            {"nearlight:pixelCenters", settings.pixel_centers ? 1 : 0},
-            {"nearlight:maxDepth", settings.max_depth},
-            {"nearlight:seed", std::to_string(settings.seed)},
-            {"nearlight:version", std::string(NEARLIGHT_VERSION)},
-            {"nearlight:sceneHash", fmt::format("{:016x}", scene_hash(scene))},
-            {"nearlight:complete", outcome.stopped ? 0 : 1},
-            {"renderTimeSeconds", static_cast<float>(outcome.render_seconds)}};
+Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, double seconds,
+                       bool complete) {
+    Metadata metadata = reference_identity(settings, scene);
+    metadata["nearlight:samplesPerPixel"] = settings.spp;
+    metadata["nearlight:samplesPerBatch"] = settings.batch_size;
+    metadata["nearlight:complete"] = complete ? 1 : 0;
+    metadata["renderTimeSeconds"] = static_cast<float>(seconds);
+    return metadata;
+}
+
+void write_outputs(const ReferenceOptions& options, const Image& image, const Metadata& metadata) {
+    for (const std::filesystem::path& output : options.outputs) {
+        write_image(output, image, {.metadata = metadata});
+    }
 }
 
 /// Root of the mean variance of the picture's pixels; a statement about noise, not about pixels.
@@ -97,6 +101,7 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
             {"width", outcome.image.width},
             {"height", outcome.image.height},
             {"samples_per_pixel", settings.spp},
+            {"samples_before", outcome.samples_before},
             {"max_depth", settings.max_depth},
             {"clamp_radius", settings.clamp_radius},
             {"indirect_only", settings.indirect_only},
@@ -114,32 +119,72 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
 /// Hours of rendering must not end at a path that cannot be written.
 void check_outputs(const std::vector<std::filesystem::path>& outputs) {
     for (const std::filesystem::path& output : outputs) {
-        const ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
+        ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
+        not_committed.write_rows(std::array{0.0f, 0.0f, 0.0f});  // or libpng complains
     }
+}
+
+/// The first output that keeps all layers.
+const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
+    const auto found = std::ranges::find(options.outputs, ".exr", &std::filesystem::path::extension);
+    if (found == options.outputs.end()) {
+        throw Error(ExitCode::usage, "--resume needs an output that ends in .exr");
+    }
+    return *found;
+}
+
+/// Goes on from the stored reference, if there is one: its batches and, at least, its samples.
+std::optional<StoredReference> resume(const ReferenceOptions& options, const Scene& scene,
+                                      PathTracerSettings& settings, Outcome& outcome) {
+    std::optional<StoredReference> stored =
+        read_stored_reference(output_to_resume(options), completed(settings, scene.camera), scene);
+    if (stored) {
+        settings.batch_size = stored->batch_size;
+        settings.spp = std::max(settings.spp, stored->samples);
+        outcome.samples_before = stored->samples;
+        outcome.earlier_seconds = stored->render_seconds;
+        spdlog::info("going on from {} samples per pixel", stored->samples);
+    }
+    return stored;
+}
+
+/// Fills in the outcome; every few minutes the picture so far goes into the outputs.
+void trace(const ReferenceOptions& options, const GlobalOptions& global, const Scene& scene,
+           const PathTracerSettings& settings, const StoredReference* stored, Outcome& outcome) {
+    const Stopwatch watch;
+    const auto save = [&](const Image& image) {
+        write_outputs(options, image,
+                      make_metadata(settings, scene, outcome.earlier_seconds + watch.seconds(), false));
+    };
+    catch_interrupts();
+    ProgressBar bar("path tracing", global);
+    const auto progress = [&bar](double fraction) {
+        bar.update(fraction);
+        return !interrupted();
+    };
+    outcome.image = trace_paths(scene, settings, progress,
+                                {.earlier = stored != nullptr ? &stored->image : nullptr, .save = save});
+    outcome.stopped = interrupted();
+    outcome.render_seconds = watch.seconds();
 }
 
 ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& global) {
     check_outputs(options.outputs);
     Outcome outcome;
-    const auto load_start = std::chrono::steady_clock::now();
+    const Stopwatch load_watch;
     const Scene scene = load_scene(options.scene);
-    outcome.load_seconds = seconds_since(load_start);
+    outcome.load_seconds = load_watch.seconds();
 
-    const PathTracerSettings settings = make_settings(options, scene);
-    const auto render_start = std::chrono::steady_clock::now();
-    catch_interrupts();
-    {
-        ProgressBar bar("path tracing", global);
-        outcome.image = trace_paths(scene, settings, [&bar](double fraction) {
-            bar.update(fraction);
-            return !interrupted();
-        });
-    }
-    outcome.stopped = interrupted();
-    outcome.render_seconds = seconds_since(render_start);
+    PathTracerSettings settings = make_settings(options, scene);
+    const std::optional<StoredReference> stored =
+        options.resume ? resume(options, scene, settings, outcome) : std::nullopt;
+    settings = completed(settings, scene.camera);
+    trace(options, global, scene, settings, stored ? &*stored : nullptr, outcome);
 
+    write_outputs(
+        options, outcome.image,
+        make_metadata(settings, scene, outcome.earlier_seconds + outcome.render_seconds, !outcome.stopped));
     for (const std::filesystem::path& output : options.outputs) {
-        write_image(output, outcome.image, {.metadata = make_metadata(settings, scene, outcome)});
         spdlog::info("wrote {}{}", output.string(), outcome.stopped ? " with the samples so far" : "");
     }
     if (global.json) {
@@ -177,6 +222,10 @@ void add_reference_command(CommandLine& line) {
                     "Longest path, 2: direct light only; 0: no limit; default: the scene's")
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
+    command.add_flag(
+        "--resume", options->resume,
+        "Go on from the EXR output, if it is there, until it has --spp samples; only if it is of the "
+        "same scene, size and options");
     command.add_option("--seed", options->seed, "Another seed, other noise");
     command.add_option("--threads", options->threads, "CPU threads; 0: one a core")
         ->check(CLI::NonNegativeNumber);

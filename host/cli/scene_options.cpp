@@ -8,6 +8,10 @@ namespace nearlight {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.file, "Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
         ->required();
+    add_shared_scene_options(command, options);
+}
+
+void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("-D,--define", options.definitions,
                     "Value for $NAME in the scene; may be given several times")

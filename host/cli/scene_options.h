@@ -19,6 +19,8 @@ struct SceneOptions {
 
 /// The positional SCENE, -D and --strict.
 void add_scene_options(CLI::App& command, SceneOptions& options);
+/// -D and --strict alone, for commands that take several scenes.
+void add_shared_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Throws Error(ExitCode::usage) for a definition without a name or a '='.
 LoadOptions load_options(const SceneOptions& options);

@@ -63,7 +63,7 @@ bool fits_in_file(const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
     return spec.image_bytes(true) <= kAlwaysFine + kDensest * file_size;
 }
 
-Image read(const fs::path& file, bool decode_srgb) {
+std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
         fail("cannot read image", file, "no such file");
@@ -72,14 +72,20 @@ Image read(const fs::path& file, bool decode_srgb) {
         fail("cannot read image", file, "it is a folder");
     }
     const OIIO::ImageSpec options = reading_options();
-    const auto input = OIIO::ImageInput::open(file.string(), &options);
+    auto input = OIIO::ImageInput::open(file.string(), &options);
     if (!input) {
         fail("cannot read image", file, OIIO::geterror());
     }
+    return input;
+}
+
+Image read(const fs::path& file, bool decode_srgb) {
+    const auto input = open(file);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail("cannot read image", file, "it is not a plain two-dimensional image");
     }
+    std::error_code ignored;
     if (!fits_in_file(spec, fs::file_size(file, ignored))) {
         fail("cannot read image", file, "its header promises more pixels than it can hold");
     }
@@ -159,6 +165,22 @@ Image read_image(const fs::path& file) {
 
 Image read_linear_image(const fs::path& file) {
     return read(file, true);
+}
+
+Metadata read_metadata(const fs::path& file) {
+    const auto input = open(file);
+    Metadata metadata;
+    for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (attribute.type() == OIIO::TypeInt) {
+            metadata[name] = attribute.get_int();
+        } else if (attribute.type() == OIIO::TypeFloat) {
+            metadata[name] = attribute.get_float();
+        } else if (attribute.type() == OIIO::TypeString) {
+            metadata[name] = attribute.get_string();
+        }
+    }
+    return metadata;
 }
 
 /// Owns the temporary file: whatever is not committed is removed.

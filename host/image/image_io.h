@@ -20,7 +20,12 @@ Image read_image(const std::filesystem::path& file);
 /// The same, with the colours of sRGB-encoded files (8- and 16-bit integers) decoded to linear.
 Image read_linear_image(const std::filesystem::path& file);
 
+/// Attributes of an image file.
 using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
+
+/// Of an image file: what its attributes hold as int, float or string; others are left out. Throws as
+/// read_image() does.
+Metadata read_metadata(const std::filesystem::path& file);
 
 struct ImageWriterOptions {
     Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix

@@ -5,11 +5,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/stopwatch.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/camera_path.h"
 #include "host/reference/light_sampler.h"
@@ -161,23 +163,6 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     pixel.add(sum, batch_size);
 }
 
-PathTracerSettings checked(PathTracerSettings settings, const SceneCamera& camera) {
-    if (settings.width <= 0) {
-        settings.width = camera.width;
-        settings.height = camera.height;
-    } else if (settings.height <= 0) {
-        settings.height =
-            std::max(1, static_cast<int>(std::lround(double(settings.width) * camera.height / camera.width)));
-    }
-    if (settings.width <= 0 || settings.height <= 0 || settings.spp <= 0) {
-        throw Error(ExitCode::usage, "the reference needs a picture of at least 1×1 pixels and 1 sample");
-    }
-    if (settings.max_depth < 0 || !(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
-        throw Error(ExitCode::usage, "max depth and clamp radius must be 0 or more");
-    }
-    return settings;
-}
-
 /// Counts what is done and passes it on, one thread at a time.
 class ProgressGate {
   public:
@@ -199,48 +184,88 @@ class ProgressGate {
     std::atomic<bool> stopped_ = false;
 };
 
+/// One more batch for each pixel that has just `batch` of them.
+void trace_round(const PathTracer& tracer, const PathTracerSettings& settings, int batch,
+                 std::vector<PixelStatistics>& pixels, ProgressGate& gate) {
+    const tbb::blocked_range2d<int> film(0, settings.height, kTileSize, 0, settings.width, kTileSize);
+    const auto trace_tile = [&](const tbb::blocked_range2d<int>& tile) {
+        if (gate.stopped()) {
+            return;
+        }
+        for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
+            for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
+                PixelStatistics& pixel =
+                    pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(settings.width) +
+                           static_cast<std::size_t>(x)];
+                if (pixel.batches == batch) {
+                    tracer.trace_batch(x, y, batch, settings.batch_size, pixel);
+                }
+            }
+        }
+        gate.advance(double(tile.rows().size()) * double(tile.cols().size()));
+    };
+    tbb::parallel_for(film, trace_tile, tbb::simple_partitioner());
+}
+
+/// Sums of the earlier picture, or empty ones.
+std::vector<PixelStatistics> first_pixels(const PathTracerSettings& settings, const Image* earlier) {
+    if (earlier == nullptr) {
+        return std::vector<PixelStatistics>(static_cast<std::size_t>(settings.width) *
+                                            static_cast<std::size_t>(settings.height));
+    }
+    if (earlier->width != settings.width || earlier->height != settings.height) {
+        throw Error(ExitCode::file, "the picture to go on from has another size");
+    }
+    return from_image(*earlier, settings.batch_size);
+}
+
 }  // namespace
 
 int samples_per_batch(int spp) {
     return spp < 32 ? 1 : spp < 256 ? 4 : 16;
 }
 
-int rounded_spp(int spp) {
-    const int batch_size = samples_per_batch(spp);
-    return (spp + batch_size - 1) / batch_size * batch_size;
+PathTracerSettings completed(PathTracerSettings settings, const SceneCamera& camera) {
+    if (settings.width <= 0) {
+        settings.width = camera.width;
+        settings.height = camera.height;
+    } else if (settings.height <= 0) {
+        settings.height =
+            std::max(1, static_cast<int>(std::lround(double(settings.width) * camera.height / camera.width)));
+    }
+    if (settings.width <= 0 || settings.height <= 0 || settings.spp <= 0) {
+        throw Error(ExitCode::usage, "the reference needs a picture of at least 1×1 pixels and 1 sample");
+    }
+    if (settings.batch_size == 0) {
+        settings.batch_size = samples_per_batch(settings.spp);
+    }
+    if (settings.batch_size != 1 && settings.batch_size != 4 && settings.batch_size != 16) {
+        throw Error(ExitCode::usage, "batches have 1, 4 or 16 samples");
+    }
+    settings.spp = (settings.spp + settings.batch_size - 1) / settings.batch_size * settings.batch_size;
+    if (settings.max_depth < 0 || !(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
+        throw Error(ExitCode::usage, "max depth and clamp radius must be 0 or more");
+    }
+    return settings;
 }
 
-Image trace_paths(const Scene& scene, const PathTracerSettings& wanted, const Progress& progress) {
-    const PathTracerSettings settings = checked(wanted, scene.camera);
+Image trace_paths(const Scene& scene, const PathTracerSettings& wanted, const Progress& progress,
+                  const LongTrace& long_trace) {
+    const PathTracerSettings settings = completed(wanted, scene.camera);
+    std::vector<PixelStatistics> pixels = first_pixels(settings, long_trace.earlier);
     const PathTracer tracer(scene, settings);
-    const int batch_size = samples_per_batch(settings.spp);
-    const int batch_count = rounded_spp(settings.spp) / batch_size;
-    std::vector<PixelStatistics> pixels(static_cast<std::size_t>(settings.width) *
-                                        static_cast<std::size_t>(settings.height));
-    ProgressGate gate(progress, double(pixels.size()) * batch_count);
+    const int batch_count = settings.spp / settings.batch_size;
+    const int first = std::ranges::min(pixels, {}, &PixelStatistics::batches).batches;
+    ProgressGate gate(progress, double(pixels.size()) * std::max(1, batch_count - first));
     tbb::task_arena arena(arena_size(settings.threads));
-    arena.execute([&] {
-        const tbb::blocked_range2d<int> film(0, settings.height, kTileSize, 0, settings.width, kTileSize);
-        for (int batch = 0; batch < batch_count && !gate.stopped(); ++batch) {
-            tbb::parallel_for(
-                film,
-                [&](const tbb::blocked_range2d<int>& tile) {
-                    if (gate.stopped()) {
-                        return;
-                    }
-                    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
-                        for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-                            const auto index =
-                                static_cast<std::size_t>(y) * static_cast<std::size_t>(settings.width) +
-                                static_cast<std::size_t>(x);
-                            tracer.trace_batch(x, y, batch, batch_size, pixels[index]);
-                        }
-                    }
-                    gate.advance(double(tile.rows().size()) * double(tile.cols().size()));
-                },
-                tbb::simple_partitioner());
+    Stopwatch since_save;
+    for (int batch = first; batch < batch_count && !gate.stopped(); ++batch) {
+        arena.execute([&] { trace_round(tracer, settings, batch, pixels, gate); });
+        if (long_trace.save && since_save.seconds() > long_trace.seconds_between_saves) {
+            long_trace.save(to_image(pixels, settings.width, settings.height));
+            since_save.lap();
         }
-    });
+    }
     return to_image(pixels, settings.width, settings.height);
 }
 

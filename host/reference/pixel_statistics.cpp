@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/pixel_statistics.h"
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
+
+#include "host/base/error.h"
 
 namespace nearlight {
 namespace {
@@ -56,6 +61,114 @@ void write_pixel(const PixelStatistics& pixel, float* values) {
     out.number(sum.surfaces > 0 ? sum.depth / sum.surfaces : 0.0);
     out.variance(beauty, pixel.beauty_square, batch_size, pixel.batches);
     out.variance(sum.indirect, pixel.indirect_square, batch_size, pixel.batches);
+    out.number(pixel.samples);
+    out.number(sum.receivers);
+    out.number(sum.surfaces);
+}
+
+std::vector<std::string> channel_names() {
+    std::vector<std::string> names{"R", "G", "B"};
+    for (const char* layer : {"direct", "indirect", "albedo"}) {
+        for (const char* color : {".R", ".G", ".B"}) {
+            names.push_back(std::string(layer) + color);
+        }
+    }
+    names.insert(names.end(), {"N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "depth.Z"});
+    for (const char* layer : {"variance", "indirectVariance"}) {
+        for (const char* color : {".R", ".G", ".B"}) {
+            names.push_back(std::string(layer) + color);
+        }
+    }
+    names.insert(names.end(), {"count.X", "count.Y", "count.Z"});
+    return names;
+}
+
+/// Where channel_names() has the first channel of each layer.
+enum Place : std::size_t {
+    kDirect = 3,
+    kIndirect = 6,
+    kAlbedo = 9,
+    kNormal = 12,
+    kPosition = 15,
+    kDepth = 18,
+    kVariance = 19,
+    kIndirectVariance = 22,
+    kSamples = 25,
+    kReceivers,
+    kSurfaces,
+};
+
+/// Values by channel name, whatever order a file has them in.
+class ChannelReader {
+  public:
+    explicit ChannelReader(const Image& image) : image_(image) {
+        for (const std::string& name : channel_names()) {
+            const int index = image.find_channel(name);
+            if (index < 0) {
+                throw Error(ExitCode::file, "the picture to go on from has no channel '" + name + "'");
+            }
+            indices_.push_back(static_cast<std::size_t>(index));
+        }
+    }
+    /// Of the channel that channel_names() has at `place`.
+    [[nodiscard]] double number(std::size_t pixel, std::size_t place) const {
+        return image_.values[pixel * image_.channel_count() + indices_[place]];
+    }
+    [[nodiscard]] Double3 sum(std::size_t pixel, std::size_t place, double count) const {
+        return {number(pixel, place) * count, number(pixel, place + 1) * count,
+                number(pixel, place + 2) * count};
+    }
+
+  private:
+    const Image& image_;
+    std::vector<std::size_t> indices_;
+};
+
+/// Sum of squares from which variance_of_mean() makes `variance`.
+double square_sum(double sum, double variance, int batches) {
+    if (batches == 0) {
+        return 0.0;
+    }
+    const double mean_part = sum * sum / batches;
+    return batches < 2 ? mean_part : variance * double(batches) * (batches - 1) + mean_part;
+}
+
+Double3 square_sums(const Double3& sum, const Double3& variance, double batch_size, int batches) {
+    return {square_sum(sum.x / batch_size, variance.x, batches),
+            square_sum(sum.y / batch_size, variance.y, batches),
+            square_sum(sum.z / batch_size, variance.z, batches)};
+}
+
+/// Channels in the order of channel_names().
+PixelStatistics read_pixel(const ChannelReader& in, std::size_t i, int batch_size) {
+    PixelStatistics pixel;
+    const auto samples = in.number(i, kSamples);
+    const auto receivers = in.number(i, kReceivers);
+    const auto surfaces = in.number(i, kSurfaces);
+    if (!(samples >= 0 && samples <= 1 << 30 && receivers >= 0 && receivers <= samples && surfaces >= 0 &&
+          surfaces <= samples)) {
+        throw Error(ExitCode::file, "the picture to go on from has senseless counts of samples");
+    }
+    pixel.samples = static_cast<int>(samples);
+    pixel.batches = pixel.samples / batch_size;
+    if (pixel.batches * batch_size != pixel.samples) {
+        throw Error(ExitCode::file, "the picture to go on from was made in other batches");
+    }
+    BatchSum& sum = pixel.sum;
+    sum.receivers = static_cast<int>(receivers);
+    sum.surfaces = static_cast<int>(surfaces);
+    sum.direct = in.sum(i, kDirect, samples);
+    sum.indirect = in.sum(i, kIndirect, samples);
+    sum.albedo = in.sum(i, kAlbedo, samples);
+    sum.normal = in.sum(i, kNormal, receivers);
+    sum.position = in.sum(i, kPosition, receivers);
+    sum.depth = in.number(i, kDepth) * surfaces;
+    Double3 beauty = sum.direct;
+    beauty.add(sum.indirect);
+    pixel.beauty_square = square_sums(beauty, in.sum(i, kVariance, 1.0), batch_size, pixel.batches);
+    pixel.indirect_square =
+        square_sums(sum.indirect, in.sum(i, kIndirectVariance, 1.0), batch_size, pixel.batches);
+    return pixel;
 }
 
 }  // namespace
@@ -91,36 +204,22 @@ void PixelStatistics::add(const BatchSum& batch, int batch_size) {
 }
 
 Image to_image(std::span<const PixelStatistics> pixels, int width, int height) {
-    Image image = make_image(width, height,
-                             {"R",
-                              "G",
-                              "B",
-                              "direct.R",
-                              "direct.G",
-                              "direct.B",
-                              "indirect.R",
-                              "indirect.G",
-                              "indirect.B",
-                              "albedo.R",
-                              "albedo.G",
-                              "albedo.B",
-                              "N.X",
-                              "N.Y",
-                              "N.Z",
-                              "P.X",
-                              "P.Y",
-                              "P.Z",
-                              "depth.Z",
-                              "variance.R",
-                              "variance.G",
-                              "variance.B",
-                              "indirectVariance.R",
-                              "indirectVariance.G",
-                              "indirectVariance.B"});
+    Image image = make_image(width, height, channel_names());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         write_pixel(pixels[i], &image.values[i * image.channel_count()]);
     }
     return image;
+}
+
+std::vector<PixelStatistics> from_image(const Image& image, int batch_size) {
+    const ChannelReader reader(image);
+    std::vector<PixelStatistics> pixels;
+    const std::size_t pixel_count = image.values.size() / image.channel_count();
+    pixels.reserve(pixel_count);
+    for (std::size_t i = 0; i < pixel_count; ++i) {
+        pixels.push_back(read_pixel(reader, i, batch_size));
+    }
+    return pixels;
 }
 
 }  // namespace nearlight

@@ -11,7 +11,7 @@ namespace nearlight {
 
 struct RenderSettings {
     SamplerKind sampler = SamplerKind::close_range;
-    Policy policy = Policy::partition;
+    Policy policy = Policy::complete;
     uint vpl_count = 1000;
     std::optional<float> close_fraction{};  ///< of the budget, [0, 1]
     std::optional<float> range{};           ///< of the close range, m

@@ -18,6 +18,7 @@
 #include "host/base/message.h"
 #include "host/base/random.h"
 #include "host/samplers/candidates.h"
+#include "host/samplers/incident_light.h"
 #include "host/samplers/sparse_walks.h"
 
 namespace nearlight {
@@ -27,19 +28,15 @@ namespace {
 constexpr double kCandidatesPerVpl = 4;
 constexpr uint kFewestCandidates = 256;
 constexpr std::size_t kMostCameraPoints = 512;
-/// VPLs that light candidates, for the weights, and, as a multiple of the budget, the reverse ones that are
-/// chosen; bounded at a part of the range.
-constexpr uint kRoughSparse = 512;
-constexpr double kSparsePerVpl = 4;
-constexpr float kSparseRadiusToRange = 0.1f;
-constexpr LightPaths kRoughPaths{.path_count = 2, .connections = 64, .direct_samples = 2};
+/// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
+constexpr uint kRoughSparseVpls = 512;
+constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 2};
 /// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
 constexpr float kLeastLight = 0.1f;
-constexpr LightPaths kThoroughPaths{.path_count = 8, .connections = 128, .direct_samples = 8};
+constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;
 constexpr uint kRoughSeed = 0x20061u;
-constexpr uint kSparseSeed = 0x5ba5e6u;
 constexpr uint kPointStream = 0xca3e7au;
 constexpr uint kChoiceStream = 0x5e1ec8u;
 
@@ -69,41 +66,26 @@ struct Candidates {
     std::vector<float> standard_density;  ///< q, 1/m²
 };
 
-SparseVpls trace_sparse_vpls(SamplerStages& stages, SamplingTask task, uint wanted, uint seed) {
-    task.seed ^= seed;
-    const std::vector<Vpl> vpls =
-        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
-    return {.vpls = stages.vpl_order.upload_sorted(vpls),
-            .count = vpls.size(),
-            .radius = kSparseRadiusToRange * task.close_range.range};
-}
-
-LightPaths light_paths(LightPaths quality, const SamplingTask& task, uint seed) {
-    quality.bounce_count = task.bounce_count;
-    quality.seed = task.seed ^ seed;
-    return quality;
-}
-
 /// What the weights depend on, the same for both kinds of candidates.
 struct Balance {
-    SparseVpls sparse;
-    LightPaths paths;  ///< with a seed of their own
+    SparseSet sparse;  ///< for the rough light
     CameraPoints points;
     float walks_per_watt = 0.0f;
 };
 
-Candidates examine(SamplerStages& stages, const DeviceScene& scene, const Balance& balance,
+Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balance& balance,
                    std::span<const Vpl> vpls) {
     Candidates candidates;
     const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
     candidates.vpls = sorted.download();
-    candidates.rough_light = incident_light_at(stages, scene, balance.sparse, candidates.vpls, balance.paths);
+    candidates.rough_light =
+        incident_light_at(stages, task, balance.sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
 
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> density(stages.device, packets);
-    stages.vpl_contribution.make_receivers(sorted, vpls.size(), receivers);
-    stages.reverse_vpls.measure_density(scene, balance.points, receivers, packets, density);
+    stages.vpl_light.make_receivers(sorted, vpls.size(), receivers);
+    stages.reverse_vpls.measure_density(task.scene, balance.points, receivers, packets, density);
     for (const Vec3 n : unpack(density, vpls.size())) {
         candidates.reverse_density.push_back(n.x);
     }
@@ -164,34 +146,30 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
         return sample_instant_radiosity(stages, task);  // nothing to go backwards from
     }
     const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));
-    uint walk_count = 0;
-    const std::vector<Vpl> deposits =
-        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted, &walk_count);
-    const Balance balance{.sparse = trace_sparse_vpls(stages, task, kRoughSparse, kRoughSeed),
-                          .paths = light_paths(kRoughPaths, task, kRoughSeed),
+    const Deposits deposits =
+        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
+    const Balance balance{.sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed),
                           .points = choose_camera_points(stages, task, wanted),
-                          .walks_per_watt = static_cast<float>(walk_count) / task.scene.total_power};
+                          .walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power};
 
     const Candidates reverse =
-        examine(stages, task.scene, balance,
+        examine(stages, task, balance,
                 stages.reverse_vpls.trace(task.scene, balance.points, task.seed ^ kReverseSeed));
     const std::vector<Vpl> unlit = weigh_reverse(reverse);
     std::vector<Vpl> candidates = unlit;
     illuminate(candidates, never_dark(reverse.rough_light));
-    const std::vector<Vpl> standard = weigh_standard(examine(stages, task.scene, balance, deposits));
+    const std::vector<Vpl> standard = weigh_standard(examine(stages, task, balance, deposits.vpls));
     candidates.insert(candidates.end(), standard.begin(), standard.end());
 
     const Choice choice = choose_by_contribution(stages, task, candidates, kChoiceStream);
     std::ranges::copy(unlit, candidates.begin());
     VplSet set;
-    set.vpls = nearlight::apply(choice, candidates);
+    set.vpls = take(choice, candidates);
     const auto chosen_reverse = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(unlit.size())) - choice.indices.begin());
     const std::span reverse_vpls = std::span(set.vpls).first(chosen_reverse);
-    const SparseVpls sparse =
-        trace_sparse_vpls(stages, task, multiple_of_budget(kSparsePerVpl, task), kSparseSeed);
-    illuminate(reverse_vpls, incident_light_at(stages, task.scene, sparse, reverse_vpls,
-                                               light_paths(kThoroughPaths, task, kSparseSeed)));
+    const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
+    illuminate(reverse_vpls, incident_light_at(stages, task, sparse, reverse_vpls, kThorough, task.seed));
 
     set.distant_count = set.vpls.size();
     set.sparse_count = balance.sparse.count + sparse.count;

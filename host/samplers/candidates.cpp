@@ -28,29 +28,6 @@ void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
 
 }  // namespace
 
-std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t count) {
-    const std::vector<IrradiancePacket> packets = buffer.download();
-    std::vector<Vec3> values;
-    values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const IrradiancePacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-        values.push_back({packet.r[lane], packet.g[lane], packet.b[lane]});
-    }
-    return values;
-}
-
-std::vector<Vec3> incident_light_at(SamplerStages& stages, const DeviceScene& scene, const SparseVpls& sparse,
-                                    std::span<const Vpl> vpls, const LightPaths& paths) {
-    const std::size_t packets = receiver_packet_count(vpls.size());
-    const Buffer<Vpl> points(stages.device, vpls);
-    Buffer<ReceiverPacket> receivers(stages.device, packets);
-    Buffer<IrradiancePacket> irradiance(stages.device, packets);
-    stages.vpl_contribution.make_receivers(points, vpls.size(), receivers);
-    stages.path_light.run(scene, receivers, packets, sparse, paths, irradiance);
-    return unpack(irradiance, vpls.size());
-}
-
 Choice choose_by_contribution(SamplerStages& stages, const SamplingTask& task,
                               std::span<const Vpl> candidates, uint stream) {
     const Buffer<Vpl> vpls(stages.device, candidates);

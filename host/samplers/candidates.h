@@ -10,13 +10,6 @@
 
 namespace nearlight {
 
-/// The first `count` lanes.
-std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
-
-/// Irradiance of all depths at each VPL: what one of depth up to paths.bounce_count there reflects.
-std::vector<Vec3> incident_light_at(SamplerStages& stages, const DeviceScene& scene, const SparseVpls& sparse,
-                                    std::span<const Vpl> vpls, const LightPaths& paths);
-
 /// At most task.vpl_count + 1 candidates, in proportion to what they bring to the camera; a small part
 /// follows power alone, so that a candidate is chosen now and then even where the sample of the view does not
 /// see it. To be put in an order in which neighbours are alike.

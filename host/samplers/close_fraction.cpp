@@ -15,8 +15,8 @@ constexpr uint kPilotSeed = 0x5a17u;
 }  // namespace
 
 float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
-    // Deposits of depth 1 in the close range are what patches replace; the rest is what walks must supply. Both are
-    // told apart by tracing the same walks with everything kept, and with what this policy keeps.
+    // Deposits of depth 1 in the close range are what patches replace; the rest is what walks must supply.
+    // Both are told apart by tracing the same walks with everything kept, and with what this policy keeps.
     const LightWalks walks{.walk_count = kPilotWalks,
                            .bounce_count = task.bounce_count,
                            .mean_albedo = task.scene.mean_albedo,
@@ -25,7 +25,8 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
         const std::vector<Vpl> vpls = stages.light_tracer.run(task.scene, region, keep, walks);
         const Buffer<Vpl> buffer(stages.device, std::span<const Vpl>(vpls));
         Buffer<float> contribution(stages.device, vpls.size());
-        stages.vpl_contribution.run(task.scene, buffer, vpls.size(), task.view, task.clamp_radius, contribution);
+        stages.vpl_contribution.run(task.scene, buffer, vpls.size(), task.view, task.clamp_radius,
+                                    contribution);
         double sum = 0;
         for (const float c : contribution.download()) {
             sum += static_cast<double>(c) * c;
@@ -33,7 +34,8 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
         return sum;
     };
     const double all = root_sum_of_squares(KeepDeposits::all);
-    const double kept = root_sum_of_squares(task.policy == Policy::paper ? KeepDeposits::outside : KeepDeposits::indirect_inside);
+    const double kept = root_sum_of_squares(task.policy == Policy::paper ? KeepDeposits::outside
+                                                                         : KeepDeposits::indirect_inside);
     const double close = std::sqrt(std::max(all - kept, 0.0));
     const double distant = std::sqrt(kept);
     if (!(close > 0.0)) {

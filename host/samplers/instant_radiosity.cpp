@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instant radiosity [Keller, SIGGRAPH 1997]: every VPL comes from quasi-random walks over the whole scene.
-// Unlike the original, sequences are randomised (Owen scrambling) and the number of walks that go on to a depth is a
-// real number met in expectation, so each depth is unbiased rather than only consistent.
+// Unlike the original, sequences are randomised (Owen scrambling) and the number of walks that go on to a
+// depth is a real number met in expectation, so each depth is unbiased rather than only consistent.
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 
@@ -9,7 +9,8 @@ namespace nearlight {
 
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task) {
     VplSet set;
-    set.vpls = trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, task.vpl_count);
+    set.vpls =
+        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, task.vpl_count).vpls;
     set.distant_count = set.vpls.size();
     return set;
 }

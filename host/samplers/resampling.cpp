@@ -1,42 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/resampling.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <numeric>
 
 #include "host/base/math.h"
 
 namespace nearlight {
 
-Choice resample(std::span<const float> weights, std::size_t wanted, double shift) {
-    const auto usable = [](float weight) { return weight > 0.0f && std::isfinite(weight); };
-    double total = 0;
-    for (const float weight : weights) {
-        total += usable(weight) ? weight : 0.0;
+namespace {
+
+bool usable(float weight) {
+    return weight > 0.0f && std::isfinite(weight);
+}
+
+/// τ with Σ min(1, weight / τ) = wanted; 0 if there are no more than `wanted` usable weights.
+double threshold(std::span<const float> weights, std::size_t wanted) {
+    std::vector<float> descending;
+    std::ranges::copy_if(weights, std::back_inserter(descending), usable);
+    if (descending.size() <= wanted) {
+        return 0.0;
     }
+    std::ranges::sort(descending, std::greater());
+    double rest = std::accumulate(descending.begin(), descending.end(), 0.0);
+    // The `sure` largest are chosen for certain; the rest share what is left of `wanted` in proportion.
+    for (std::size_t sure = 0; sure < wanted; ++sure) {
+        const double tau = rest / static_cast<double>(wanted - sure);
+        if (descending[sure] <= tau) {
+            return tau;
+        }
+        rest -= descending[sure];
+    }
+    return descending[wanted - 1];
+}
+
+}  // namespace
+
+Choice resample(std::span<const float> weights, std::size_t wanted, double shift) {
     Choice choice;
-    if (!(total > 0.0) || wanted == 0) {
+    if (wanted == 0) {
         return choice;
     }
-    const double per_weight = static_cast<double>(wanted) / total;
+    const double tau = threshold(weights, wanted);
     double sum = 0;
-    auto points_before = static_cast<std::int64_t>(0);  // points shift, shift + 1, … that lie below the running sum
+    double next_point = shift;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         if (!usable(weights[i])) {
             continue;
         }
-        const double expected = weights[i] * per_weight;
-        sum += expected;
-        const auto points = static_cast<std::int64_t>(std::ceil(sum - shift));
-        if (points > points_before) {
+        const double probability = weights[i] < tau ? weights[i] / tau : 1.0;
+        sum += probability;
+        if (sum > next_point) {
             choice.indices.push_back(static_cast<uint>(i));
-            choice.factors.push_back(static_cast<float>(static_cast<double>(points - points_before) / expected));
-            points_before = points;
+            choice.factors.push_back(static_cast<float>(1.0 / probability));
+            next_point += 1.0;
         }
     }
     return choice;
 }
 
-std::vector<Vpl> apply(const Choice& choice, std::span<const Vpl> candidates) {
+std::vector<Vpl> take(const Choice& choice, std::span<const Vpl> candidates) {
     std::vector<Vpl> vpls;
     vpls.reserve(choice.indices.size());
     for (std::size_t i = 0; i < choice.indices.size(); ++i) {

@@ -15,15 +15,16 @@ struct Choice {
     std::vector<float> factors;
 };
 
-/// Systematic resampling: candidate i is met n_i = wanted · weight_i / Σ weights times in expectation, by equidistant
-/// points with one random shift over the running sum of weights, so that neighbours share their points evenly: order
-/// candidates along a curve. A candidate that is met k times is chosen once, with factor k / n_i; the expectation of
-/// any sum over candidates is kept, whatever the weights, as long as they are positive wherever the summand is not 0.
-/// Weights that are not positive (or NaN) are never chosen. At most `wanted` + 1 are chosen.
+/// Systematic resampling without repeats: candidate i is chosen with probability p_i = min(1, weight_i / τ),
+/// τ such that `wanted` are chosen in expectation, by equidistant points with one random shift over the
+/// running sum of p, so that neighbours share their points evenly: order candidates along a curve. Its factor
+/// is 1 / p_i, so the expectation of any sum over candidates is kept, whatever the weights, as long as they
+/// are positive wherever the summand is not 0. Weights that are not positive (or not finite) are never
+/// chosen. `wanted` are chosen (one more or less by rounding), or all there are.
 /// @param shift uniform in [0, 1)
 Choice resample(std::span<const float> weights, std::size_t wanted, double shift);
 
 /// The chosen candidates, powers multiplied by their factors.
-std::vector<Vpl> apply(const Choice& choice, std::span<const Vpl> candidates);
+std::vector<Vpl> take(const Choice& choice, std::span<const Vpl> candidates);
 
 }  // namespace nearlight

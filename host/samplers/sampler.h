@@ -17,11 +17,14 @@ namespace nearlight {
 enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
-    bidirectional,      ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
-    local,              ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
+    rejection,          ///< [Georgiev & Slusallek 2010] of many walks, what the camera needs
+    metropolis,     ///< [Segovia et al. 2007] Markov chains over light paths towards what the camera needs
+    bidirectional,  ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
+    local,          ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
 };
 /// What becomes of sparse deposits in the close range; see docs/method.md.
 enum class Policy {
+    complete,   ///< patches carry light of all depths, so none are needed inside: unbiased
     paper,      ///< dropped, whatever their depth: loses multi-bounce light
     partition,  ///< those of depth 2 and more are kept: unbiased
 };
@@ -32,10 +35,11 @@ struct SamplingTask {
     const DeviceScene& scene;
     const PilotView& view;  ///< a few receivers of the picture
     SamplerKind sampler = SamplerKind::close_range;
-    Policy policy = Policy::partition;
-    uint vpl_count = 1000;                 ///< to aim at; walks decide how many there are exactly
-    uint bounce_count = 6;                 ///< deepest VPL
-    std::optional<float> close_fraction;   ///< share of the budget for the close range, [0, 1]; empty: by pilot
+    Policy policy = Policy::complete;
+    uint vpl_count = 1000;  ///< to aim at; walks decide how many there are exactly
+    uint bounce_count = 6;  ///< deepest VPL
+    std::optional<float>
+        close_fraction;  ///< share of the budget for the close range, [0, 1]; empty: by pilot
     CloseRange close_range{};
     float clamp_radius = 0.0f;
     uint seed = 0;
@@ -44,12 +48,12 @@ struct SamplingTask {
 /// Ready to be gathered: powers add up to the scene's reflected flux in expectation.
 struct VplSet {
     std::vector<Vpl> vpls;
-    std::size_t close_count = 0;     ///< placed on close-range patches
-    std::size_t distant_count = 0;   ///< deposited by light walks
-    std::size_t close_triangles = 0; ///< triangles that patches were placed on
-    std::size_t sparse_count = 0;    ///< VPLs that only lit other VPLs and are not gathered by the picture
-    std::size_t candidate_count = 0; ///< that `vpls` were chosen from; 0: there was no choice
-    float close_fraction = 0.0f;     ///< that was used
+    std::size_t close_count = 0;      ///< placed on close-range patches
+    std::size_t distant_count = 0;    ///< deposited by light walks
+    std::size_t close_triangles = 0;  ///< triangles that patches were placed on
+    std::size_t sparse_count = 0;     ///< VPLs that only lit other VPLs and are not gathered by the picture
+    std::size_t candidate_count = 0;  ///< that `vpls` were chosen from; 0: there was no choice
+    float close_fraction = 0.0f;      ///< that was used
     /// Where set, VPLs are to be gathered with its radius, and local lights supply the rest.
     std::optional<LocalLightPlan> local{};
 };
@@ -58,6 +62,8 @@ VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task);
+VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_local(SamplerStages& stages, const SamplingTask& task);
 

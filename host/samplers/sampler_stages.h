@@ -2,17 +2,21 @@
 // The stages that samplers draw on, compiled once for a device.
 #pragma once
 
+#include <optional>
+
+#include "host/stages/bounce_tracer.h"
 #include "host/stages/compaction.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/light_visibility.h"
+#include "host/stages/metropolis_chains.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
-#include "host/stages/path_light.h"
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_contribution.h"
+#include "host/stages/vpl_light.h"
 #include "host/stages/vpl_order.h"
 #include "host/stages/vpl_placement.h"
 
@@ -29,7 +33,8 @@ struct SamplerStages {
           vpl_placement(device),
           patch_vpls(device),
           direct_light(device),
-          path_light(device),
+          vpl_light(device),
+          bounce_tracer(device),
           light_tracer(device),
           vpl_order(device),
           vpl_contribution(device, gatherer),
@@ -47,11 +52,21 @@ struct SamplerStages {
     VplPlacement vpl_placement;
     PatchVpls patch_vpls;
     DirectLight direct_light;
-    PathLight path_light;
+    VplLight vpl_light;
+    BounceTracer bounce_tracer;
     LightTracer light_tracer;
     VplOrder vpl_order;
     VplContribution vpl_contribution;
     ReverseVpls reverse_vpls;
+
+    /// Made when first asked for: one sampler needs it, and its kernels take long to compile.
+    MetropolisChains& metropolis_chains() {
+        return metropolis_chains_ ? *metropolis_chains_
+                                  : metropolis_chains_.emplace(device, vpl_contribution);
+    }
+
+  private:
+    std::optional<MetropolisChains> metropolis_chains_;
 };
 
 }  // namespace nearlight

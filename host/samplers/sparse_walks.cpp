@@ -23,8 +23,8 @@ CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
     return region;
 }
 
-std::vector<Vpl> trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
-                             KeepDeposits keep, uint wanted, uint* walk_count) {
+Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
+                     KeepDeposits keep, uint wanted) {
     if (wanted == 0) {
         return {};
     }
@@ -37,10 +37,7 @@ std::vector<Vpl> trace_about(SamplerStages& stages, const SamplingTask& task, co
     const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMostWalksPerVpl);
     walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, 1e8));
     walks.seed = task.seed;
-    if (walk_count != nullptr) {
-        *walk_count = walks.walk_count;
-    }
-    return stages.light_tracer.run(task.scene, region, keep, walks);
+    return {stages.light_tracer.run(task.scene, region, keep, walks), walks.walk_count};
 }
 
 }  // namespace nearlight

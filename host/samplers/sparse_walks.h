@@ -11,10 +11,14 @@ namespace nearlight {
 /// A region without triangles: nothing is close.
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
 
-/// About `wanted` deposits. A small independent pilot measures how many a walk leaves, so that the number of walks
-/// does not depend on the walks themselves: stopping at a number of deposits would be biased.
-/// @param walk_count set to the number of walks that were launched.
-std::vector<Vpl> trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
-                             KeepDeposits keep, uint wanted, uint* walk_count = nullptr);
+struct Deposits {
+    std::vector<Vpl> vpls;
+    uint walk_count = 0;  ///< that were launched
+};
+
+/// About `wanted` deposits. A small independent pilot measures how many a walk leaves, so that the number of
+/// walks does not depend on the walks themselves: stopping at a number of deposits would be biased.
+Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
+                     KeepDeposits keep, uint wanted);
 
 }  // namespace nearlight

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
@@ -15,11 +18,21 @@
 #include "host/stages/close_range.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
+#include "host/stages/metropolis_chains.h"
 
 namespace nearlight {
 namespace {
 
 constexpr std::size_t kTriangles = 3000;
+
+/// A closed room of one albedo: no light is lost but what the albedo takes.
+Scene make_even_room(Vec3 albedo) {
+    Scene scene = make_sphere_room(kTriangles);
+    for (Material& material : scene.materials) {
+        material.base = albedo;
+    }
+    return scene;
+}
 
 /// The room without its lamp, under point and spot lights.
 Scene make_delta_lit_room() {
@@ -74,10 +87,7 @@ void check_direct_light(Device& device, CheckResult& result) {
 
 void check_light_tracing(Device& device, CheckResult& result) {
     const Vec3 albedo{0.8f, 0.5f, 0.3f};
-    Scene scene = make_sphere_room(kTriangles);
-    for (Material& material : scene.materials) {
-        material.base = albedo;
-    }
+    const Scene scene = make_even_room(albedo);
     double flux = 0;  // of each colour: the lamp is white
     for (const Emitter& emitter : build_emitter_table(scene).emitters) {
         flux += static_cast<double>(kPi) * emitter.area * emitter.radiance.x;
@@ -101,6 +111,43 @@ void check_light_tracing(Device& device, CheckResult& result) {
             expected[c] *= c == 0 ? albedo.x : (c == 1 ? albedo.y : albedo.z);
             // The number of walks that go on is rounded; a few meet a crack between triangles.
             result.expect(std::abs(power[depth][c] - expected[c]) <= (1.5 / launched + 1e-3) * expected[c]);
+        }
+    }
+}
+
+void check_metropolis_chains(Device& device, CheckResult& result) {
+    constexpr uint kChains = 8192;
+    constexpr uint kDepths = 4;
+    constexpr uint kSteps = 20;
+    constexpr float kAlbedo = 0.5f;
+    const Scene scene = make_even_room({kAlbedo, kAlbedo, kAlbedo});
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    PilotView blind;
+    blind.importons = Buffer<Vpl>(device, 0);
+    Gatherer gatherer(device);
+    VplContribution contribution(device, gatherer);
+    MetropolisChains metropolis(device, contribution);
+    PathStates chains(device, kChains, kDepths);
+    PathStates proposed(device, kChains, kDepths);
+    std::vector<uint> indices(kChains);
+    std::iota(indices.begin(), indices.end(), 0u);
+    for (const float survival : {0.5f, 0.65f, 0.8f}) {
+        const PathSpace space{.scene = on_device,
+                              .view = blind,
+                              .seed = 3,
+                              .bounce_count = kDepths,
+                              .depth_cdf = make_depth_cdf(device, kDepths, survival)};
+        metropolis.seed(space, Buffer<uint>(device, std::span<const uint>(indices)), chains);
+        for (uint step = 0; step < kSteps; ++step) {
+            metropolis.advance(space, step, chains, proposed);
+        }
+        std::array<double, kDepths> share{};
+        for (const Vpl& vpl : chains.vpls.download()) {
+            share.at(vpl.depth - 1) += 1.0 / kChains;
+        }
+        for (uint i = 0; i < kDepths; ++i) {
+            const double expected = std::pow(kAlbedo, i) * (1 - kAlbedo) / (1 - std::pow(kAlbedo, kDepths));
+            result.expect(std::abs(share.at(i) - expected) <= 5 * std::sqrt(expected / kChains));
         }
     }
 }

@@ -29,6 +29,7 @@ std::vector<NamedCheck> all_checks() {
             {"gather rays", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::rays, r); }},
             {"direct light", check_direct_light},
             {"light tracing", check_light_tracing},
+            {"metropolis chains", check_metropolis_chains},
             {"camera pass", check_camera_pass}};
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
-/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds keep deep light from costing as much
-/// as all the rest (bright rooms), or from being carried by hardly any walk (dark ones).
+/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds keep deep light from costing
+/// as much as all the rest (bright rooms), or from being carried by hardly any walk (dark ones).
 std::vector<float> walks_at_each_depth(const LightWalks& walks) {
     const float survival = std::clamp(walks.mean_albedo, 0.2f, 0.9f);
     std::vector<float> launched;
@@ -33,12 +33,23 @@ LightTracer::LightTracer(Device& device)
 std::vector<Vpl> LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
                                   const LightWalks& walks) {
     std::vector<Vpl> deposits;
+    run(scene, region, keep, walks, [&](const Buffer<Vpl>& vpls, std::size_t count) {
+        deposits.resize(deposits.size() + count);
+        vpls.download(std::span(deposits).last(count));
+    });
+    return deposits;
+}
+
+void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
+                      const LightWalks& walks, const DepositVisitor& visit) {
     if (scene.host_info.emitter_count == 0 || walks.bounce_count == 0) {
-        return deposits;
+        return;
     }
     const Buffer<float> walks_at_depth(*device_, walks_at_each_depth(walks));
     const float absorption_shift = Pcg32(walks.seed, 0xab5).uniform();
-    const uint batch_size = std::min(walks.walk_count, std::max(1u, kSlotsPerBatch / walks.bounce_count));
+    const auto slots_per_batch =
+        static_cast<uint>(std::min<std::size_t>(kSlotsPerBatch, device_->entry().max_allocation_bytes / sizeof(Vpl)));
+    const uint batch_size = std::min(walks.walk_count, std::max(1u, slots_per_batch / walks.bounce_count));
     const std::size_t slot_count = static_cast<std::size_t>(batch_size) * walks.bounce_count;
     Buffer<Vpl> slots(*device_, slot_count);
     Buffer<Vpl> kept(*device_, slot_count);
@@ -46,16 +57,17 @@ std::vector<Vpl> LightTracer::run(const DeviceScene& scene, const CloseRegion& r
     Buffer<uint> indices(*device_, slot_count);
     for (uint first = 0; first < walks.walk_count; first += batch_size) {
         const uint count = std::min(batch_size, walks.walk_count - first);
-        light_tracer_.launch_items(count, scene, region.range, region.triangles, region.whole_triangles ? 1u : 0u,
-                                   static_cast<uint>(keep), first, count, walks.bounce_count, walks_at_depth,
-                                   absorption_shift, walks.seed, slots, flags);
+        light_tracer_.launch_items(count, scene, region.range, region.triangles,
+                                   region.whole_triangles ? 1u : 0u, static_cast<uint>(keep), first, count,
+                                   walks.bounce_count, walks_at_depth, absorption_shift, walks.seed, slots,
+                                   flags);
         const std::size_t kept_count =
             compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
         compaction_.gather(slots, indices, kept_count, kept);
-        deposits.resize(deposits.size() + kept_count);
-        kept.download(std::span(deposits).last(kept_count));
+        if (kept_count > 0) {
+            visit(kept, kept_count);
+        }
     }
-    return deposits;
 }
 
 }  // namespace nearlight

@@ -10,6 +10,7 @@ namespace nearlight {
 namespace {
 
 constexpr double kPixelCount = 1024;
+constexpr std::size_t kSquaredImportons = 512;
 
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
     std::vector<float> distances;
@@ -26,9 +27,23 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
     return distances;
 }
 
+/// Fewer of them: they only steer a choice, and are asked by many candidates.
+std::vector<Vpl> squared_importons(std::span<const Vpl> importons) {
+    const std::size_t count = std::min(importons.size(), kSquaredImportons);
+    std::vector<Vpl> result;
+    for (std::size_t i = 0; i < count; ++i) {
+        Vpl importon = importons[i * importons.size() / count];
+        importon.power = importon.power * importon.power * (1.0f / kPi);
+        importon.flags = NEARLIGHT_VPL_SQUARED;
+        result.push_back(importon);
+    }
+    return result;
+}
+
 }  // namespace
 
-std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets, const std::vector<CameraVertex>& vertices) {
+std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
+                                const std::vector<CameraVertex>& vertices) {
     std::vector<Vpl> importons;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const ReceiverPacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
@@ -47,8 +62,16 @@ std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets, cons
     return importons;
 }
 
-PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene, const SceneCamera& camera,
-                        uint seed) {
+void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons) {
+    view.importons = Buffer<Vpl>(device, importons);
+    view.importon_count = importons.size();
+    const std::vector<Vpl> squared = squared_importons(importons);
+    view.squared_importons = Buffer<Vpl>(device, std::span(squared));
+    view.squared_importon_count = squared.size();
+}
+
+PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
+                        const SceneCamera& camera, uint seed) {
     const double aspect = static_cast<double>(camera.width) / camera.height;
     const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
     const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
@@ -62,12 +85,11 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const Buffer<PinholeCamera> camera_buffer(device, std::span(&pinhole, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run(scene, camera_buffer, pinhole.width, close_range, band, seed, view.receivers, view.vertices);
+    camera_pass.run(scene, camera_buffer, pinhole.width, close_range, band, seed, view.receivers,
+                    view.vertices);
     const std::vector<ReceiverPacket> packets = view.receivers.download();
     view.distances = receiver_distances(packets, pinhole.origin);
-    const std::vector<Vpl> importons = make_importons(packets, view.vertices.download());
-    view.importons = Buffer<Vpl>(device, std::span(importons));
-    view.importon_count = importons.size();
+    set_importons(device, view, make_importons(packets, view.vertices.download()));
     return view;
 }
 

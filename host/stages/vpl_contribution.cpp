@@ -6,30 +6,28 @@ namespace nearlight {
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
     : device_(&device),
       gatherer_(&gatherer),
+      vpl_light_(device),
       program_(device, "vpl_contribution.cl"),
-      vpl_receivers_(program_, "vpl_receivers"),
       vpl_contribution_(program_, "vpl_contribution") {}
 
-void VplContribution::make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers) {
-    const std::size_t lane_count = receiver_packet_count(vpl_count) * NEARLIGHT_PACKET_SIZE;
-    vpl_receivers_.launch_items(lane_count, vpls, static_cast<uint>(vpl_count), static_cast<uint>(lane_count), receivers);
-}
-
-void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
-                          float clamp_radius, Buffer<float>& contribution) {
+void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                          const PilotView& view, float clamp_radius, Buffer<float>& contribution,
+                          ContributionNorm norm) {
+    const bool squared = norm == ContributionNorm::mean_square;
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
     Buffer<IrradiancePacket> importance(*device_, packets);
-    make_receivers(vpls, vpl_count, receivers);
+    vpl_light_.make_receivers(vpls, vpl_count, receivers);
     gatherer_->gather({.nodes = scene.nodes,
                        .triangles = scene.bvh_triangles,
-                       .vpls = view.importons,
-                       .vpl_count = view.importon_count,
+                       .vpls = squared ? view.squared_importons : view.importons,
+                       .vpl_count = squared ? view.squared_importon_count : view.importon_count,
                        .receivers = receivers,
                        .packet_count = packets,
                        .clamp_radius = clamp_radius},
                       importance);
-    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance, contribution);
+    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance,
+                                   squared ? 1u : 0u, contribution);
     device_->finish();  // the buffers of this function must outlive the kernel
 }
 

@@ -6,32 +6,31 @@
 #include "host/stages/device_scene.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/pilot_view.h"
+#include "host/stages/vpl_light.h"
 
 namespace nearlight {
+
+/// What is summed over the importons; kernels/vpl_contribution.cl has the formulas.
+enum class ContributionNorm {
+    mean,         ///< what a VPL brings: luminance
+    mean_square,  ///< what it would add to the error of the picture, if it was chosen by chance
+};
 
 class VplContribution {
   public:
     /// Gathers with `gatherer`, which must outlive it.
     VplContribution(Device& device, Gatherer& gatherer);
 
-    /// VPLs as receivers, receiver_packet_count(vpl_count) packets.
-    void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers);
-
-    /// One luminance for each of the first `vpl_count` VPLs, summed over all importons of the view.
+    /// One number for each of the first `vpl_count` VPLs, over all importons of the view.
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
-             float clamp_radius, Buffer<float>& contribution);
+             float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
   private:
     Device* device_;
     Gatherer* gatherer_;
+    VplLight vpl_light_;
     Program program_;
-    Kernel vpl_receivers_;
     Kernel vpl_contribution_;
 };
-
-/// Packets that hold so many receivers.
-inline std::size_t receiver_packet_count(std::size_t receiver_count) {
-    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
-}
 
 }  // namespace nearlight

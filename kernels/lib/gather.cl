@@ -24,6 +24,9 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_RECORD_PARAMETERS
 #endif
 
+/// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.
+inline bool gather_squared(const global Vpl* vpl) { return (vpl->flags & NEARLIGHT_VPL_SQUARED) != 0; }
+
 /// Radiant intensity of the VPL along its normal, W/sr. A VPL whose power is not finite is left out.
 inline float3 gather_scale(const global Vpl* vpl) {
     const float3 power = load3(vpl->power);

@@ -34,11 +34,11 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
     return count > 0 ? sum * (M_1_PI_F * step) : sum;
 }
 
-/// One-path estimate of the irradiance at x (unit normal n, off its surface) from light that took at most `bounce_count`
-/// steps from its source, the one to x included. As everywhere beyond the receiver, surfaces are Lambertian and no term is
-/// bounded: VPLs bring what a geometry term bounded at the radius lets through, and the remainder, (1 − t²/radius²) of
-/// what a cosine-distributed ray meets nearer than that, is the light of a next vertex, made in the same way. Hardly a
-/// path is longer than a step; without VPLs and with a radius beyond the scene it is a plain path.
+/// One-path estimate of the irradiance at x (unit normal n, off its surface) from light that took at most
+/// `bounce_count` steps from its source, the one to x included: direct light at x, VPLs for farther surfaces, and short
+/// rays for near ones. As everywhere beyond the receiver, surfaces are Lambertian. The VPLs bring what a geometry term
+/// bounded at the radius lets through, and the remainder, (1 − t²/radius²) of what a cosine-distributed ray meets nearer
+/// than that, is the light of a next vertex, made in the same way. Hardly a path is longer than a step.
 inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n,
                                     uint bounce_count, uint direct_samples, uint seed) {
     float3 irradiance = (float3)(0.0f);

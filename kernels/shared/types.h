@@ -175,13 +175,14 @@ typedef struct PinholeCamera {
 /// with radiant intensity power/π · cosθ. The position stands off its surface by the ray epsilon.
 typedef struct Vpl {
     Vec3 position;
-    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …
+    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …; 0: by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;
     float pad0;
 } Vpl;
-#define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+#define NEARLIGHT_VPL_CLOSE 1u    // lies in the close range
+#define NEARLIGHT_VPL_SQUARED 2u  // a gather sums the squares of its geometry terms (importons, pilot_view.h)
 
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {

@@ -30,6 +30,11 @@ TEST(ProgressBar, NoGuessAtTheBeginning) {
     EXPECT_EQ(progress_line("tracing", 0.5, 0.01), "tracing  50 %  [############............]");
 }
 
+TEST(ProgressBar, TakesTheCallersWordForTheTimeLeft) {
+    EXPECT_EQ(progress_line("cells", 0.5, 0.01, 61.0), "cells  50 %  [############............]  1:01 left");
+    EXPECT_EQ(progress_line("cells", 0.0, 0.0, 3.0), "cells   0 %  [........................]  0:03 left");
+}
+
 TEST(ProgressBar, OddFractionsAreBounded) {
     EXPECT_EQ(progress_line("a", 7.0, 0.0), progress_line("a", 1.0, 0.0));
     EXPECT_EQ(progress_line("a", -7.0, 0.0), progress_line("a", 0.0, 0.0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,84 @@ TEST_F(Reference, PixelCentersAreTold) {
     const nlohmann::json json = nlohmann::json::parse(result.output);
     EXPECT_EQ(json["pixel_centers"], true);
     EXPECT_EQ(json["indirect_only"], false);
+}
+
+TEST_F(Reference, ResumingRefinesWhatIsThere) {
+    const std::string options = "reference --json --seed 3 --max-depth 0 " + files();
+    ASSERT_EQ(run_program(options + " --spp 16").exit_code, 0);
+    const ProgramResult result = run_program(options + " --spp 24 --resume");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["samples_before"], 16);
+    EXPECT_EQ(json["samples_per_pixel"], 24);
+    const Image refined = read_image(output_);
+    EXPECT_EQ(std::get<int>(read_metadata(output_).at("nearlight:samplesPerPixel")), 24);
+
+    // Where there is nothing yet, all is done at once, and comes to the same.
+    std::filesystem::remove(output_);
+    ASSERT_EQ(run_program(options + " --spp 24 --resume").exit_code, 0);
+    const Image whole = read_image(output_);
+    ASSERT_EQ(refined.channels, whole.channels);
+    for (std::size_t i = 0; i < whole.values.size(); ++i) {
+        ASSERT_NEAR(refined.values[i], whole.values[i], 2e-6f * std::abs(whole.values[i]) + 1e-9f)
+            << whole.channels[i % whole.channel_count()];
+    }
+    const ProgramResult enough = run_program(options + " --spp 8 --resume");
+    EXPECT_EQ(nlohmann::json::parse(enough.output)["samples_per_pixel"], 24);
+}
+
+TEST_F(Reference, ResumingKeepsItsBatches) {
+    ASSERT_EQ(run_program("reference --spp 16 " + files()).exit_code, 0);
+    ASSERT_EQ(run_program("reference --spp 33 --resume " + files()).exit_code, 0);  // alone: batches of 4
+    const Metadata metadata = read_metadata(output_);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:samplesPerBatch")), 1);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:samplesPerPixel")), 33);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:pixelCenters")), 0);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:indirectOnly")), 0);
+}
+
+TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
+    ASSERT_EQ(run_program("reference --spp 4 " + files()).exit_code, 0);
+    const std::string before = file_text(output_);
+    const auto expect_refused = [&](const std::string& options, const std::string& named) {
+        const ProgramResult result = run_program("reference --resume --spp 8 " + options + " " + files());
+        EXPECT_EQ(result.exit_code, 3) << options;
+        EXPECT_NE(result.errors.find(named), std::string::npos) << result.errors;
+    };
+    expect_refused("--clamp-radius 0.5", "nearlight:clampRadius is 0, not 0.5");
+    expect_refused("--max-depth 7", "nearlight:maxDepth is 2, not 7");
+    expect_refused("--indirect-only", "nearlight:indirectOnly");
+    expect_refused("--pixel-centers", "nearlight:pixelCenters");
+    expect_refused("--seed 9", "nearlight:seed");
+    expect_refused("--size 4x3", "8x6 pixels, not 4x3");
+    EXPECT_EQ(file_text(output_), before);
+    std::ofstream(scene_, std::ios::app) << "\n";
+    EXPECT_EQ(run_program("reference --resume --spp 4 " + files()).exit_code, 0)
+        << "the same scene in other letters";
+    std::string other = kLitFloor;
+    other.replace(other.find("0.125"), 5, "0.126");
+    std::ofstream(scene_) << other;
+    expect_refused("", "nearlight:sceneHash");
+    EXPECT_EQ(
+        run_program("reference --resume " + quoted(scene_) + " -o " + quoted(folder_ / "a.png")).exit_code,
+        2);
+}
+
+TEST_F(Reference, AnInterruptedOneGoesOn) {
+    const std::string line = std::string("timeout --preserve-status --signal=INT 1.5 ") + NEARLIGHT_PROGRAM +
+                             " reference --quiet --spp 16777216 " + files();
+    ASSERT_EQ(WEXITSTATUS(std::system(line.c_str())), 130);
+    Metadata metadata = read_metadata(output_);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:complete")), 0);
+    const Image part = read_image(output_);
+    const int samples =
+        static_cast<int>(part.at(7, 5, static_cast<std::size_t>(part.find_channel("count.X"))));
+    ASSERT_GT(samples, 0);
+    ASSERT_EQ(
+        run_program("reference --resume --spp " + std::to_string(samples + 64) + " " + files()).exit_code, 0);
+    metadata = read_metadata(output_);
+    EXPECT_EQ(std::get<int>(metadata.at("nearlight:complete")), 1);
+    EXPECT_GE(std::get<int>(metadata.at("nearlight:samplesPerPixel")), samples + 64);
 }
 
 TEST_F(Reference, AnUnwritableOutputFailsBeforeTheWork) {

@@ -117,6 +117,13 @@ TEST(ImageIo, ExrKeepsMetadata) {
     const auto* stored = spec.find_attribute("worldToCamera", OIIO::TypeMatrix44);
     ASSERT_NE(stored, nullptr);
     EXPECT_TRUE(std::equal(matrix.begin(), matrix.end(), static_cast<const float*>(stored->data())));
+
+    const Metadata read = read_metadata(folder / "a.exr");
+    for (const char* name : {"nearlight:vpls", "nearlight:clampRadius", "nearlight:sampler", "renderTimeSeconds"}) {
+        EXPECT_EQ(read.at(name), options.metadata.at(name)) << name;
+    }
+    EXPECT_FALSE(read.contains("worldToCamera"));
+    error_of(ExitCode::file, [&] { read_metadata(folder / "b.exr"); });
 }
 
 TEST(ImageIo, PngIsExposedAndSrgbEncoded) {

@@ -79,49 +79,20 @@ TEST_F(Agreement, InstantRadiosityUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::instant_radiosity, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionWithPointLight) {
+TEST_F(Agreement, CompleteWithPointLight) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_point_light(), SamplerKind::close_range, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionWithAreaLight) {
+TEST_F(Agreement, CompleteWithAreaLight) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_area_light(), SamplerKind::close_range, kClampRadius);
     });
 }
-TEST_F(Agreement, PartitionUnderSky) {
+TEST_F(Agreement, CompleteUnderSky) {
     on_each_device([](Device& d) {
         test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
-}
-TEST_F(Agreement, BidirectionalWithPointLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_point_light(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, BidirectionalWithAreaLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_area_light(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, BidirectionalUnderSky) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_window(), SamplerKind::bidirectional, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalWithPointLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_point_light(), SamplerKind::local, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalWithAreaLight) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, room_with_area_light(), SamplerKind::local, kClampRadius);
-    });
-}
-TEST_F(Agreement, LocalUnderSky) {
-    on_each_device(
-        [](Device& d) { test::expect_agreement(d, room_with_window(), SamplerKind::local, kClampRadius); });
 }
 /// No VPL sampler but this one has a picture without any bound.
 TEST_F(Agreement, LocalWithoutClamp) {

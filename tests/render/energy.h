@@ -1,71 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// Power of VPL sets by region and depth over several seeds, and whether two samplers agree on it.
+// Light in VPL sets by region and depth, against the path tracer.
+//
+// A set of VPLs can be photographed: what a VPL of reflected power Φ at y adds to the pixel that shows y is
+// Φ/π times the pixels that a square metre at y covers, seen from there. In expectation that is the radiance
+// of light of just the VPL's depth, summed over pixels: the difference of two path-traced pictures whose
+// longest path differs by one. Nothing is gathered, so the sets are tested by themselves; pixels are told
+// apart by whether what they show is in the close range.
 #pragma once
 
-#include <cmath>
 #include <map>
-#include <utility>
+#include <string>
+#include <tuple>
 #include <vector>
 
-#include "host/base/math.h"
+#include "host/reference/embree_scene.h"
+#include "host/scene/scene.h"
+#include "tests/render/convergence.h"
 
 namespace nearlight::test {
 
-/// Inside the close range or not, and depth.
-using EnergyClass = std::pair<bool, uint>;
-/// Power (luminance, W) of each class, one entry a seed.
-using Energies = std::map<EnergyClass, std::vector<double>>;
-
-inline bool in_region(const CloseRange& region, Vec3 p) {
-    for (const auto& plane : region.planes) {
-        if (plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] < 0.0f) {
-            return false;
-        }
-    }
-    return length(p - region.origin) < region.range;
-}
-
-/// Adds what one seed's set carries, in all classes up to `depths`.
-inline void add_energies(Energies& energies, const std::vector<Vpl>& vpls, const CloseRange& region,
-                         uint depths) {
-    std::map<EnergyClass, double> sums;
-    for (uint depth = 1; depth <= depths; ++depth) {
-        sums[{false, depth}] = sums[{true, depth}] = 0.0;
-    }
-    for (const Vpl& vpl : vpls) {
-        sums.at({in_region(region, vpl.position), vpl.depth}) += luminance(vpl.power);
-    }
-    for (const auto& [key, sum] : sums) {
-        energies[key].push_back(sum);
-    }
-}
-
-struct Spread {
-    double mean = 0;
-    double error = 0;  ///< standard error of the mean
+struct EnergyClass {
+    std::size_t camera = 0;
+    bool inside = false;  ///< the close range
+    uint depth = 1;       ///< of VPLs
+    auto operator<=>(const EnergyClass&) const = default;
 };
-inline Spread spread_of(const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    double sum = 0;
-    for (const double value : values) {
-        sum += value;
-    }
-    const double mean = sum / n;
-    double squares = 0;
-    for (const double value : values) {
-        squares += (value - mean) * (value - mean);
-    }
-    return {mean, std::sqrt(squares / (n * (n - 1)))};
-}
+std::string to_string(const EnergyClass& energy_class);
 
-/// Difference of the means in standard errors; of two exact values that differ by more than rounding,
-/// infinity.
-inline double deviation(const std::vector<double>& a, const std::vector<double>& b) {
-    const Spread first = spread_of(a);
-    const Spread second = spread_of(b);
-    const double rounding = 1e-5 * std::max(std::abs(first.mean), std::abs(second.mean));
-    const double gap = std::max(0.0, std::abs(first.mean - second.mean) - rounding);
-    return gap > 0.0 ? gap / std::hypot(first.error, second.error) : 0.0;
-}
+/// Luminance summed over the pixels of a class.
+struct Expected {
+    double mean = 0;
+    double error = 0;  ///< standard error
+};
+
+/// Photographs VPL sets of one scene with several cameras.
+class Photographer {
+  public:
+    /// Cameras have their pictures' sizes; depths from 1 to `depths`. The scene must be diffuse and without
+    /// lamps that can be seen.
+    Photographer(const Scene& scene, std::vector<SceneCamera> cameras, const CloseRange& region, uint depths);
+
+    /// Classes that have a fair number of pixels, and what path tracing says of them.
+    [[nodiscard]] const std::map<EnergyClass, Expected>& truth() const { return truth_; }
+    /// The same of a VPL set.
+    [[nodiscard]] std::map<EnergyClass, double> photograph(const std::vector<Vpl>& vpls) const;
+
+  private:
+    struct Film {
+        SceneCamera camera;
+        Mat4 to_camera;
+        std::vector<bool> inside;  ///< per pixel
+    };
+    void expose(std::size_t camera, const Vpl& vpl, std::map<EnergyClass, double>& sums) const;
+    void trace_truth(const Scene& scene, std::size_t camera, const CloseRange& region);
+
+    EmbreeScene embree_;
+    std::vector<Film> films_;
+    std::map<EnergyClass, Expected> truth_;
+    uint depths_;
+};
+
+bool in_region(const CloseRange& region, Vec3 p);
+
+/// Whether photographs of several seeds' sets have the expectation that path tracing shows, in each class;
+/// the least likely class decides, with a false alarm in 1 / kFalseAlarm verdicts.
+Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photographs,
+                       const std::map<EnergyClass, Expected>& truth);
 
 }  // namespace nearlight::test

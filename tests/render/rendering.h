@@ -2,6 +2,8 @@
 // Rendering into an Image, for tests.
 #pragma once
 
+#include <vector>
+
 #include "host/image/image.h"
 #include "host/render/renderer.h"
 #include "host/stages/film.h"
@@ -26,10 +28,19 @@ inline Rendering render_image(Renderer& renderer, const RenderSettings& settings
         [](const std::string&, double) { return true; });
     return rendering;
 }
-
 inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
     Renderer renderer(device, scene, settings.gather_kernel);
     return render_image(renderer, settings);
+}
+
+/// Pictures with seeds first, first + 1, …
+inline std::vector<Image> render_seeds(Renderer& renderer, RenderSettings settings, uint first, uint count) {
+    std::vector<Image> images;
+    for (uint i = 0; i < count; ++i) {
+        settings.seed = first + i;
+        images.push_back(render_image(renderer, settings).image);
+    }
+    return images;
 }
 
 }  // namespace nearlight::test

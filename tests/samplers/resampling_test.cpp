@@ -21,25 +21,29 @@ std::vector<float> random_weights(std::size_t count) {
 }
 
 TEST(Resampling, KeepsTheExpectationOfAnySum) {
-    const std::vector<float> weights = random_weights(200);
-    constexpr std::size_t kWanted = 30;
+    std::vector<float> weights = random_weights(200);
+    weights[17] = 40;  // chosen for certain
     constexpr int kShifts = 4000;  // equidistant shifts integrate the piecewise constant choice almost exactly
-    std::vector<double> mean_factor(weights.size());
-    for (int k = 0; k < kShifts; ++k) {
-        const Choice choice = resample(weights, kWanted, (k + 0.5) / kShifts);
-        for (std::size_t i = 0; i < choice.indices.size(); ++i) {
-            mean_factor[choice.indices[i]] += choice.factors[i] / double{kShifts};
+    for (const std::size_t wanted : {1, 30, 150}) {
+        std::vector<double> mean_factor(weights.size());
+        std::vector<int> chosen(weights.size());
+        for (int k = 0; k < kShifts; ++k) {
+            const Choice choice = resample(weights, wanted, (k + 0.5) / kShifts);
+            EXPECT_NEAR(double(choice.indices.size()), double(wanted), 1);
+            for (std::size_t i = 0; i < choice.indices.size(); ++i) {
+                mean_factor[choice.indices[i]] += choice.factors[i] / double{kShifts};
+                ++chosen[choice.indices[i]];
+            }
         }
-    }
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double expected_count = kWanted * weights[i] / total;
-        // One shift more or less changes the mean by 1 / (shifts · expected count).
-        EXPECT_NEAR(mean_factor[i], 1.0, 2.0 / (kShifts * expected_count)) << i;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            // One shift more or less changes the mean by the factor over the number of shifts.
+            const double factor = chosen[i] > 0 ? mean_factor[i] * kShifts / chosen[i] : kShifts;
+            EXPECT_NEAR(mean_factor[i], 1.0, 2.0 * factor / kShifts) << i << " of " << wanted;
+        }
     }
 }
 
-TEST(Resampling, ChoosesAsManyAsWantedAndMergesRepeats) {
+TEST(Resampling, ChoosesAsManyAsWanted) {
     const std::vector<float> even(1000, 0.25f);
     for (const double shift : {0.0, 0.3, 0.999}) {
         const Choice choice = resample(even, 100, shift);
@@ -48,10 +52,22 @@ TEST(Resampling, ChoosesAsManyAsWantedAndMergesRepeats) {
             EXPECT_FLOAT_EQ(factor, 10.0f);
         }
     }
-    const std::vector<float> uneven{1, 98, 1};
-    const Choice choice = resample(uneven, 100, 0.5);
-    ASSERT_EQ(choice.indices.size(), 3u);
-    EXPECT_NEAR(choice.factors[1], 1.0f, 0.02f);
+}
+
+TEST(Resampling, TakesTheHeaviestForCertainAndAllWhereThereAreFew) {
+    const std::vector<float> uneven{1, 98, 1, 1, 1};
+    for (const double shift : {0.0, 0.4, 0.9}) {
+        const Choice choice = resample(uneven, 2, shift);
+        ASSERT_EQ(choice.indices.size(), 2u);
+        const std::size_t heavy = choice.indices[0] == 1 ? 0 : 1;
+        EXPECT_EQ(choice.indices[heavy], 1u);
+        EXPECT_EQ(choice.factors[heavy], 1.0f);
+        EXPECT_FLOAT_EQ(choice.factors[1 - heavy], 4.0f);
+    }
+    const Choice all = resample(uneven, 5, 0.7);
+    EXPECT_EQ(all.indices, (std::vector<uint>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(all.factors, std::vector<float>(5, 1.0f));
+    EXPECT_EQ(resample(uneven, 100, 0.7).indices.size(), 5u);
 }
 
 TEST(Resampling, NeverChoosesWhatHasNoWeight) {
@@ -74,7 +90,7 @@ TEST(Resampling, ScalesThePowerOfTheChosen) {
         candidates[i].power = {float(i), 2.0f * float(i), 1};
         candidates[i].depth = i;
     }
-    const std::vector<Vpl> chosen = apply({.indices = {1, 3}, .factors = {2, 0.5f}}, candidates);
+    const std::vector<Vpl> chosen = take({.indices = {1, 3}, .factors = {2, 0.5f}}, candidates);
     ASSERT_EQ(chosen.size(), 2u);
     EXPECT_EQ(chosen[0].depth, 1u);
     EXPECT_EQ(chosen[0].power.y, 4.0f);

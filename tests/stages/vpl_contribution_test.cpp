@@ -27,9 +27,9 @@ std::vector<CameraVertex> random_vertices(std::size_t count) {
     return vertices;
 }
 
-/// The column sum by a plain loop, with the host's own rays.
+/// The column sum, or the root of the sum of squares, by a plain loop with the host's own rays.
 double expected_contribution(const test::GatherCase& data, const std::vector<CameraVertex>& vertices,
-                             const Vpl& vpl) {
+                             const Vpl& vpl, ContributionNorm norm) {
     double sum = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const test::Point receiver =
@@ -37,36 +37,47 @@ double expected_contribution(const test::GatherCase& data, const std::vector<Cam
         const double term = test::pair_term(vpl, receiver, data.clamp_radius).value;
         if (term > 0 &&
             !occluded(data.bvh, vpl.position, receiver.position - vpl.position, 1e-5f, 1.0f - 1e-5f)) {
-            sum += term * luminance(vertices[i].throughput * vertices[i].albedo * vpl.power) / (M_PI * M_PI);
+            const Vec3 color = vertices[i].throughput * vertices[i].albedo * vpl.power;
+            const double scale = term / (M_PI * M_PI);
+            sum +=
+                norm == ContributionNorm::mean ? luminance(color) * scale : dot(color, color) * scale * scale;
         }
     }
-    return sum;
+    return norm == ContributionNorm::mean ? sum : std::sqrt(sum);
 }
 
-TEST_F(VplContributionTest, IsTheColumnSumOfAPlainLoop) {
+/// What the stage finds; one more slot than VPLs, −1.
+std::vector<float> found_contributions(Device& device, const test::GatherCase& data,
+                                       const std::vector<CameraVertex>& vertices, ContributionNorm norm) {
+    const test::SceneOnDevice on_device(device, data.scene);
+    Buffer<float> contribution(device, std::vector<float>(data.vpls.size(), -1.0f));
+    PilotView view;
+    set_importons(device, view, make_importons(data.receivers, vertices));
+    Gatherer gatherer(device);
+    VplContribution(device, gatherer)
+        .run(on_device.buffers, Buffer<Vpl>(device, data.vpls), data.vpls.size() - 1, view, data.clamp_radius,
+             contribution, norm);
+    return contribution.download();
+}
+
+TEST_F(VplContributionTest, IsTheColumnNormOfAPlainLoop) {
+    // Few enough receivers for all of them to be among the squared importons.
     test::GatherCase data = test::room_of_boxes(30, 70, 4, 2);
     data.scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
     const std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
     on_each_device([&](Device& device) {
-        const test::SceneOnDevice on_device(device, data.scene);
-        Buffer<float> contribution(device, std::vector<float>(data.vpls.size(), -1.0f));
-        const std::size_t vpl_count = data.vpls.size() - 1;
-        const std::vector<Vpl> importons = make_importons(data.receivers, vertices);
-        PilotView view;
-        view.importons = Buffer<Vpl>(device, std::span(importons));
-        view.importon_count = importons.size();
-        Gatherer gatherer(device);
-        VplContribution(device, gatherer)
-            .run(on_device.buffers, Buffer<Vpl>(device, data.vpls), vpl_count, view, data.clamp_radius, contribution);
-        const std::vector<float> found = contribution.download();
-        uint seen = 0;
-        for (std::size_t v = 0; v < vpl_count; ++v) {
-            const double expected = expected_contribution(data, vertices, data.vpls[v]);
-            seen += expected > 0.0 ? 1 : 0;
-            EXPECT_NEAR(found[v], expected, 1e-4 * expected) << "VPL " << v;
+        for (const ContributionNorm norm : {ContributionNorm::mean, ContributionNorm::mean_square}) {
+            const std::vector<float> found = found_contributions(device, data, vertices, norm);
+            const std::size_t vpl_count = data.vpls.size() - 1;
+            uint seen = 0;
+            for (std::size_t v = 0; v < vpl_count; ++v) {
+                const double expected = expected_contribution(data, vertices, data.vpls[v], norm);
+                seen += expected > 0.0 ? 1 : 0;
+                EXPECT_NEAR(found[v], expected, 1e-4 * expected) << "VPL " << v;
+            }
+            EXPECT_GT(seen, vpl_count / 2);
+            EXPECT_EQ(found[vpl_count], -1.0f) << "written beyond the last VPL";
         }
-        EXPECT_GT(seen, vpl_count / 2);
-        EXPECT_EQ(found[vpl_count], -1.0f) << "written beyond the last VPL";
     });
 }
 

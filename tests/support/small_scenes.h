@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "host/image/image.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_loader.h"
 
 namespace nearlight::small_scenes {
 
@@ -93,6 +96,76 @@ inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<do
                        std::array<double, 3> up = {0, 1, 0}) {
     scene.camera.to_world = look_at(origin, target, up);
     scene.camera.fov_x_degrees = fov;
+}
+
+/// A floor of two triangles, 40 × 40, which is a checkerboard of cells of 0.5; on it a wall and a block,
+/// under a point light. The camera sees a few square metres of it, so any close range cuts through both
+/// triangles.
+inline Scene checkered_plain() {
+    Scene scene;
+    SceneTexture checkerboard;
+    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
+    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
+    checkerboard.parameters.color0 = {0.8f, 0.7f, 0.6f};
+    checkerboard.parameters.color1 = {0.1f, 0.15f, 0.3f};
+    scene.textures.push_back(checkerboard);
+    Material tiles = lambertian({1, 1, 1});
+    tiles.base_texture = 0;
+    add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
+    for (Vertex& vertex : scene.vertices) {
+        vertex.u = vertex.position.x;  // a period of the pattern is two cells
+        vertex.v = vertex.position.z;
+    }
+    const uint plaster = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    const uint brick = add_material(scene, lambertian({0.6f, 0.25f, 0.15f}));
+    add_quad(scene, {-2, 0, 2}, {0, 1.5f, 0}, {4, 0, 0}, plaster);  // the wall, facing the camera
+    add_quad(scene, {0.3f, 0, 0.6f}, {0, 0.6f, 0}, {0.6f, 0, 0.2f}, brick);
+    add_quad(scene, {0.3f, 0, 0.6f}, {-0.2f, 0, 0.6f}, {0, 0.6f, 0}, brick);
+    add_quad(scene, {0.3f, 0.6f, 0.6f}, {-0.2f, 0, 0.6f}, {0.6f, 0, 0.2f}, brick);
+    add_point_light(scene, {-0.8f, 1.8f, -0.2f}, {4, 4, 4});
+    set_camera(scene, {0, 1.2, -1.5}, {0, 0.3, 1.2}, 60);
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+
+/// A court of 2 × 2 between walls of different colours, open above to a sky that is brighter on one side.
+inline Scene court_under_sky() {
+    Scene scene;
+    const uint white = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    const uint red = add_material(scene, lambertian({0.6f, 0.1f, 0.1f}));
+    const uint green = add_material(scene, lambertian({0.1f, 0.5f, 0.1f}));
+    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);  // floor
+    add_quad(scene, {-1, -1, 1}, {0, 1.6f, 0}, {2, 0, 0}, white);
+    add_quad(scene, {-1, -1, -1}, {0, 1.6f, 0}, {0, 0, 2}, red);
+    add_quad(scene, {1, -1, -1}, {0, 0, 2}, {0, 1.6f, 0}, green);
+    add_quad(scene, {-0.3f, -0.3f, 0.1f}, {0, 0, 0.5f}, {0.6f, 0, 0.1f}, white);  // a block's top and front
+    add_quad(scene, {-0.3f, -1, 0.1f}, {0, 0.7f, 0}, {0.6f, 0, 0.1f}, white);
+    scene.environment = {.width = 2,
+                         .height = 2,
+                         .radiance = {{2, 2, 2}, {0.5f, 0.5f, 1}, {0.1f, 0.1f, 0.1f}, {0, 0, 0}},
+                         .to_world = {}};
+    set_camera(scene, {0.1, 0.3, -1.4}, {0, -0.4, 1}, 70);
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+
+/// Views that were chosen against close-range sampling, from scenes/: see the READMEs there.
+inline Scene hard_view(const std::string& name) {
+    Scene scene = load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes" / name / "scene.xml");
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+/// An empty wall, the lamp and furniture behind the camera.
+inline Scene wall_view() {
+    return hard_view("wall");
+}
+/// A room in one view.
+inline Scene whole_room_view() {
+    return hard_view("whole-room");
+}
+/// A room that is lit through a door.
+inline Scene next_room_view() {
+    return hard_view("next-room");
 }
 
 /// Mean of a channel over the picture.

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/compare_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "host/base/log.h"
+#include "host/cli/device_options.h"
+#include "host/cli/interrupt.h"
+#include "host/cli/output.h"
+#include "host/cli/progress_bar.h"
+#include "host/cli/scene_options.h"
+#include "host/compare/comparison.h"
+#include "host/compare/report.h"
+#include "host/image/image_io.h"
+
+namespace nearlight {
+namespace {
+
+struct CompareOptions {
+    std::vector<std::filesystem::path> scenes;
+    SceneOptions scene;  ///< what holds for all of them
+    DeviceChoice device;
+    ImageSize size;
+    std::optional<std::string> samplers;  ///< empty: all
+    std::optional<std::string> vpls;
+    std::optional<std::string> baseline;
+    std::vector<std::string> crops;
+    CompareSettings settings;
+};
+
+/// The lists as they were typed become settings; everything is checked.
+CompareSettings settled(const CompareOptions& options) {
+    CompareSettings settings = options.settings;
+    settings.program_version = NEARLIGHT_VERSION;
+    if (options.size.width > 0) {
+        settings.width = options.size.width;
+        settings.height = options.size.height;
+    }
+    if (options.samplers) {
+        settings.methods = parse_methods(*options.samplers);
+    }
+    if (options.vpls) {
+        settings.vpl_counts = parse_vpl_counts(*options.vpls);
+    }
+    for (const std::string& crop : options.crops) {
+        settings.crops.push_back(parse_crop(crop));
+    }
+    if (options.baseline) {
+        settings.baseline = parse_method(*options.baseline);
+    } else if (std::ranges::find(settings.methods, settings.baseline) == settings.methods.end()) {
+        settings.baseline = settings.methods.front();
+    }
+    check_settings(settings);
+    return settings;
+}
+
+void refuse_twin_scenes(const std::vector<std::filesystem::path>& files) {
+    for (auto file = files.begin(); file != files.end(); ++file) {
+        if (std::find(files.begin(), file, *file) != file) {
+            throw Error(ExitCode::usage, "scene '" + file->string() + "' is given twice; give it once");
+        }
+    }
+}
+
+std::vector<Scene> load_scenes(const CompareOptions& options) {
+    std::vector<Scene> scenes;
+    for (const std::filesystem::path& file : options.scenes) {
+        SceneOptions scene = options.scene;
+        scene.file = file;
+        scenes.push_back(load_scene(scene));
+    }
+    return scenes;
+}
+
+/// Wrong files are found before any work is done for them.
+void check_files(const CompareSettings& settings) {
+    for (const std::filesystem::path& file : settings.reference_files) {
+        read_metadata(file);
+    }
+    std::error_code ignored;
+    if (std::filesystem::exists(settings.output, ignored) &&
+        !std::filesystem::is_directory(settings.output, ignored)) {
+        throw Error(ExitCode::file, "-o '" + settings.output.string() + "' is a file; name a folder");
+    }
+}
+
+void tell(const Comparison& comparison, const CompareSettings& settings) {
+    spdlog::info("{} cells measured, {} found in {}", comparison.measured_cells, comparison.reused_cells,
+                 settings.output.string());
+    spdlog::info("wrote {}", (settings.output / "report.html").string());
+}
+
+std::string with_interval(const RmseEstimate& rmse) {
+    return fmt::format("{:.3g}", rmse.value) +
+           (std::isfinite(rmse.half_width) ? fmt::format(" ± {:.2g}", rmse.half_width) : "");
+}
+
+/// For those who look at the terminal only.
+std::string to_table(const Comparison& comparison) {
+    std::string text;
+    for (const SceneComparison& scene : comparison.scenes) {
+        text += fmt::format("{}\n{:<26} {:>8} {:>9} {:>9} {:>22} {:>10} {:>8} {:>8} {:>10} {:>10}\n",
+                            scene.facts.name, "sampler", "VPLs", "gathered", "sparse", "RMSE", "÷ baseline",
+                            "mean", "FLIP", "generate s", "gather s");
+        for (const EqualVplsRow& row : scene.equal_vpls) {
+            text += fmt::format(
+                "{:<26} {:>8} {:>9.0f} {:>9.0f} {:>22} {:>10.2f} {:>8.4f} {:>8.4f} {:>10.3f} {:>10.3f}\n",
+                to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls, with_interval(row.rmse),
+                row.rmse_ratio, row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
+        }
+    }
+    return text;
+}
+
+ExitCode run_compare(const CompareOptions& options, const GlobalOptions& global) {
+    const CompareSettings settings = settled(options);
+    refuse_twin_scenes(options.scenes);
+    check_files(settings);
+    const std::vector<Scene> scenes = load_scenes(options);
+    const auto device = open_device(options.device);
+
+    catch_interrupts();
+    ProgressBar bar("comparing", global);
+    const CompareObserver observer{
+        .begin = [&](const std::string& step) { bar.start(step); },
+        .advance = [&](double fraction, std::optional<double> left) { bar.update(fraction, left); },
+        .stopped = interrupted};
+    const std::optional<Comparison> comparison = compare(*device, scenes, settings, observer);
+    bar.clear();
+    if (!comparison) {
+        spdlog::warn("interrupted; what was measured is kept in {}: the same command goes on from there",
+                     settings.output.string());
+        return ExitCode::interrupted;
+    }
+    const std::string json = write_report(*comparison, settings);
+    if (global.json) {
+        print(json + "\n");
+    } else if (!global.quiet) {
+        print(to_table(*comparison));
+    }
+    tell(*comparison, settings);
+    return ExitCode::done;
+}
+
+void add_what_options(CLI::App& command, CompareOptions& options) {
+    CompareSettings& settings = options.settings;
+    std::string names;
+    for (const Method& method : all_methods()) {
+        names += (names.empty() ? "" : ", ") + to_string(method);
+    }
+    command
+        .add_option("--samplers", options.samplers,
+                    "Samplers to compare, comma-separated (default: all): " + names)
+        ->type_name("LIST");
+    command
+        .add_option("--baseline", options.baseline,
+                    "Ratios are a sampler's ÷ this one's (default: " + to_string(default_method()) + ")")
+        ->type_name("NAME");
+    command.add_option("--vpls", options.vpls, "Counts of VPLs, comma-separated")
+        ->type_name("LIST")
+        ->default_str("1000,2000,5000,10000");
+    command.add_option("--seeds", settings.seed_count, "Seeds; more make confidence intervals narrower")
+        ->check(CLI::Range(1u, 10'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--first-seed", settings.first_seed, "The first of them")
+        ->check(CLI::Range(0u, 1'000'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--crop", options.crops,
+                    "Part of the picture to look at closely; may be given several times (default: where it "
+                    "is hardest)")
+        ->type_name("X,Y,W,H")
+        ->allow_extra_args(false);
+}
+
+void add_light_options(CLI::App& command, CompareSettings& settings) {
+    command.add_option("--spp", settings.samples_per_pixel, "Camera samples a pixel; 1 is at its centre")
+        ->check(CLI::Range(1u, 65536u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--clamp-radius", settings.clamp_radius,
+                    "The same for all samplers and the reference, scene units")
+        ->check(CLI::Range(0.0f, 1e9f))
+        ->type_name("R");
+    command
+        .add_option("--clamp-fraction", settings.clamp_fraction,
+                    "Clamp radius as a part of the range (default: 0.025)")
+        ->check(CLI::Range(0.0f, 10.0f))
+        ->type_name("F");
+    command
+        .add_option(
+            "--range", settings.range,
+            "How far from the camera the close range reaches, scene units (default: as `render` does)")
+        ->check(CLI::Range(1e-6f, 1e9f))
+        ->type_name("R");
+    command
+        .add_option("--max-depth", settings.max_depth,
+                    "Longest light path as Mitsuba counts (default: the scene's, or 8)")
+        ->check(CLI::Range(1u, 1024u))
+        ->type_name("N");
+}
+
+void add_reference_options(CLI::App& command, CompareSettings& settings) {
+    command
+        .add_option("--reference-spp", settings.reference_spp,
+                    "Samples a pixel of the path-traced reference, rounded up to a multiple of 16")
+        ->check(CLI::Range(8, 1 << 24))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--reference-vpls", settings.reference_vpls,
+            "Take instant radiosity with so many VPLs as reference, as the paper does, at least 200000")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31u))
+        ->type_name("N");
+    command
+        .add_option("--reference", settings.reference_files,
+                    "Reference made by `nearlight reference`; may be given several times, one a scene")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--reference-dir", settings.reference_folder,
+                    "Keep references here (default: DIR/references)")
+        ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_compare_command(CommandLine& line) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App& command = line.add_command(
+        "compare", "Compare VPL samplers on scenes: tables, plots and pictures in one report",
+        [options](const GlobalOptions& global) { return run_compare(*options, global); });
+    command.add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
+        ->required();
+    add_shared_scene_options(command, options->scene);
+    command
+        .add_option("-o,--output", options->settings.output,
+                    "Folder for the report; what is measured is kept there")
+        ->type_name("DIR")
+        ->required();
+    add_what_options(command, *options);
+    add_size_option(command, options->size)->default_str("320x240");
+    add_light_options(command, options->settings);
+    add_reference_options(command, options->settings);
+    add_device_options(command, options->device);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The smallest piece of a comparison: one picture, measured.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host/compare/method.h"
+#include "host/compare/picture_error.h"
+#include "host/compare/settings.h"
+
+namespace nearlight {
+
+struct CellId {
+    Method method;
+    uint vpls = 0;  ///< asked for
+    uint seed = 0;
+
+    bool operator==(const CellId&) const = default;
+};
+
+struct Cell {
+    CellId id;
+    std::size_t close_vpls = 0;  ///< gathered, as are the distant ones
+    std::size_t distant_vpls = 0;
+    std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
+    PictureError error{};
+    double generate_seconds = 0;  ///< view, pilots and VPLs
+    double gather_seconds = 0;    ///< camera pass, gather, film
+    std::string image_hash{};     ///< of the picture's bits
+
+    [[nodiscard]] std::size_t gathered_vpls() const { return close_vpls + distant_vpls; }
+    [[nodiscard]] double seconds() const { return generate_seconds + gather_seconds; }
+};
+
+/// All cells of a scene in the order in which they are measured: seed by seed, so that a slow spell of the
+/// machine hits all methods alike and an early stop leaves whole seeds.
+std::vector<CellId> cells_of(const CompareSettings& settings);
+
+}  // namespace nearlight

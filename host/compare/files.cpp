@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/files.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "host/base/error.h"
+
+namespace nearlight {
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder)) {
+        throw Error(ExitCode::file, "cannot make the folder '" + folder.string() + "': " +
+                                        (error ? error.message() : "a file of that name is in the way"));
+    }
+}
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+    const std::filesystem::path temporary = file.string() + ".partial-" + std::to_string(getpid());
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.close();
+    std::error_code error;
+    if (stream) {
+        std::filesystem::rename(temporary, file, error);
+    }
+    if (!stream || error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw Error(ExitCode::file,
+                    "cannot write '" + file.string() + "'; is the disk full, or the folder read-only?");
+    }
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) {
+        throw Error(ExitCode::file, "cannot read '" + file.string() + "'");
+    }
+    return bytes;
+}
+
+std::string exact_text(double value) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%a", value);
+    return text.data();
+}
+
+}  // namespace nearlight

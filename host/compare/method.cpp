@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "host/render/settings.h"
+
+namespace nearlight {
+
+std::string to_string(const Method& method) {
+    const std::string sampler = to_string(method.sampler);
+    return method.policy ? fmt::format("{}:{}", sampler, to_string(*method.policy)) : sampler;
+}
+
+std::string file_stem(const Method& method) {
+    std::string stem = to_string(method);
+    std::replace(stem.begin(), stem.end(), ':', '-');
+    return stem;
+}
+
+Method default_method() {
+    return {SamplerKind::close_range, RenderSettings{}.policy};
+}
+
+std::vector<Method> all_methods() {
+    std::vector<Method> methods{default_method()};
+    for (const SamplerEntry& sampler : all_samplers()) {
+        if (sampler.kind != SamplerKind::close_range) {
+            methods.push_back({sampler.kind, std::nullopt});
+            continue;
+        }
+        for (const PolicyEntry& policy : all_policies()) {
+            if (policy.policy != default_method().policy) {
+                methods.push_back({sampler.kind, policy.policy});
+            }
+        }
+    }
+    return methods;
+}
+
+Method parse_method(std::string_view name) {
+    if (name == to_string(SamplerKind::close_range)) {
+        return default_method();
+    }
+    std::string known;
+    for (const Method& method : all_methods()) {
+        if (name == to_string(method)) {
+            return method;
+        }
+        known += (known.empty() ? "" : ", ") + to_string(method);
+    }
+    throw Error(ExitCode::usage, "unknown sampler '" + std::string(name) + "'; there are: " + known);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/compare/comparison.h"
+
+namespace nearlight {
+
+/// Writes compare.json, equal_vpls.csv, equal_rmse.csv and report.html into settings.output and returns the
+/// text of the first. Throws Error(ExitCode::file).
+std::string write_report(const Comparison& comparison, const CompareSettings& settings);
+
+}  // namespace nearlight

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of all scenes as comma-separated values; a number that does not exist is an empty field.
+#pragma once
+
+#include <string>
+
+#include "host/compare/comparison.h"
+
+namespace nearlight {
+
+std::string equal_vpls_csv(const Comparison& comparison);
+std::string equal_rmse_csv(const Comparison& comparison, const CompareSettings& settings);
+
+}  // namespace nearlight

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plots and pictures of a scene as HTML.
+#pragma once
+
+#include "host/compare/comparison.h"
+#include "host/compare/html_writer.h"
+
+namespace nearlight {
+
+void write_plots(HtmlWriter& html, const SceneComparison& scene);
+/// Where the VPLs are.
+void write_vpl_figures(HtmlWriter& html, const SceneComparison& scene);
+/// What becomes of the picture, a row a count.
+void write_method_figures(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
+
+}  // namespace nearlight

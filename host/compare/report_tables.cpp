@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/report_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearlight {
+namespace {
+
+const HtmlAttributes kName{{"class", "name"}};
+
+std::string number(double value, int digits = 3) {
+    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
+}
+std::string with_interval(double value, double half_width, int digits = 3) {
+    return number(value, digits) + (std::isfinite(half_width) ? " ± " + number(half_width, 2) : "");
+}
+std::string ratio_text(double value) {
+    return std::isfinite(value) ? fmt::format("{:.2f}", value) : "–";
+}
+std::string seconds_text(double value) {
+    return std::isfinite(value) ? fmt::format("{:.3f}", value) : "–";
+}
+std::string count_text(double value) {
+    return std::isfinite(value) ? fmt::format("{:.0f}", value) : "–";
+}
+
+void write_header(HtmlWriter& html, std::initializer_list<const char*> columns) {
+    html.open("thead").open("tr");
+    for (const char* column : columns) {
+        html.element("th", column);
+    }
+    html.close().close().open("tbody");
+}
+
+/// The sampler and its policy, in two cells.
+void write_method(HtmlWriter& html, const Method& method) {
+    html.element("td", to_string(method.sampler), kName);
+    html.element("td", method.policy ? to_string(*method.policy) : "–", kName);
+}
+
+void write_row(HtmlWriter& html, const EqualVplsRow& row, bool first_of_count, bool best) {
+    html.open("tr", first_of_count ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
+    write_method(html, row.method);
+    for (const double count : {static_cast<double>(row.vpls), row.gathered_vpls, row.sparse_vpls}) {
+        html.element("td", count_text(count));
+    }
+    html.element("td", with_interval(row.rmse.value, row.rmse.half_width),
+                 best ? HtmlAttributes{{"class", "best"}} : HtmlAttributes{});
+    html.element("td", ratio_text(row.rmse_ratio));
+    html.element("td", number(row.relative_mse.mean));
+    html.element("td", with_interval(row.mean_ratio.mean, row.mean_ratio.half_width, 4));
+    html.element("td", number(row.flip.mean));
+    html.element("td", seconds_text(row.generate_seconds)).element("td", seconds_text(row.gather_seconds));
+    html.close();
+}
+
+void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row, const Method& method,
+               bool first) {
+    const bool never = row.reach == Reach::never;
+    html.open("tr", first ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
+    html.element("td", first ? number(group.rmse) : "");
+    write_method(html, method);
+    for (const std::string& text : {count_text(row.vpls), seconds_text(row.seconds),
+                                    ratio_text(row.vpls_ratio), ratio_text(row.time_ratio)}) {
+        html.element("td", text);
+    }
+    html.element("td", to_string(row.reach), {{"class", never ? "name never" : "name"}});
+    html.close();
+}
+
+/// Geometric mean of the ratios of one method; how many there are not, if any.
+class RatioMean {
+  public:
+    void add(double ratio) {
+        if (std::isfinite(ratio) && ratio > 0.0) {
+            logarithms_ += std::log(ratio);
+            ++count_;
+        } else {
+            ++missing_;
+        }
+    }
+    [[nodiscard]] std::string text() const {
+        const std::string mean = count_ > 0 ? ratio_text(std::exp(logarithms_ / count_)) : "";
+        const std::string never =
+            missing_ > 0 ? fmt::format("never in {} of {}", missing_, missing_ + count_) : "";
+        return count_ + missing_ == 0 ? "–" : mean + (mean.empty() || never.empty() ? "" : ", ") + never;
+    }
+
+  private:
+    double logarithms_ = 0;
+    int count_ = 0;
+    int missing_ = 0;
+};
+
+void write_summary_row(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings,
+                       std::size_t index) {
+    RatioMean rmse, vpls, time;
+    for (std::size_t i = index; i < scene.equal_vpls.size(); i += settings.methods.size()) {
+        rmse.add(scene.equal_vpls[i].rmse_ratio);
+    }
+    for (const EqualRmse& group : scene.equal_rmse) {
+        vpls.add(group.rows[index].vpls_ratio);
+        time.add(group.rows[index].time_ratio);
+    }
+    html.open("tr", index == 0 ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
+    html.element("td", index == 0 ? scene.facts.name : "", kName);
+    write_method(html, settings.methods[index]);
+    html.element("td", rmse.text()).element("td", vpls.text()).element("td", time.text()).close();
+}
+
+}  // namespace
+
+void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings) {
+    html.open("div", {{"class", "scroll"}}).open("table");
+    write_header(html, {"scene", "sampler", "policy", "RMSE ÷ baseline, equal VPLs",
+                        "VPLs ÷ baseline, equal RMSE", "time ÷ baseline, equal RMSE"});
+    for (const SceneComparison& scene : comparison.scenes) {
+        for (std::size_t i = 0; i < settings.methods.size(); ++i) {
+            write_summary_row(html, scene, settings, i);
+        }
+    }
+    html.close().close().close();
+}
+
+void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
+    html.open("div", {{"class", "scroll"}}).open("table");
+    write_header(html,
+                 {"sampler", "policy", "VPLs asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
+                  "relative MSE", "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
+    const std::size_t methods = settings.methods.size();
+    for (std::size_t i = 0; i < scene.equal_vpls.size(); ++i) {
+        const auto first = scene.equal_vpls.begin() + static_cast<std::ptrdiff_t>(i / methods * methods);
+        const auto best = std::min_element(
+            first, first + static_cast<std::ptrdiff_t>(methods),
+            [](const EqualVplsRow& a, const EqualVplsRow& b) { return a.rmse.value < b.rmse.value; });
+        const EqualVplsRow& row = scene.equal_vpls[i];
+        write_row(html, row, i % methods == 0, methods > 1 && row.method == best->method);
+    }
+    html.close().close().close();
+}
+
+void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
+    if (scene.equal_rmse.empty()) {
+        html.element("p", "There is no table of equal RMSE: its fits need at least two counts of VPLs.");
+        return;
+    }
+    html.open("div", {{"class", "scroll"}}).open("table");
+    write_header(html, {"RMSE", "sampler", "policy", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline",
+                        "how known"});
+    for (const EqualRmse& group : scene.equal_rmse) {
+        for (const EqualRmseRow& row : group.rows) {
+            write_row(html, group, row, settings.methods[row.curve], row.curve == 0);
+        }
+    }
+    html.close().close().close();
+}
+
+}  // namespace nearlight

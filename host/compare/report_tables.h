@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables as HTML: a summary, and both tables of a scene.
+#pragma once
+
+#include "host/compare/comparison.h"
+#include "host/compare/html_writer.h"
+
+namespace nearlight {
+
+/// One row for each scene and method: geometric means over all counts.
+void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings);
+void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
+void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
+
+}  // namespace nearlight

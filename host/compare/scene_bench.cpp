@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/scene_bench.h"
+
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "host/base/message.h"
+#include "host/compare/pictures.h"
+#include "host/image/image_io.h"
+#include "host/reference/path_tracer.h"
+#include "host/scene/emitters.h"
+#include "host/stages/film.h"
+
+namespace nearlight {
+namespace {
+
+/// Seeds of references are far from those that anybody gives.
+constexpr uint kReferenceSeed = 0x5eed0000u;
+
+std::size_t channel_index(const std::string& name) {
+    const std::vector<std::string> channels = layer_channels();
+    return static_cast<std::size_t>(std::ranges::find(channels, name) - channels.begin());
+}
+
+/// Copies `count` neighbouring channels out of finished rows.
+void append_channels(std::span<const float> rows, std::size_t first, std::size_t count,
+                     std::vector<float>& values) {
+    for (std::size_t i = first; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
+        const auto pixel = rows.subspan(i, count);
+        values.insert(values.end(), pixel.begin(), pixel.end());
+    }
+}
+
+bool go_on(const std::string&, double) {
+    return true;
+}
+
+void require_light(const Scene& scene, const std::string& name) {
+    if (build_emitter_table(scene).emitters.empty()) {
+        throw Error(ExitCode::file,
+                    "scene '" + name + "' (" + scene.source.string() +
+                        "): nothing in it emits light, so there is nothing to compare; add a light");
+    }
+}
+
+float clamp_radius_of(const std::filesystem::path& reference_file) {
+    const Metadata metadata = read_metadata(reference_file);
+    const auto found = metadata.find("nearlight:clampRadius");
+    const float* const radius = found == metadata.end() ? nullptr : std::get_if<float>(&found->second);
+    return radius == nullptr ? 0.0f : *radius;
+}
+
+}  // namespace
+
+SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& name,
+                       const CompareSettings& settings,
+                       const std::optional<std::filesystem::path>& reference_file)
+    : scene_(scene), settings_(settings), renderer_(device, scene) {
+    facts_.name = name;
+    facts_.source = scene.source.string();
+    facts_.hash = scene_hash(scene);
+    facts_.triangles = scene.triangles.size();
+    require_light(scene, name);
+    check(look());
+    facts_.clamp_radius = choose_clamp_radius(reference_file);
+}
+
+SceneBench::FirstLook SceneBench::look() {
+    RenderSettings settings =
+        render_settings(settings_.baseline, settings_.vpl_counts.front(), settings_.first_seed);
+    settings.indirect_only = false;
+    settings.range = settings_.range;
+    settings.clamp_radius = settings_.clamp_radius;
+    settings.max_depth = settings_.max_depth;
+    FirstLook found;
+    overview_ = make_picture(settings_.width, settings_.height);
+    overview_.values.clear();
+    const RenderReport report = renderer_.render(
+        settings,
+        [&](const RenderReport&, const View& view, const VplSet& vpls) {
+            facts_.camera = view.scene_camera;
+            found.surface = !view.pilot.distances.empty();
+            found.close_vpls = settings.sampler != SamplerKind::close_range || vpls.close_count > 0;
+        },
+        [&](std::span<const float> rows) {
+            append_channels(rows, channel_index("R"), 3, overview_.values);
+            append_channels(rows, channel_index("depth.Z"), 1, depths_);
+        },
+        go_on);
+    facts_.range = report.range;
+    facts_.max_depth = report.max_depth;
+    facts_.setup = {report.seconds.build_bvh, report.seconds.compile};
+    return found;
+}
+
+void SceneBench::check(const FirstLook& found) const {
+    const std::string scene = "scene '" + facts_.name + "' (" + facts_.source + ")";
+    if (!found.surface) {
+        throw Error(ExitCode::file,
+                    scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
+                        "turn it to the scene");
+    }
+    if (facts_.max_depth < 3) {
+        throw Error(ExitCode::file,
+                    scene + " has a depth of " + std::to_string(facts_.max_depth) +
+                        ", which leaves no indirect light to compare; give --max-depth 3 or more");
+    }
+    if (!found.close_vpls) {
+        say_warning(scene + ": nothing that light reaches is close (range " + std::to_string(facts_.range) +
+                    "), so close-range sampling is instant radiosity here");
+    }
+}
+
+float SceneBench::choose_clamp_radius(const std::optional<std::filesystem::path>& reference_file) const {
+    if (settings_.clamp_radius) {
+        return *settings_.clamp_radius;
+    }
+    if (reference_file && !settings_.clamp_fraction) {
+        return clamp_radius_of(*reference_file);
+    }
+    return settings_.clamp_fraction.value_or(kDefaultClampFraction) * facts_.range;
+}
+
+RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint seed) const {
+    RenderSettings settings;
+    settings.sampler = method.sampler;
+    settings.policy = method.policy.value_or(settings.policy);
+    settings.vpl_count = vpls;
+    settings.range = facts_.range;
+    settings.clamp_radius = facts_.clamp_radius;
+    settings.max_depth = facts_.max_depth;
+    settings.width = settings_.width;
+    settings.height = settings_.height;
+    settings.samples_per_pixel = settings_.samples_per_pixel;
+    settings.indirect_only = true;
+    settings.seed = seed;
+    return settings;
+}
+
+std::optional<Shot> SceneBench::render_indirect(const RenderSettings& settings, const Progress& progress) {
+    Shot shot{make_picture(settings_.width, settings_.height), {}};
+    shot.indirect.values.clear();
+    const std::size_t first = channel_index("indirect.R");
+    shot.report = renderer_.render(
+        settings, [](const RenderReport&, const View&, const VplSet&) {},
+        [&](std::span<const float> rows) { append_channels(rows, first, 3, shot.indirect.values); },
+        [&](const std::string&, double fraction) { return progress(fraction); });
+    return shot.report.interrupted ? std::nullopt : std::optional(std::move(shot));
+}
+
+std::optional<Shot> SceneBench::shoot(const Method& method, uint vpls, uint seed, const Progress& progress) {
+    if (!std::exchange(warm_[to_string(method)], true)) {
+        render_indirect(render_settings(method, settings_.vpl_counts.front(), kReferenceSeed), progress);
+    }
+    return render_indirect(render_settings(method, vpls, seed), progress);
+}
+
+VplSet SceneBench::sample(const Method& method, uint vpls, uint seed) {
+    VplSet sampled;
+    renderer_.render(
+        render_settings(method, vpls, seed),
+        [&](const RenderReport&, const View&, const VplSet& set) { sampled = set; },
+        [](std::span<const float>) {}, [](const std::string&, double) { return false; });
+    return sampled;
+}
+
+ReferenceSpec SceneBench::reference_spec() const {
+    return {
+        .kind = settings_.reference_vpls > 0 ? ReferenceKind::instant_radiosity : ReferenceKind::path_tracing,
+        .scene_name = facts_.name,
+        .scene_hash = facts_.hash,
+        .width = settings_.width,
+        .height = settings_.height,
+        .clamp_radius = facts_.clamp_radius,
+        .max_depth = facts_.max_depth,
+        .pixel_centers = settings_.samples_per_pixel == 1};
+}
+
+std::optional<Image> SceneBench::trace_pass(const ReferenceSpec& spec, std::size_t index, std::size_t samples,
+                                            const Progress& progress) const {
+    bool stopped = false;
+    const Image traced = trace_paths(scene_,
+                                     {.width = spec.width,
+                                      .height = spec.height,
+                                      .spp = static_cast<int>(samples),
+                                      .max_depth = static_cast<int>(spec.max_depth),
+                                      .clamp_radius = spec.clamp_radius,
+                                      .indirect_only = true,
+                                      .pixel_centers = spec.pixel_centers,
+                                      .seed = kReferenceSeed + index},
+                                     [&](double fraction) {
+                                         stopped = !progress(fraction);
+                                         return !stopped;
+                                     });
+    if (stopped) {
+        return std::nullopt;
+    }
+    const Image indirect = color_layer(traced, "indirect");
+    const Image variance = color_layer(traced, "indirectVariance");
+    Image pass =
+        make_image(spec.width, spec.height, {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
+    for (std::size_t i = 0; i < indirect.values.size(); ++i) {
+        pass.values[i / 3 * 6 + i % 3] = indirect.values[i];
+        pass.values[i / 3 * 6 + i % 3 + 3] = variance.values[i];
+    }
+    return pass;
+}
+
+PassMaker SceneBench::reference_maker(const ReferenceSpec& spec, const Progress& progress,
+                                      std::size_t total_samples) {
+    return [this, spec, progress, total_samples](std::size_t index,
+                                                 std::size_t samples) -> std::optional<Image> {
+        const auto total = static_cast<double>(total_samples);
+        const double before = static_cast<double>(index * pass_sizes(spec, total_samples).front()) / total;
+        const Progress pass_progress = [&](double fraction) {
+            return progress(before + fraction * static_cast<double>(samples) / total);
+        };
+        if (spec.kind == ReferenceKind::path_tracing) {
+            return trace_pass(spec, index, samples, pass_progress);
+        }
+        const std::optional<Shot> shot = render_indirect(
+            render_settings({SamplerKind::instant_radiosity, std::nullopt}, static_cast<uint>(samples),
+                            kReferenceSeed + static_cast<uint>(index)),
+            pass_progress);
+        return shot ? std::optional(shot->indirect) : std::nullopt;
+    };
+}
+
+}  // namespace nearlight

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/settings.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "host/base/error.h"
+
+namespace nearlight {
+namespace {
+
+constexpr uint kMostVpls = 50'000'000;
+
+std::vector<std::string> split(const std::string& list) {
+    std::vector<std::string> items(1);
+    for (const char c : list) {
+        if (c == ',') {
+            items.emplace_back();
+        } else {
+            items.back() += c;
+        }
+    }
+    return items;
+}
+
+template <typename Number>
+std::optional<Number> whole_number(const std::string& text) {
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+}
+
+uint parse_vpl_count(const std::string& text) {
+    const std::optional<uint> count = whole_number<uint>(text);
+    if (!count || *count < 1 || *count > kMostVpls) {
+        throw Error(ExitCode::usage, "--vpls: '" + text +
+                                         "' is no count of VPLs; give whole numbers from 1 to " +
+                                         std::to_string(kMostVpls) + " with commas between, as in 1000,2000");
+    }
+    return *count;
+}
+
+template <typename Item, typename Name>
+void refuse_twins(const std::vector<Item>& items, const char* option, Name&& name) {
+    for (auto item = items.begin(); item != items.end(); ++item) {
+        if (std::find(items.begin(), item, *item) != item) {
+            throw Error(ExitCode::usage,
+                        std::string(option) + " names " + name(*item) + " twice; name it once");
+        }
+    }
+}
+
+void check_crop(const Crop& crop, int width, int height) {
+    if (crop.x + crop.width > width || crop.y + crop.height > height) {
+        throw Error(ExitCode::usage, "--crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
+                                         std::to_string(crop.width) + "," + std::to_string(crop.height) +
+                                         " reaches beyond the picture of " + std::to_string(width) + "x" +
+                                         std::to_string(height) + " pixels");
+    }
+}
+
+void check_baseline(const CompareSettings& settings) {
+    if (std::find(settings.methods.begin(), settings.methods.end(), settings.baseline) !=
+        settings.methods.end()) {
+        return;
+    }
+    std::string names;
+    for (const Method& method : settings.methods) {
+        names += (names.empty() ? "" : ", ") + to_string(method);
+    }
+    throw Error(ExitCode::usage, "--baseline " + to_string(settings.baseline) +
+                                     " is not among the samplers to compare: " + names);
+}
+
+void check_reference(const CompareSettings& settings) {
+    if (settings.reference_vpls > 0 && settings.reference_vpls < kFewestReferenceVpls) {
+        throw Error(ExitCode::usage, "--reference-vpls " + std::to_string(settings.reference_vpls) +
+                                         " are too few for a reference; take at least " +
+                                         std::to_string(kFewestReferenceVpls));
+    }
+    if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
+        throw Error(ExitCode::usage, "--reference and --reference-vpls exclude each other; give one of them");
+    }
+}
+
+}  // namespace
+
+std::vector<Method> parse_methods(const std::string& list) {
+    std::vector<Method> methods;
+    for (const std::string& name : split(list)) {
+        methods.push_back(parse_method(name));
+    }
+    refuse_twins(methods, "--samplers", [](const Method& method) { return to_string(method); });
+    return methods;
+}
+
+std::vector<uint> parse_vpl_counts(const std::string& list) {
+    std::vector<uint> counts;
+    for (const std::string& item : split(list)) {
+        counts.push_back(parse_vpl_count(item));
+    }
+    refuse_twins(counts, "--vpls", [](uint count) { return std::to_string(count); });
+    std::sort(counts.begin(), counts.end());
+    return counts;
+}
+
+Crop parse_crop(const std::string& text) {
+    std::vector<int> numbers;
+    for (const std::string& item : split(text)) {
+        const std::optional<int> number = whole_number<int>(item);
+        if (!number || *number < 0 || *number > 65536) {
+            numbers.clear();
+            break;
+        }
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) {
+        throw Error(
+            ExitCode::usage,
+            "--crop: '" + text + "' is no part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60");
+    }
+    return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+void check_settings(const CompareSettings& settings) {
+    if (settings.methods.empty() || settings.vpl_counts.empty() || settings.seed_count == 0) {
+        throw Error(ExitCode::usage,
+                    "nothing to compare: give at least one sampler, one count of VPLs and one seed");
+    }
+    if (settings.clamp_radius && settings.clamp_fraction) {
+        throw Error(ExitCode::usage,
+                    "--clamp-radius and --clamp-fraction exclude each other; give one of them");
+    }
+    if (settings.max_depth && *settings.max_depth < 3) {
+        throw Error(ExitCode::usage,
+                    "--max-depth " + std::to_string(*settings.max_depth) +
+                        " leaves no indirect light, which is what is compared; take 3 or more");
+    }
+    check_baseline(settings);
+    check_reference(settings);
+    for (const Crop& crop : settings.crops) {
+        check_crop(crop, settings.width, settings.height);
+    }
+}
+
+}  // namespace nearlight

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/samplers/close_surface.h"
+
+#include "host/base/message.h"
+#include "host/samplers/sparse_walks.h"
+
+namespace nearlight {
+
+CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, const CloseSelection& selection)
+    : stages_(stages), task_(task), region_(empty_region(stages, task.scene)) {
+    const DeviceScene& scene = task.scene;
+    const std::size_t all = scene.host_info.triangle_count;
+    region_.range.upload(std::span(&task.close_range, 1));
+    region_.whole_triangles = selection.whole_triangles;
+
+    Buffer<uint> flags(stages.device, all);
+    Buffer<float> areas(stages.device, all);
+    Buffer<uint> close_ids(stages.device, all);
+    stages.triangle_classifier.classify(scene.vertices, scene.triangles, scene.materials, region_.range, all,
+                                        flags, areas);
+    const std::size_t close_count = stages.compaction.list_set(flags, all, close_ids);
+    if (selection.only_lit) {
+        stages.light_visibility.run(scene, close_ids, close_count, task.seed, region_.triangles);
+        triangle_count_ = stages.compaction.list_set(region_.triangles, all, close_ids);
+    } else {
+        std::swap(region_.triangles, flags);
+        triangle_count_ = close_count;
+    }
+
+    Buffer<Vec3> centroids(stages.device, triangle_count_);
+    Buffer<uint> order(stages.device, triangle_count_);
+    ids_ = Buffer<uint>(stages.device, triangle_count_);
+    stages.triangle_classifier.centroids(scene.vertices, scene.triangles, close_ids, triangle_count_,
+                                         centroids);
+    stages.morton_sort.order(centroids, triangle_count_, order);
+    stages.compaction.gather(close_ids, order, triangle_count_, ids_);
+    stages.vpl_placement.set_surface(areas, ids_, triangle_count_,
+                                     area_units_per_square_metre(scene.total_area));
+    area_ = stages.vpl_placement.total_area();
+    stages.device.finish();  // the scratch buffers must outlive their kernels
+    say_debug(std::to_string(close_count) + " of " + std::to_string(all) +
+              " triangles are in the close range, " + std::to_string(triangle_count_) + " are selected");
+}
+
+std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
+    const DeviceScene& scene = task_.scene;
+    const std::size_t slot_count = 2 * point_count;
+    Buffer<SurfaceSample> samples(stages_.device, point_count);
+    Buffer<Vpl> slots(stages_.device, slot_count);
+    Buffer<Vpl> kept(stages_.device, slot_count);
+    Buffer<uint> flags(stages_.device, slot_count);
+    Buffer<uint> indices(stages_.device, slot_count);
+    const auto area_per_point = static_cast<float>(area_ / static_cast<double>(point_count));
+    stages_.vpl_placement.place(scene.vertices, scene.triangles, ids_, point_count, seed, samples);
+    stages_.patch_vpls.run(scene, samples, point_count, region_, area_per_point, slots, flags);
+    const std::size_t kept_count = stages_.compaction.list_set(flags, slot_count, indices);
+    stages_.compaction.gather(slots, indices, kept_count, kept);
+    std::vector<Vpl> vpls(kept_count);
+    kept.download(vpls);
+    return vpls;
+}
+
+}  // namespace nearlight

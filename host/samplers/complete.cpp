@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// The policy `complete` of close-range sampling, which goes beyond the paper:
+//
+//  1. Candidates, several times as many as are wanted: points spread evenly over the close range [paper §3],
+//  whether
+//     light reaches them or not, and deposits of light walks over the whole scene.
+//  2. Two of a kind must not both answer for the close range. A point there is the end of a patch with
+//  density
+//     p_patch = points / area, and of a walk with density p_walk ≈ E(y) · walks / Φ, as each walk carries
+//     about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between them: w_patch
+//     = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light falls on
+//     much surface, which ends the strong deposits beside the camera, and walks remain where much light falls
+//     on little surface (a lamp's shade), which evenly spread patches would miss or make outliers of. Outside
+//     the close range walks have it all.
+//  3. The shares follow a rough estimate of E(y): a few samples of direct light, a gather from a small sparse
+//  set, one
+//     short path, and a constant, so that nothing is taken for dark that is not. The estimate need not be
+//     right for the shares to add up to 1 in expectation: at y it has the same distribution for a patch and
+//     for a walk, and it is independent of both and of the light that the patch carries in the end.
+//  4. From all candidates VPLs are drawn in proportion to the error each would leave in the picture
+//     (ContributionNorm::mean_square) by systematic resampling along the Morton curve. The split between
+//     close and distant follows by itself. Each is divided by the probability that it was really chosen with:
+//     unbiased.
+//  5. The chosen patches get their light of all depths in full: many direct samples, a gather from a larger
+//  sparse set,
+//     and short paths for what the bounded gather leaves out.
+#include "host/samplers/complete.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/math.h"
+#include "host/base/message.h"
+#include "host/base/random.h"
+#include "host/samplers/incident_light.h"
+#include "host/samplers/resampling.h"
+#include "host/samplers/sparse_walks.h"
+
+namespace nearlight {
+namespace {
+
+// Chosen on cornell-box and the desk; bench/RESULTS.md has what else was tried.
+constexpr uint kPointsPerVpl = 4;     ///< candidates on the close range; each has two sides
+constexpr uint kDepositsPerVpl = 16;  ///< candidates from walks
+constexpr uint kMostCandidates =
+    1u << 22u;  ///< of each kind; where more VPLs are wanted, there is less choice
+constexpr uint kRoughSparseVpls = 256;
+constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
+constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
+/// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
+constexpr float kAmbientShare = 0.3f;
+/// Part of the mean probability (per watt) that every candidate has; the camera's points may miss what it
+/// lights.
+constexpr float kFluxFloor = 0.1f;
+/// Part of the error that a close VPL makes in its own neighbourhood, if that is in view and faces it. The
+/// camera's points are too few to meet every neighbourhood.
+constexpr double kNeighbourhoodFloor = 0.1;
+constexpr uint kRoughSeed = 0x20060u;
+constexpr uint kResamplingStream = 0x5e1ec7u;
+
+struct Candidates {
+    std::vector<Vpl> vpls;  ///< patches, without light yet, then deposits
+    std::size_t patch_count = 0;
+    double patch_density = 0;  ///< points / m²
+    double walks_per_watt = 0;
+};
+
+/// `per_vpl` for each VPL, bounded, but never fewer than VPLs.
+uint candidate_count(const SamplingTask& task, uint per_vpl) {
+    return std::max(task.vpl_count, std::min(kMostCandidates / per_vpl, task.vpl_count) * per_vpl);
+}
+
+Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
+    Candidates candidates;
+    if (!surface.empty()) {
+        const std::size_t points = candidate_count(task, kPointsPerVpl);
+        candidates.vpls = surface.place(points, task.seed);
+        candidates.patch_density = static_cast<double>(points) / surface.area();
+    }
+    candidates.patch_count = candidates.vpls.size();
+    const Deposits deposits = trace_about(stages, task, surface.region(), KeepDeposits::all,
+                                          candidate_count(task, kDepositsPerVpl));
+    candidates.walks_per_watt = deposits.walk_count / static_cast<double>(task.scene.total_power);
+    const std::vector<Vpl> sorted = stages.vpl_order.upload_sorted(deposits.vpls).download();
+    candidates.vpls.insert(candidates.vpls.end(), sorted.begin(), sorted.end());
+    return candidates;
+}
+
+/// The part of each candidate's light that is its own: step 2.
+std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> rough_light) {
+    std::vector<float> result(candidates.vpls.size(), 1.0f);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double walk_density = candidates.walks_per_watt * luminance(rough_light[i]);
+        const auto of_patch =
+            static_cast<float>(candidates.patch_density / (candidates.patch_density + walk_density));
+        if (i < candidates.patch_count) {
+            result[i] = of_patch;
+        } else if ((candidates.vpls[i].flags & NEARLIGHT_VPL_CLOSE) != 0) {
+            result[i] = 1.0f - of_patch;
+        }
+    }
+    return result;
+}
+
+/// What a close VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square:
+/// importons within the clamp radius, of which a picture (about a steradian) has so many, each by the bounded
+/// term.
+double neighbourhood_error(const SamplingTask& task, Vec3 position) {
+    const double radius = std::max<double>(task.clamp_radius, 1e-3 * task.close_range.range);
+    const double distance = length(position - task.close_range.origin);
+    const double seen = std::min(1.0, M_PI * radius * radius / (distance * distance));
+    return std::sqrt(seen * static_cast<double>(task.view.squared_importon_count)) /
+           (M_PI * M_PI * radius * radius);
+}
+
+/// In proportion to the probabilities to be chosen with: step 4.
+std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& task,
+                                     std::span<const Vpl> lit) {
+    const Buffer<Vpl> vpls(stages.device, lit);
+    Buffer<float> errors(stages.device, lit.size());
+    stages.vpl_contribution.run(task.scene, vpls, lit.size(), task.view, task.clamp_radius, errors,
+                                ContributionNorm::mean_square);
+    std::vector<float> weights = errors.download();
+    double error = 0;
+    double flux = 0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        error += weights[i];
+        flux += luminance(lit[i].power);
+    }
+    const double floor = flux > 0 && error > 0 ? kFluxFloor * error / flux : 1.0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        const bool close = (lit[i].flags & NEARLIGHT_VPL_CLOSE) != 0;
+        const double near = close ? kNeighbourhoodFloor * neighbourhood_error(task, lit[i].position) : 0.0;
+        weights[i] += static_cast<float>((floor + near) * luminance(lit[i].power));
+    }
+    return weights;
+}
+
+/// Draws task.vpl_count candidates; close and distant ones apart where the user gave the split.
+Choice choose(const SamplingTask& task, std::span<const Vpl> lit, std::span<const float> weights) {
+    Pcg32 random(task.seed, kResamplingStream);
+    if (!task.close_fraction) {
+        return resample(weights, task.vpl_count, random.uniform());
+    }
+    const auto close_count =
+        static_cast<std::size_t>(std::lround(*task.close_fraction * static_cast<float>(task.vpl_count)));
+    std::vector<float> close(weights.size());
+    std::vector<float> distant(weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        ((lit[i].flags & NEARLIGHT_VPL_CLOSE) != 0 ? close : distant)[i] = weights[i];
+    }
+    // Neither side may be empty, or its light would be lost.
+    Choice choice = resample(close, std::max<std::size_t>(close_count, 1), random.uniform());
+    const Choice rest =
+        resample(distant, std::max<std::size_t>(task.vpl_count - close_count, 1), random.uniform());
+    // Patches come first among the candidates, and must among the chosen.
+    std::vector<std::pair<uint, float>> merged;
+    for (const Choice& part : {choice, rest}) {
+        for (std::size_t i = 0; i < part.indices.size(); ++i) {
+            merged.emplace_back(part.indices[i], part.factors[i]);
+        }
+    }
+    std::ranges::sort(merged);
+    choice = {};
+    for (const auto& [index, factor] : merged) {
+        choice.indices.push_back(index);
+        choice.factors.push_back(factor);
+    }
+    return choice;
+}
+
+/// The chosen VPLs; the patches among them, which come first, still without light.
+std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float> share,
+                             const Choice& choice) {
+    std::vector<Vpl> vpls = take(choice, candidates.vpls);
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        vpls[i].power = vpls[i].power * share[choice.indices[i]];
+    }
+    return vpls;
+}
+
+}  // namespace
+
+VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
+    if (surface.empty()) {
+        say_warning("nothing is in the close range; all VPLs come from light walks");
+    }
+    const Candidates candidates = make_candidates(stages, task, surface);
+    const SparseSet rough_sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed);
+    std::vector<Vec3> rough =
+        incident_light_at(stages, task, rough_sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
+    const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
+    for (Vec3& light : rough) {
+        light = light + Vec3{ambient, ambient, ambient};
+    }
+    const std::vector<float> share = shares(candidates, rough);
+    std::vector<Vpl> lit = candidates.vpls;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        lit[i].power = lit[i].power * (i < candidates.patch_count ? rough[i] : Vec3{1, 1, 1}) * share[i];
+    }
+    const Choice choice = choose(task, lit, selection_weights(stages, task, lit));
+
+    VplSet set;
+    set.vpls = chosen_vpls(candidates, share, choice);
+    const auto patch_count = static_cast<std::size_t>(
+        std::ranges::lower_bound(choice.indices, static_cast<uint>(candidates.patch_count)) -
+        choice.indices.begin());
+    const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
+    const std::vector<Vec3> light =
+        incident_light_at(stages, task, sparse, std::span(set.vpls).first(patch_count), kFull, task.seed);
+    for (std::size_t i = 0; i < patch_count; ++i) {
+        set.vpls[i].power = set.vpls[i].power * light[i];
+    }
+    const auto is_close = [](const Vpl& vpl) { return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0; };
+    set.close_count = static_cast<std::size_t>(std::ranges::count_if(set.vpls, is_close));
+    set.distant_count = set.vpls.size() - set.close_count;
+    set.sparse_count = sparse.count + rough_sparse.count;
+    set.candidate_count = candidates.vpls.size();
+    set.close_triangles = surface.triangle_count();
+    set.close_fraction =
+        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(set.vpls.size(), 1));
+    return set;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light that arrives at points which are to become VPLs: direct light, and light of all further bounces.
+#pragma once
+
+#include "host/samplers/sampler.h"
+
+namespace nearlight {
+
+/// VPLs of light walks over the whole scene that light other VPLs, not the picture.
+struct SparseSet {
+    Buffer<Vpl> vpls;
+    std::size_t count = 0;
+    float clamp_radius = 0.0f;  ///< to gather them with, m; short paths supply what that leaves out
+};
+
+/// About `wanted` VPLs of up to task.bounce_count − 1 bounces; none where there are no further bounces.
+SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed);
+
+/// How much is spent on each point.
+struct IncidentQuality {
+    uint direct_samples = 64;  ///< for area and environment lights
+    uint paths = 4;            ///< for what the clamp radius of the sparse set leaves out; 0: leave it out
+};
+
+/// Irradiance of all depths at the receivers (W/m²): what a VPL of depth up to task.bounce_count there
+/// reflects. Without bias if paths > 0.
+void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+                           const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+                           const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance);
+
+/// The same at each of `points`: multiplies the power of a VPL that was made for an irradiance of 1 W/m².
+std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+                                    std::span<const Vpl> points, const IncidentQuality& quality, uint seed);
+/// The first `count` lanes.
+std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
+
+}  // namespace nearlight

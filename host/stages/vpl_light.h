@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// VPLs as receivers of light, and what they reflect of it.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+/// Packets that hold so many receivers.
+inline std::size_t receiver_packet_count(std::size_t receiver_count) {
+    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
+}
+
+class VplLight {
+  public:
+    explicit VplLight(Device& device);
+
+    /// VPL i as lane i % 64 of packet i / 64, receiver_packet_count(vpl_count) packets.
+    void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers);
+    /// Multiplies the power of each VPL by the irradiance of its lane.
+    void apply(const Buffer<IrradiancePacket>& irradiance, std::size_t vpl_count, Buffer<Vpl>& vpls);
+    /// irradiance += more
+    void add(const Buffer<IrradiancePacket>& more, std::size_t packet_count,
+             Buffer<IrradiancePacket>& irradiance);
+
+  private:
+    Program program_;
+    Kernel vpl_receivers_;
+    Kernel vpl_light_;
+    Kernel add_irradiance_;
+};
+
+}  // namespace nearlight

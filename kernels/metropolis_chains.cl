@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Markov chains over light walks [Segovia et al., Metropolis Instant Radiosity, Eurographics 2007], in
+// primary sample space [Kelemen et al., A Simple and Robust Mutation Strategy for the Metropolis Light
+// Transport Algorithm, 2002].
+//
+// A state is a point of the unit cube, in pairs of numbers: (depth, choice of light), position and direction
+// on the light, then one pair a bounce. It stands for one VPL: the deposit of that walk at that depth, its
+// flux divided by the probability of the depth. Pair p of state i lies at p · count + i. Depths beyond the
+// state's leave their pairs unused.
+//
+// - metropolis_seeds: numbers of independent states, by index into a randomised sequence.
+// - metropolis_walks: numbers to VPLs; of power 0 and without a normal where the walk does not get that far.
+// - metropolis_targets: what chains follow: the contribution to the camera (given along the Morton curve for
+//   the gather's sake: entry i is that of state order[i]), and blind_target for each watt, for what the
+//   estimate of the contribution misses.
+// - metropolis_propose: numbers of the next state to try.
+// - metropolis_accept: moves there with probability min(1, proposed target / current target).
+// - metropolis_keep: VPLs of the states as they are, of power · scale / target.
+// One work-item a state; any work-group size.
+
+#include "lib/light_walk.cl"
+
+/// Share of proposals that forget the state, and of the others those that draw a new depth.
+#define LARGE_STEPS 0.3f
+#define NEW_DEPTHS 0.25f
+/// Smallest and largest small step of a number.
+#define LEAST_STEP (1.0f / 1024.0f)
+#define MOST_STEP (1.0f / 16.0f)
+
+kernel void metropolis_seeds(const global uint* restrict indices, uint count, uint pair_count, uint seed,
+                             global float2* restrict numbers) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= count) {
+        return;
+    }
+    for (uint pair = 0; pair < pair_count; ++pair) {
+        numbers[pair * count + index] = sample_2d(indices[index], pair, seed);
+    }
+}
+
+kernel void metropolis_walks(SCENE_PARAMETERS, const global float* restrict depth_cdf, uint bounce_count,
+                             const global float2* restrict numbers, uint count, global Vpl* restrict vpls) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const float2 choice = numbers[index];
+    const uint last = search_cdf(depth_cdf, bounce_count, choice.x);
+    const float probability = depth_cdf[last] - (last == 0 ? 0.0f : depth_cdf[last - 1]);
+    EmittedParticle particle =
+        emit_particle(&scene, (float2)(choice.y, 0.0f), numbers[count + index], numbers[2 * count + index]);
+    SurfaceHit hit;
+    bool landed = !is_black(particle.flux) && land(&scene, &particle, &hit);
+    for (uint bounce = 0; landed && bounce < last; ++bounce) {
+        scatter(&particle, &hit, numbers[(3 + bounce) * count + index]);
+        landed = !is_black(particle.flux) && land(&scene, &particle, &hit);
+    }
+    if (!landed) {
+        hit.geometric = particle.origin = particle.flux = (float3)(0.0f);
+    }
+    vpls[index] = make_deposit(&particle, &hit, last + 1, 0, particle.flux / probability);
+}
+
+kernel void metropolis_targets(const global Vpl* restrict vpls, const global uint* restrict order,
+                               const global float* restrict contribution, float blind_target, uint count,
+                               global float* restrict targets) {
+    const uint place = (uint)get_global_id(0);
+    if (place >= count) {
+        return;
+    }
+    const uint index = order[place];
+    const float target = contribution[place] + blind_target * luminance(load3(vpls[index].power));
+    targets[index] = target > 0.0f && target < INFINITY ? target : 0.0f;
+}
+
+/// A number moved by a random step on the unit circle, the same distribution there and back.
+inline float small_step(float u, uint bits) {
+    const float size = MOST_STEP * exp(-log(MOST_STEP / LEAST_STEP) * to_unit_float(bits));
+    const float moved = bits & 1u ? u + size : u - size;
+    return clamp(moved - floor(moved), 0.0f, 0x1.fffffep-1f);
+}
+
+/// Random words of one step of a chain: those of `pair` 0 decide, those of pair p + 1 move pair p.
+inline uint4 step_words(uint chain, uint step, uint pair, uint seed) {
+    return random_uint4((uint4)(chain, step, pair, seed));
+}
+
+kernel void metropolis_propose(const global float2* restrict current, uint count, uint pair_count, uint step,
+                               uint seed, global float2* restrict proposed) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= count) {
+        return;
+    }
+    const uint4 decisions = step_words(index, step, 0, seed);
+    const bool is_large = to_unit_float(decisions.x) < LARGE_STEPS;
+    const bool is_new_depth = to_unit_float(decisions.y) < NEW_DEPTHS;
+    for (uint pair = 0; pair < pair_count; ++pair) {
+        const uint4 words = step_words(index, step, pair + 1, seed);
+        const float2 anew = (float2)(to_unit_float(words.x), to_unit_float(words.y));
+        const float2 old = current[pair * count + index];
+        float2 moved = (float2)(small_step(old.x, words.x), small_step(old.y, words.y));
+        if (pair == 0) {
+            moved.x = is_new_depth ? anew.x : old.x;
+        }
+        proposed[pair * count + index] = is_large ? anew : moved;
+    }
+}
+
+kernel void metropolis_accept(const global float2* restrict proposed,
+                              const global Vpl* restrict proposed_vpls,
+                              const global float* restrict proposed_targets, uint count, uint pair_count,
+                              uint step, uint seed, global float2* restrict current,
+                              global Vpl* restrict vpls, global float* restrict targets) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= count) {
+        return;
+    }
+    const float chance = to_unit_float(step_words(index, step, 0, seed).z);
+    if (!(chance * targets[index] < proposed_targets[index])) {
+        return;
+    }
+    targets[index] = proposed_targets[index];
+    vpls[index] = proposed_vpls[index];
+    for (uint pair = 0; pair < pair_count; ++pair) {
+        current[pair * count + index] = proposed[pair * count + index];
+    }
+}
+
+kernel void metropolis_keep(const global Vpl* restrict vpls, const global float* restrict targets,
+                            float scale, uint count, uint first, global Vpl* restrict kept) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= count) {
+        return;
+    }
+    Vpl vpl = vpls[index];
+    vpl.power = store3(load3(vpl.power) * (scale / targets[index]));
+    kept[first + index] = vpl;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// VPLs as receivers of light, and what they reflect of it.
+//
+// vpl_receivers:  VPL i becomes lane i % 64 of packet i / 64; the last packet is filled up with absent receivers.
+// vpl_light:      power of VPL i becomes power · irradiance of its lane. A VPL made for an irradiance of 1 W/m² (power:
+//                 albedo times the area it stands for) so gets the power that the light there gives it [paper eq. 2,
+//                 repaired: angle and distance are to the light].
+// add_irradiance: adds one set of packets to another.
+// One work-item a lane; any work-group size.
+
+#include "lib/math.cl"
+
+kernel void vpl_receivers(const global Vpl* restrict vpls, uint vpl_count, uint lane_count,
+                          global ReceiverPacket* restrict receivers) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= lane_count) {
+        return;
+    }
+    global ReceiverPacket* packet = receivers + index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    const bool present = index < vpl_count;
+    const float3 position = present ? load3(vpls[index].position) : (float3)(0.0f);
+    const float3 normal = present ? load3(vpls[index].normal) : (float3)(0.0f);
+    packet->px[lane] = position.x;
+    packet->py[lane] = position.y;
+    packet->pz[lane] = position.z;
+    packet->nx[lane] = normal.x;
+    packet->ny[lane] = normal.y;
+    packet->nz[lane] = normal.z;
+}
+
+kernel void vpl_light(global Vpl* restrict vpls, uint vpl_count, const global IrradiancePacket* restrict irradiance) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= vpl_count) {
+        return;
+    }
+    const global IrradiancePacket* packet = irradiance + index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    vpls[index].power.x *= packet->r[lane];
+    vpls[index].power.y *= packet->g[lane];
+    vpls[index].power.z *= packet->b[lane];
+}
+
+kernel void add_irradiance(const global IrradiancePacket* restrict more, uint lane_count,
+                           global IrradiancePacket* restrict irradiance) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= lane_count) {
+        return;
+    }
+    const uint packet = index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    irradiance[packet].r[lane] += more[packet].r[lane];
+    irradiance[packet].g[lane] += more[packet].g[lane];
+    irradiance[packet].b[lane] += more[packet].b[lane];
+}

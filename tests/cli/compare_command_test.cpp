@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/cl/device_list.h"
+#include "host/image/image_io.h"
+#include "tests/cli/run_program.h"
+#include "tests/support/device_required.h"
+
+namespace nearlight {
+namespace {
+
+/// A floor and a wall under a point light.
+constexpr const char* kScene = R"(<scene version="3.0.0">
+  <integrator type="path"><integer name="max_depth" value="5"/></integrator>
+  <sensor type="perspective">
+    <float name="fov" value="60"/>
+    <transform name="to_world"><lookat origin="0, -1, 3" target="0, 0, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/></film>
+  </sensor>
+  <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, 0.125"/></bsdf></shape>
+  <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="1" z="1"/></transform>
+    <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.7, 0.7"/></bsdf></bsdf></shape>
+  <emitter type="point"><point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1, 1, 1"/></emitter>
+</scene>)";
+
+class Compare : public testing::Test {
+  protected:
+    Compare() { std::ofstream(scene_) << kScene; }
+    [[nodiscard]] std::string command(const std::string& options) const {
+        return "compare " + quoted(scene_) + " -o " + quoted(output_) + " " + options;
+    }
+    /// Small enough for a test.
+    static constexpr const char* kSmall = "--size 16x12 --vpls 20,60 --seeds 2 --reference-spp 32 ";
+
+    TemporaryFolder folder_;
+    std::filesystem::path scene_ = folder_ / "scene.xml";
+    std::filesystem::path output_ = folder_ / "report";
+};
+
+TEST_F(Compare, WritesAReportAndOneJsonObject) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result = run_program(command(std::string(kSmall) + "--json"));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    const auto& scene = json.at("scenes").at(0);
+    const std::size_t rows = scene.at("equal_vpls").size();
+    EXPECT_GE(rows, 2u * 3u);
+    EXPECT_EQ(scene.at("equal_rmse").at(0).at("rows").size(), rows / 2);
+    EXPECT_EQ(scene.at("triangles"), 4);
+    EXPECT_EQ(nlohmann::json::parse(file_text(output_ / "compare.json")), json);
+    for (const char* file : {"report.html", "equal_vpls.csv", "equal_rmse.csv"}) {
+        EXPECT_GT(file_text(output_ / file).size(), 100u) << file;
+    }
+    // All of it is found again, and the errors are the same.
+    const ProgramResult again = run_program(command(std::string(kSmall) + "--json"));
+    const nlohmann::json second = nlohmann::json::parse(again.output);
+    EXPECT_EQ(second.at("cells").at("measured"), 0);
+    EXPECT_EQ(second.at("scenes").at(0).at("equal_vpls"), scene.at("equal_vpls"));
+}
+
+TEST_F(Compare, PrintsATableForPeopleAndNothingWithQuiet) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const std::string options = std::string(kSmall) + "--samplers instant-radiosity,close-range:paper ";
+    const ProgramResult table = run_program(command(options));
+    ASSERT_EQ(table.exit_code, 0) << table.errors;
+    EXPECT_NE(table.output.find("close-range:paper"), std::string::npos);
+    EXPECT_NE(table.errors.find("report.html"), std::string::npos);
+    const ProgramResult quiet = run_program(command(options + "--quiet"));
+    EXPECT_EQ(quiet.output + quiet.errors, "");
+}
+
+TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const std::string truth = quoted(folder_ / "truth.exr");
+    const auto make = [&](const std::string& options) {
+        return run_program("reference " + quoted(scene_) + " -o " + truth + " --spp 32 --clamp-radius 0.1 " +
+                           options);
+    };
+    ASSERT_EQ(make("--size 16x12 --pixel-centers").exit_code, 0);
+    const ProgramResult taken = run_program(command(std::string(kSmall) + "--json --reference " + truth));
+    ASSERT_EQ(taken.exit_code, 0) << taken.errors;
+    const nlohmann::json scene = nlohmann::json::parse(taken.output).at("scenes").at(0);
+    EXPECT_FLOAT_EQ(scene.at("clamp_radius").get<float>(), 0.1f);
+    EXPECT_EQ(scene.at("reference").at("samples"), 32);
+    ASSERT_EQ(make("--size 24x12").exit_code, 0);
+    const ProgramResult refused = run_program(command(std::string(kSmall) + "--reference " + truth));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.errors.find("24x12"), std::string::npos);
+}
+
+TEST_F(Compare, CtrlCKeepsWhatWasMeasured) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const std::string line = std::string("timeout --preserve-status --signal=INT 3 ") + NEARLIGHT_PROGRAM +
+                             " " + command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8") +
+                             " 2>" + quoted(folder_ / "errors") + " >" + quoted(folder_ / "output");
+    const int status = std::system(line.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_NE(file_text(folder_ / "errors").find("the same command goes on"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(output_ / "report.html"));
+}
+
+TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
+    const auto expect_usage_error = [&](const std::string& options, const char* part) {
+        const ProgramResult result = run_program(command(options));
+        EXPECT_EQ(result.exit_code, 2) << options;
+        EXPECT_NE(result.errors.find(part), std::string::npos) << options << ": " << result.errors;
+        EXPECT_EQ(result.output, "");
+    };
+    expect_usage_error("--samplers instant-radiosty", "close-range:paper");
+    expect_usage_error("--samplers ''", "instant-radiosity");
+    expect_usage_error("--vpls 0,abc", "--vpls");
+    expect_usage_error("--vpls ''", "--vpls");
+    expect_usage_error("--vpls 100,100", "twice");
+    expect_usage_error("--samplers instant-radiosity,instant-radiosity", "twice");
+    expect_usage_error("--seeds 0", "--seeds");
+    expect_usage_error("--size 0x5", "size");
+    expect_usage_error("--samplers instant-radiosity --baseline close-range", "--baseline");
+    expect_usage_error("--clamp-radius 0.1 --clamp-fraction 0.1", "--clamp-fraction");
+    expect_usage_error("--clamp-radius -1", "--clamp-radius");
+    expect_usage_error("--crop 1,2,3", "--crop");
+    expect_usage_error("--crop 300,200,100,100", "--crop");
+    expect_usage_error("--reference-vpls 100", "200000");
+    expect_usage_error(quoted(scene_), "twice");
+    EXPECT_EQ(run_program("compare " + quoted(scene_)).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(output_));
+}
+
+TEST_F(Compare, BadFilesAreFoundBeforeAnyWork) {
+    EXPECT_EQ(run_program("compare " + quoted(folder_ / "no.xml") + " -o " + quoted(output_)).exit_code, 3);
+    EXPECT_EQ(run_program("compare " + quoted(scene_) + " -o " + quoted(scene_)).exit_code, 3);
+    EXPECT_EQ(run_program(command("--reference " + quoted(folder_ / "no.exr"))).exit_code, 3);
+    EXPECT_FALSE(std::filesystem::exists(output_));
+}
+
+}  // namespace
+}  // namespace nearlight

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// JSON, CSV and HTML of a comparison made by hand.
+#include "host/compare/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "host/compare/files.h"
+#include "host/compare/pictures.h"
+#include "host/compare/report_csv.h"
+#include "host/image/image_io.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const Method kWalks{SamplerKind::instant_radiosity, std::nullopt};
+
+std::string decoded(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const std::size_t value = digits.find(c);
+        if (value == std::string::npos) {
+            break;
+        }
+        bits = bits << 6u | static_cast<unsigned>(value);
+        if ((count += 6) >= 8) {
+            bytes += static_cast<char>(bits >> (count -= 8) & 255u);
+        }
+    }
+    return bytes;
+}
+
+/// Encoded data may spell anything.
+std::string without_pictures(std::string page) {
+    const std::string mark = ";base64,";
+    for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+        page.erase(at + mark.size(), page.find('"', at) - at - mark.size());
+    }
+    return page;
+}
+
+class Report : public testing::Test {
+  protected:
+    Report() {
+        settings_.output = folder_.path();
+        settings_.methods = {default_method(), kWalks};
+        settings_.vpl_counts = {100, 200};
+        settings_.seed_count = 3;
+        settings_.program_version = "0.0";
+        comparison_ = {.device = "a <device> & co", .driver = "1", .measured_cells = 5, .reused_cells = 7};
+        comparison_.scenes.push_back(make_scene());
+    }
+
+    PictureFile picture(const std::string& name) {
+        const std::filesystem::path file = folder_ / (name + ".png");
+        Image image = make_picture(4, 3);
+        image.at(1, 1, 0) = 0.5f;
+        write_image(file, image);
+        return {file, file};
+    }
+
+    SceneComparison make_scene() {
+        SceneComparison scene{
+            .facts = {.name = "desk", .source = "a<b>.xml", .hash = 17, .triangles = 12},
+            .reference = {.picture = make_picture(4, 3), .method = "path tracing", .samples = 256}};
+        scene.reference.noise = {.known = true, .mean_variance = 1e-8};
+        for (const uint vpls : settings_.vpl_counts) {
+            for (const Method& method : settings_.methods) {
+                const double rmse = (method == kWalks ? 2.0 : 1.0) / vpls;
+                scene.equal_vpls.push_back({.method = method,
+                                            .vpls = vpls,
+                                            .gathered_vpls = vpls - 1.5,
+                                            .rmse = {rmse, kNan, rmse, rmse},
+                                            .rmse_ratio = method == kWalks ? 2.0 : 1.0,
+                                            .mean_ratio = {0.99, 0.02},
+                                            .generate_seconds = 0.25,
+                                            .gather_seconds = 0.5});
+                scene.figures.methods.push_back({.method = method,
+                                                 .vpls = vpls,
+                                                 .picture = picture("p"),
+                                                 .error_map = picture("e"),
+                                                 .crops = {picture("c").full},
+                                                 .crop_rmse = {0.125}});
+            }
+        }
+        scene.equal_rmse = {
+            {0.01, {{0, Reach::measured, 98.5, 0.75, 1.0, 1.0}, {1, Reach::never, kNan, kNan, kNan, kNan}}}};
+        scene.figures.overview = picture("o");
+        scene.figures.reference = picture("r");
+        scene.figures.crops = {{0, 0, 2, 2}};
+        scene.figures.reference_crops = {picture("rc").full};
+        scene.figures.vpls = {{default_method(), 98, 50, 40, picture("v")}};
+        write_text(folder_ / "plot.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>");
+        scene.plots = {{.title = "RMSE", .script = folder_ / "plot.gp", .svg = folder_ / "plot.svg"},
+                       {.title = "missing", .script = folder_ / "missing.gp"}};
+        return scene;
+    }
+    [[nodiscard]] std::string html() const {
+        write_report(comparison_, settings_);
+        return read_bytes(folder_ / "report.html");
+    }
+
+    TemporaryFolder folder_;
+    CompareSettings settings_;
+    Comparison comparison_;
+};
+
+TEST_F(Report, JsonHoldsTheContract) {
+    const nlohmann::json json = nlohmann::json::parse(write_report(comparison_, settings_));
+    EXPECT_EQ(json, nlohmann::json::parse(read_bytes(folder_ / "compare.json")));
+    const auto& scene = json.at("scenes").at(0);
+    EXPECT_EQ(scene.at("name"), "desk");
+    EXPECT_EQ(scene.at("triangles"), 12);
+    EXPECT_EQ(scene.at("reference").at("samples"), 256);
+    EXPECT_NEAR(scene.at("reference").at("noise").get<double>(), 1e-4, 1e-12);
+    const auto& row = scene.at("equal_vpls").at(1);
+    EXPECT_EQ(scene.at("equal_vpls").size(), 4u);
+    EXPECT_EQ(row.at("sampler"), "instant-radiosity");
+    EXPECT_TRUE(row.at("policy").is_null());
+    EXPECT_EQ(row.at("vpls"), 100);
+    EXPECT_EQ(row.at("rmse"), 0.02);
+    EXPECT_TRUE(row.at("rmse_ci95").is_null());
+    EXPECT_EQ(row.at("mean_ratio"), 0.99);
+    EXPECT_EQ(row.at("generate_s"), 0.25);
+    EXPECT_EQ(row.at("gather_s"), 0.5);
+    const auto& own = scene.at("equal_rmse").at(0).at("rows").at(0);
+    EXPECT_EQ(scene.at("equal_rmse").at(0).at("rmse"), 0.01);
+    EXPECT_EQ(own.at("sampler"), "close-range");
+    EXPECT_EQ(own.at("policy"), to_string(*default_method().policy));
+    EXPECT_EQ(own.at("vpls"), 98.5);
+    EXPECT_EQ(own.at("seconds"), 0.75);
+    EXPECT_EQ(own.at("vpls_ratio"), 1.0);
+    EXPECT_EQ(own.at("time_ratio"), 1.0);
+    const auto& rival = scene.at("equal_rmse").at(0).at("rows").at(1);
+    EXPECT_TRUE(rival.at("vpls").is_null());
+    EXPECT_EQ(rival.at("reach"), "never");
+}
+
+TEST_F(Report, CsvHasAsManyFieldsInEachLineAsInItsHead) {
+    for (const std::string& csv : {equal_vpls_csv(comparison_), equal_rmse_csv(comparison_, settings_)}) {
+        std::istringstream lines(csv);
+        std::string head, line;
+        std::getline(lines, head);
+        int count = 0;
+        while (std::getline(lines, line)) {
+            EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ',')) << line;
+            ++count;
+        }
+        EXPECT_GT(count, 1);
+    }
+    EXPECT_NE(equal_vpls_csv(comparison_).find("\ndesk,instant-radiosity,,200,198.5,0,0.01,,"),
+              std::string::npos);
+    EXPECT_NE(equal_rmse_csv(comparison_, settings_).find("\ndesk,instant-radiosity,,0.01,,,,,never\n"),
+              std::string::npos);
+}
+
+TEST_F(Report, HtmlNeedsNoNetwork) {
+    const std::string page = without_pictures(html());
+    EXPECT_EQ(page.find("http"), std::string::npos);
+    EXPECT_EQ(page.find("//"), std::string::npos);
+    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_EQ(page.find("<link"), std::string::npos);
+    EXPECT_EQ(page.find("url("), std::string::npos);
+    const std::regex source("(src|href)=\"([^\"]{0,12})");
+    for (std::sregex_iterator match(page.begin(), page.end(), source), end; match != end; ++match) {
+        EXPECT_EQ((*match)[2].str().substr(0, 11), "data:image/");
+    }
+    EXPECT_NE(page.find("src=\"data:image/png;base64,\""), std::string::npos);
+}
+
+TEST_F(Report, EveryPictureInTheHtmlDecodes) {
+    const std::string page = html();
+    const std::string mark = "src=\"data:image/png;base64,";
+    int count = 0;
+    for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1), ++count) {
+        const std::size_t begin = at + mark.size();
+        std::ofstream(folder_ / "decoded.png", std::ios::binary)
+            << decoded(page.substr(begin, page.find('"', begin) - begin));
+        const Image image = read_image(folder_ / "decoded.png");
+        EXPECT_EQ(image.width, 4);
+        EXPECT_NEAR(image.at(1, 1, 0), 188.0 / 255.0, 1e-3);  // 0.5 in sRGB
+    }
+    // Overview, VPLs; for each count the reference and its crop, and for each of two methods picture, error
+    // and crop.
+    EXPECT_EQ(count, 2 + 2 * (2 + 2 * 3));
+    const std::string svg = "src=\"data:image/svg+xml;base64,";
+    const std::size_t begin = page.find(svg) + svg.size();
+    EXPECT_TRUE(decoded(page.substr(begin, page.find('"', begin) - begin)).starts_with("<svg "));
+}
+
+TEST_F(Report, HtmlIsWellFormedAndEscaped) {
+    const std::string page = html();
+    std::vector<std::string> open;
+    const std::regex tags("<(/?)([a-z0-9]+)[^>]*>");
+    for (std::sregex_iterator match(page.begin(), page.end(), tags), end; match != end; ++match) {
+        const std::string name = (*match)[2];
+        if ((*match)[1].length() > 0) {
+            ASSERT_FALSE(open.empty()) << name;
+            ASSERT_EQ(open.back(), name);
+            open.pop_back();
+        } else if (name != "img" && name != "meta") {
+            open.push_back(name);
+        }
+    }
+    EXPECT_TRUE(open.empty());
+    EXPECT_NE(page.find("a &lt;device&gt; &amp; co"), std::string::npos);
+    EXPECT_NE(page.find("a&lt;b&gt;.xml"), std::string::npos);
+}
+
+TEST_F(Report, HtmlSaysWhatIsMissingAndWhatNeverHappens) {
+    const std::string page = html();
+    EXPECT_NE(page.find("missing.gp"), std::string::npos);
+    EXPECT_NE(page.find(">never</td>"), std::string::npos);
+    EXPECT_NE(page.find(">never in 1 of 1</td>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"name\">–</td><td>2.00</td>"), std::string::npos);  // RMSE ÷ baseline
+    EXPECT_EQ(page.find(">nan<"), std::string::npos);
+    EXPECT_EQ(page.find("Beware"), std::string::npos);
+    comparison_.scenes[0].reference.noise.known = false;
+    EXPECT_NE(html().find("Beware"), std::string::npos);
+    comparison_.scenes[0].equal_rmse.clear();
+    EXPECT_NE(html().find("at least two counts"), std::string::npos);
+}
+
+TEST_F(Report, APictureThatIsGoneIsAnError) {
+    std::filesystem::remove(folder_ / "o.png");
+    EXPECT_THROW(write_report(comparison_, settings_), Error);
+}
+
+TEST(PlotScript, HoldsItsOwnData) {
+    CompareSettings settings;
+    settings.methods = {kWalks};
+    settings.baseline = kWalks;
+    const std::vector<EqualVplsRow> rows{{.method = kWalks,
+                                          .vpls = 100,
+                                          .gathered_vpls = 98,
+                                          .rmse = {0.5, 0.1, 0.0, 0.7},
+                                          .generate_seconds = 1,
+                                          .gather_seconds = 2}};
+    const std::string script = plot_script("desk: RMSE", "desk-rmse", true, settings, rows);
+    EXPECT_NE(script.find("\n98 3 0.5 0.05 0.7\n"),
+              std::string::npos);  // no bar reaches 0 on a logarithmic axis
+    EXPECT_NE(script.find("using 2:3:4:5"), std::string::npos);
+    EXPECT_NE(script.find("\"instant-radiosity\""), std::string::npos);
+    EXPECT_NE(script.find("set output \"desk-rmse.svg\""), std::string::npos);
+    EXPECT_NE(plot_script("", "", false, settings, rows).find("using 1:3:4:5"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nearlight

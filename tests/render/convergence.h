@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether pictures of several seeds have the expectation that a path-traced picture shows: a function that
+// returns a verdict, so that tests can also show that it says no where it must.
+//
+// One render is one observation. Its pixels share their VPLs and depend on each other, but renders of
+// different seeds do not; so all that is tested is means over renders, against Student's distribution with
+// Welch's degrees of freedom (the path tracer's variance is estimated, too), Bonferroni-corrected for the
+// number of means:
+//  1. the mean over the whole picture, for each colour channel: a wrong normalisation;
+//  2. means over 4 × 4 and 8 × 8 blocks: light lost in a corner;
+//  3. each pixel: an edge that is wrong. Pixels that few paths light have a long-tailed distribution, whose
+//  sample
+//     variance is mostly too small; so a pixel's variance counts as no less than the mean of its block of 4 ×
+//     4;
+//  4. the mean over all pixels and channels of z², which is 1 where there is no bias: a small bias everywhere
+//  that no
+//     single pixel shows. Its spread is not that of χ², for pixels depend on each other; it is estimated from
+//     the products of pairs of renders [Chen and Qin, A two-sample test for high-dimensional data with
+//     applications to gene-set testing, 2010]. The bound is that of the worst dependence, all pixels moving
+//     as one.
+// The five tests share the probability of a false alarm, kFalseAlarm for each verdict, evenly.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "host/image/image.h"
+
+namespace nearlight::test {
+
+inline constexpr double kFalseAlarm = 1e-4;
+
+struct Verdict {
+    bool agrees = true;
+    std::string reason;  ///< what differs most, and by how much
+    double relative_error =
+        0;            ///< standard error of the whole picture's mean ÷ mean: what can be told at all
+    double bias = 0;  ///< whole mean ÷ expected − 1, of the channels' sum
+};
+
+/// Compares `layer` ("indirect" or "direct") of renders with that of trace_paths()'s `truth`. Pictures are of
+/// one size, width and height multiples of 8; there are 8 renders or more.
+Verdict judge_convergence(std::span<const Image> renders, const Image& truth, const std::string& layer);
+
+/// Two-sided probability that Student's t with so many degrees of freedom is beyond ±t, and its inverse.
+double student_tail(double t, double freedom);
+double student_quantile(double probability, double freedom);
+
+}  // namespace nearlight::test

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// A room in which the total light of each depth is known, but little of it reaches the camera.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "host/samplers/sampler.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::test {
+
+inline constexpr float kRoomAlbedo = 0.6f;
+inline constexpr float kLightFlux = 4 * kPi;  ///< W, of each colour
+
+inline constexpr float kBenchClampRadius = 0.1f;
+
+/// A closed box of one albedo, in two halves that a gap joins: the light is in one, the camera in the other.
+/// Walks cannot get lost, so the flux that is reflected at depth d is kLightFlux · kRoomAlbedo^d.
+inline Scene divided_room() {
+    using namespace small_scenes;
+    Scene scene;
+    Material grey = lambertian({kRoomAlbedo, kRoomAlbedo, kRoomAlbedo});
+    grey.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    const uint wall = add_material(scene, grey);
+    add_quad(scene, {-1, -1, -2}, {0, 0, 4}, {2, 0, 0}, wall);
+    add_quad(scene, {-1, 1, -2}, {2, 0, 0}, {0, 0, 4}, wall);
+    add_quad(scene, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, wall);
+    add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, wall);
+    add_quad(scene, {-1, -1, -2}, {0, 2, 0}, {0, 0, 4}, wall);
+    add_quad(scene, {1, -1, -2}, {0, 0, 4}, {0, 2, 0}, wall);
+    add_quad(scene, {-1, -1, 0}, {0, 2, 0}, {1.5f, 0, 0}, wall);  // the divider
+    add_point_light(scene, {-0.3f, 0.2f, -1.2f}, {1, 1, 1});
+    set_camera(scene, {0.2, 0.1, 0.3}, {-0.2, -0.1, 2}, 70);
+    scene.camera.width = scene.camera.height = 32;
+    return scene;
+}
+
+/// What a sampler needs, and samples of it.
+class SamplingBench {
+  public:
+    SamplingBench(Device& device, const Scene& scene)
+        : device_(device),
+          stages_(device),
+          camera_pass_(device),
+          scene_(device, scene),
+          view_(look_at_scene(device, camera_pass_, scene_.buffers, scene.camera, 1)) {}
+
+    [[nodiscard]] VplSet sample(SamplerKind sampler, uint vpl_count, uint seed, uint bounce_count = 3) {
+        return sample_vpls(stages_, {.scene = scene_.buffers,
+                                     .view = view_,
+                                     .sampler = sampler,
+                                     .vpl_count = vpl_count,
+                                     .bounce_count = bounce_count,
+                                     .close_fraction = std::nullopt,
+                                     .clamp_radius = kBenchClampRadius,
+                                     .seed = seed});
+    }
+    [[nodiscard]] const PilotView& view() const { return view_; }
+    /// What each VPL of a set brings to the camera.
+    [[nodiscard]] std::vector<float> contributions(const VplSet& set) {
+        const Buffer<Vpl> vpls(device_, std::span(set.vpls));
+        Buffer<float> contributions(device_, set.vpls.size());
+        stages_.vpl_contribution.run(scene_.buffers, vpls, set.vpls.size(), view_, kBenchClampRadius,
+                                     contributions);
+        return contributions.download();
+    }
+
+  private:
+    Device& device_;
+    SamplerStages stages_;
+    CameraPass camera_pass_;
+    SceneOnDevice scene_;
+    PilotView view_;
+};
+
+/// Summed power of the VPLs of a depth, W (green).
+inline double power_at_depth(const VplSet& set, uint depth) {
+    double sum = 0;
+    for (const Vpl& vpl : set.vpls) {
+        sum += vpl.depth == depth ? vpl.power.y : 0.0f;
+    }
+    return sum;
+}
+
+}  // namespace nearlight::test

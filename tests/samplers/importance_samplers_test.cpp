@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all samplers that look at the camera must do: keep the light that there is, give about as many VPLs as
+// are wanted, and live with scenes in which there is nothing to see.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <numeric>
+
+#include "tests/render/energy.h"
+#include "tests/samplers/divided_room.h"
+#include "tests/support/device_fixture.h"
+
+namespace nearlight {
+namespace {
+
+using namespace small_scenes;
+using test::divided_room;
+using test::SamplingBench;
+
+constexpr uint kDepths = 3;
+
+std::string test_name(const ::testing::TestParamInfo<SamplerKind>& info) {
+    return to_string(info.param);
+}
+
+class ImportanceSamplerTest : public test::DeviceTest, public ::testing::WithParamInterface<SamplerKind> {};
+INSTANTIATE_TEST_SUITE_P(, ImportanceSamplerTest,
+                         ::testing::Values(SamplerKind::rejection, SamplerKind::metropolis), test_name);
+
+double total(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Mean power at each depth over many seeds is the flux that is known to be there.
+void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count, uint seeds,
+                      double most_error) {
+    std::vector<std::vector<double>> power(kDepths);
+    for (uint seed = 0; seed < seeds; ++seed) {
+        const VplSet set = bench.sample(sampler, vpl_count, 50 + seed, kDepths);
+        for (uint depth = 1; depth <= kDepths; ++depth) {
+            power[depth - 1].push_back(test::power_at_depth(set, depth));
+        }
+    }
+    for (uint depth = 1; depth <= kDepths; ++depth) {
+        const double expected = test::kLightFlux * std::pow(test::kRoomAlbedo, depth);
+        const test::Spread found = test::spread_of(power[depth - 1]);
+        // Walks are well spread, so that their number's rounding may be all the error there is.
+        EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.003 * expected)
+            << vpl_count << " VPLs, depth " << depth;
+        EXPECT_LT(found.error, most_error * expected)
+            << vpl_count << " VPLs, depth " << depth << ": too noisy to tell";
+    }
+}
+
+TEST_P(ImportanceSamplerTest, KeepsTheLightOfEachDepth) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        ASSERT_GT(bench.view().importon_count, 500u);
+        expect_all_light(bench, GetParam(), 900, 50, 0.03);
+    });
+}
+
+/// So few VPLs tell little about the light as a whole, but enough about what they are chosen for.
+TEST_P(ImportanceSamplerTest, SmallBudgetsAreUnbiasedToo) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        const double expected =
+            total(bench.contributions(bench.sample(SamplerKind::instant_radiosity, 100'000, 1)));
+        for (const uint budget : {1u, 2u, 63u}) {
+            std::vector<double> brought;
+            for (uint seed = 0; seed < 100; ++seed) {
+                brought.push_back(total(bench.contributions(bench.sample(GetParam(), budget, 300 + seed))));
+            }
+            const test::Spread found = test::spread_of(brought);
+            EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.01 * expected) << budget << " VPLs";
+            EXPECT_LT(found.error, 0.12 * expected) << budget << " VPLs: too noisy to tell";
+        }
+    });
+}
+
+TEST_P(ImportanceSamplerTest, GivesAboutAsManyAsWanted) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        for (const uint wanted : {100u, 1000u}) {
+            double count = 0;
+            for (uint seed = 0; seed < 8; ++seed) {
+                const VplSet set = bench.sample(GetParam(), wanted, seed);
+                count += static_cast<double>(set.vpls.size()) / 8;
+                EXPECT_EQ(set.distant_count, set.vpls.size());
+                EXPECT_GT(set.candidate_count, 2 * set.vpls.size()) << "no choice was made";
+            }
+            EXPECT_NEAR(count, wanted, 0.1 * wanted);
+        }
+    });
+}
+
+TEST_P(ImportanceSamplerTest, EvensOutWhatVplsBringToTheCamera) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        const auto unevenness = [&](SamplerKind sampler) {
+            const std::vector<float> contributions = bench.contributions(bench.sample(sampler, 1000, 3));
+            double squares = 0;
+            for (const float c : contributions) {
+                squares += double(c) * c;
+            }
+            const double sum = total(contributions);
+            return squares * static_cast<double>(contributions.size()) /
+                   (sum * sum);  // 1: all bring the same
+        };
+        const double walks = unevenness(SamplerKind::instant_radiosity);
+        EXPECT_GT(walks, 2.5);
+        EXPECT_LT(unevenness(GetParam()), 1 + 0.2 * (walks - 1));
+    });
+}
+
+TEST_P(ImportanceSamplerTest, SameSeedSameBits) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        const VplSet first = bench.sample(GetParam(), 300, 7);
+        const VplSet second = bench.sample(GetParam(), 300, 7);
+        const VplSet other = bench.sample(GetParam(), 300, 8);
+        ASSERT_EQ(first.vpls.size(), second.vpls.size());
+        EXPECT_EQ(std::memcmp(first.vpls.data(), second.vpls.data(), first.vpls.size() * sizeof(Vpl)), 0);
+        EXPECT_NE(std::memcmp(first.vpls.data(), other.vpls.data(),
+                              std::min(first.vpls.size(), other.vpls.size()) * sizeof(Vpl)),
+                  0);
+    });
+}
+
+/// A camera that looks away from everything has no importons, and any set will do that carries the light.
+TEST_P(ImportanceSamplerTest, SeesNothingAndStillKeepsTheLight) {
+    Scene scene = divided_room();
+    set_camera(scene, {0, 0, 10}, {0, 0, 20}, 40);
+    on_each_device([&](Device& device) {
+        SamplingBench bench(device, scene);
+        ASSERT_EQ(bench.view().importon_count, 0u);
+        expect_all_light(bench, GetParam(), 300, 10, 0.05);
+    });
+}
+
+/// The light cannot reach what the camera sees: all contributions are 0, and so is the picture.
+TEST_P(ImportanceSamplerTest, WhatNoLightReachesIsNoTrouble) {
+    Scene scene = divided_room();
+    add_quad(scene, {0.4f, -1, 0}, {0, 2, 0}, {0.6f, 0, 0}, 0);  // closes the gap
+    on_each_device([&](Device& device) {
+        SamplingBench bench(device, scene);
+        ASSERT_GT(bench.view().importon_count, 500u);
+        expect_all_light(bench, GetParam(), 900, 4, 0.05);
+    });
+}
+
+TEST_P(ImportanceSamplerTest, WithoutLightThereAreNoVpls) {
+    Scene dark = divided_room();
+    dark.delta_emitters.clear();
+    Scene missed;  // the light shines on the back of a one-sided surface
+    add_quad(missed, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, add_material(missed, lambertian({1, 1, 1})));
+    add_point_light(missed, {0, 0, -1}, {1, 1, 1});
+    set_camera(missed, {0, 0, 3}, {0, 0, 0}, 60);
+    on_each_device([&](Device& device) {
+        EXPECT_TRUE(SamplingBench(device, dark).sample(GetParam(), 100, 1).vpls.empty());
+        EXPECT_TRUE(SamplingBench(device, missed).sample(GetParam(), 100, 1).vpls.empty());
+        SamplingBench bench(device, divided_room());
+        EXPECT_TRUE(bench.sample(GetParam(), 0, 1).vpls.empty());
+        EXPECT_TRUE(bench.sample(GetParam(), 100, 1, 0).vpls.empty());
+    });
+}
+
+}  // namespace
+}  // namespace nearlight
