@@ -43,9 +43,4 @@ inline std::vector<Image> render_seeds(Renderer& renderer, RenderSettings settin
     return images;
 }
 
-inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
-    Renderer renderer(device, scene, settings.gather_kernel);
-    return render_image(renderer, settings);
-}
-
 }  // namespace nearlight::test
