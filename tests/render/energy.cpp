@@ -34,7 +34,8 @@ double luminance_error(const Image& image, std::size_t pixel, const std::string&
 
 std::string to_string(const EnergyClass& energy_class) {
     return "camera " + std::to_string(energy_class.camera) + ", " +
-           (energy_class.inside ? "inside" : "outside") + ", depth " + std::to_string(energy_class.depth);
+           (energy_class.inside ? "inside" : "outside") +
+           (energy_class.depth > 0 ? ", depth " + std::to_string(energy_class.depth) : ", all depths");
 }
 
 bool in_region(const CloseRange& region, Vec3 p) {
@@ -115,20 +116,35 @@ void Photographer::expose(std::size_t camera, const Vpl& vpl, std::map<EnergyCla
         cosine / (distance * distance) / (on_axis * on_axis * on_axis) * pixels_per_unit * pixels_per_unit;
     const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.camera.width) +
                        static_cast<std::size_t>(x);
-    const auto found = sums.find({camera, film.inside[pixel], vpl.depth});
-    if (found != sums.end()) {
-        found->second += luminance(vpl.power) / std::numbers::pi * pixels_per_area;
+    const double light = luminance(vpl.power) / std::numbers::pi * pixels_per_area;
+    if (const auto found = sums.find({camera, film.inside[pixel], vpl.depth});
+        vpl.depth > 0 && found != sums.end()) {
+        found->second += light;
     }
+    sums[{camera, film.inside[pixel], 0}] += light;
 }
 
 std::map<EnergyClass, double> Photographer::photograph(const std::vector<Vpl>& vpls) const {
     std::map<EnergyClass, double> sums;
     for (const auto& [energy_class, expected] : truth_) {
         sums[energy_class] = 0.0;
+        sums[{energy_class.camera, energy_class.inside, 0}] = 0.0;
     }
     for (const Vpl& vpl : vpls) {
         for (std::size_t camera = 0; camera < films_.size(); ++camera) {
             expose(camera, vpl, sums);
+        }
+    }
+    return sums;
+}
+
+std::map<EnergyClass, Expected> light_up_to(uint depth, const std::map<EnergyClass, Expected>& truth) {
+    std::map<EnergyClass, Expected> sums;
+    for (const auto& [energy_class, expected] : truth) {
+        if (energy_class.depth <= depth) {
+            Expected& sum = sums[{energy_class.camera, energy_class.inside, 0}];
+            sum.mean += expected.mean;
+            sum.error = std::hypot(sum.error, expected.error);
         }
     }
     return sums;

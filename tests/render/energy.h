@@ -22,7 +22,7 @@ namespace nearlight::test {
 struct EnergyClass {
     std::size_t camera = 0;
     bool inside = false;  ///< the close range
-    uint depth = 1;       ///< of VPLs
+    uint depth = 1;       ///< of VPLs; 0: all together
     auto operator<=>(const EnergyClass&) const = default;
 };
 std::string to_string(const EnergyClass& energy_class);
@@ -42,7 +42,7 @@ class Photographer {
 
     /// Classes that have a fair number of pixels, and what path tracing says of them.
     [[nodiscard]] const std::map<EnergyClass, Expected>& truth() const { return truth_; }
-    /// The same of a VPL set.
+    /// The same of a VPL set, and the sums over all depths.
     [[nodiscard]] std::map<EnergyClass, double> photograph(const std::vector<Vpl>& vpls) const;
 
   private:
@@ -59,6 +59,9 @@ class Photographer {
     std::map<EnergyClass, Expected> truth_;
     uint depths_;
 };
+
+/// What sets of light of all depths up to `depth` are to show: classes of depth 0.
+std::map<EnergyClass, Expected> light_up_to(uint depth, const std::map<EnergyClass, Expected>& truth);
 
 bool in_region(const CloseRange& region, Vec3 p);
 
