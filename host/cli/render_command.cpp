@@ -114,7 +114,9 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     json["vpls"] = {{"requested", settings.vpl_count},
                     {"close", report.close_vpls},
                     {"distant", report.distant_vpls},
-                    {"sparse", report.sparse_vpls}};
+                    {"sparse", report.sparse_vpls},
+                    {"candidates", report.candidates},
+                    {"local_lights", report.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.clamp_radius;

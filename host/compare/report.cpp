@@ -5,6 +5,7 @@
 #include "host/compare/report_csv.h"
 #include "host/compare/report_html.h"
 #include "host/compare/report_json.h"
+#include "host/compare/report_markdown.h"
 
 namespace nearlight {
 
@@ -14,6 +15,7 @@ std::string write_report(const Comparison& comparison, const CompareSettings& se
     write_text(settings.output / "equal_vpls.csv", equal_vpls_csv(comparison));
     write_text(settings.output / "equal_rmse.csv", equal_rmse_csv(comparison, settings));
     write_text(settings.output / "report.html", comparison_html(comparison, settings));
+    write_text(settings.output / "report.md", comparison_markdown(comparison, settings));
     return json;
 }
 

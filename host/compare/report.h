@@ -7,7 +7,7 @@
 
 namespace nearlight {
 
-/// Writes compare.json, equal_vpls.csv, equal_rmse.csv and report.html into settings.output and returns the
+/// Writes compare.json, equal_vpls.csv, equal_rmse.csv, report.html and report.md into settings.output and returns the
 /// text of the first. Throws Error(ExitCode::file).
 std::string write_report(const Comparison& comparison, const CompareSettings& settings);
 

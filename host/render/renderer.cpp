@@ -151,6 +151,7 @@ void fill_report(const View& view, const VplSet& vpls, RenderReport& report) {
     report.close_vpls = vpls.close_count;
     report.distant_vpls = vpls.distant_count;
     report.sparse_vpls = vpls.sparse_count;
+    report.candidates = vpls.candidate_count;
     report.close_fraction = vpls.close_fraction;
 }
 

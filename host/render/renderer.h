@@ -37,6 +37,7 @@ struct RenderReport {
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
     std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
+    std::size_t candidates = 0;   ///< that VPLs were chosen from; 0: there was no choice
     float close_fraction = 0;
     std::size_t local_lights = 0;  ///< of all tiles
     RenderSeconds seconds;

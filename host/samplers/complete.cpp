@@ -39,9 +39,9 @@
 namespace nearlight {
 namespace {
 
-// Chosen on cornell-box and the desk; bench/RESULTS.md has what else was tried.
+// Found on desk and showcase; bench/RESULTS.md has what was tried.
 constexpr uint kPointsPerVpl = 4;     ///< candidates on the close range; each has two sides
-constexpr uint kDepositsPerVpl = 16;  ///< candidates from walks
+constexpr uint kDepositsPerVpl = 48;  ///< candidates from walks
 constexpr uint kMostCandidates =
     1u << 22u;  ///< of each kind; where more VPLs are wanted, there is less choice
 constexpr uint kRoughSparseVpls = 256;

@@ -147,7 +147,7 @@ TEST_F(BadInput, Options) {
     expect_error(render(scene, "--layers nosuch"), 2, "unknown layer 'nosuch'; there are");
     for (const char* sampler : {"nosuch", "7", ""}) {
         expect_error(render(scene, "--sampler '" + std::string(sampler) + "'"), 2,
-                     "there are: close-range, instant-radiosity");
+                     "there are: bidirectional, close-range, instant-radiosity");
     }
     expect_error(run_program("render " + quoted(scene)), 2, "--output is required");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON, CSV and HTML of a comparison made by hand.
+// JSON, CSV, HTML and Markdown of a comparison made by hand.
 #include "host/compare/report.h"
 
 #include <gtest/gtest.h>
@@ -162,6 +162,32 @@ TEST_F(Report, CsvHasAsManyFieldsInEachLineAsInItsHead) {
               std::string::npos);
     EXPECT_NE(equal_rmse_csv(comparison_, settings_).find("\ndesk,instant-radiosity,,0.01,,,,,never\n"),
               std::string::npos);
+}
+
+TEST_F(Report, MarkdownHasRowsAsWideAsTheirHeadAndPicturesThatAreThere) {
+    write_report(comparison_, settings_);
+    const std::string text = read_bytes(folder_ / "report.md");
+    std::istringstream lines(text);
+    std::string line;
+    std::ptrdiff_t columns = 0;
+    int rows = 0;
+    while (std::getline(lines, line)) {
+        const auto bars = std::ranges::count(line, '|');
+        if (bars > 0 && columns > 0) {
+            EXPECT_EQ(bars, columns) << line;
+            ++rows;
+        }
+        columns = bars;
+    }
+    EXPECT_GE(rows, 4 + 2 + 3);
+    EXPECT_NE(text.find("| instant-radiosity | 200 | 198 | 0 | 0.01 | 2.00 | 0.99 ± 0.02 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| instant-radiosity | 0.01 | – | – | – | – | never |"), std::string::npos) << text;
+    const std::regex pictures(R"(\]\(pictures/([^)]+)\))");
+    int count = 0;
+    for (std::sregex_iterator match(text.begin(), text.end(), pictures), end; match != end; ++match, ++count) {
+        EXPECT_TRUE(std::filesystem::exists(folder_ / (*match)[1].str())) << (*match)[1];
+    }
+    EXPECT_EQ(count, 1 + 1 + 4);
 }
 
 TEST_F(Report, HtmlNeedsNoNetwork) {

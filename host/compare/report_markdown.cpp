@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/compare/report_markdown.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+
+namespace nearlight {
+namespace {
+
+std::string number(double value, int digits = 3) {
+    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
+}
+std::string interval(double value, double half_width, int digits) {
+    return number(value, digits) + (std::isfinite(half_width) ? " ± " + number(half_width, 2) : "");
+}
+std::string fixed(double value, int digits) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
+}
+
+std::string row(std::initializer_list<std::string> cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) {
+        text += " " + cell + " |";
+    }
+    return text + "\n";
+}
+
+/// The name in the first column, numbers to the right.
+std::string header(std::initializer_list<std::string> cells) {
+    std::string rule = "| --- |";
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        rule += " ---: |";
+    }
+    return row(cells) + rule + "\n";
+}
+
+/// Small enough for a table, and from the folder of the report.
+std::string image(const PictureFile& file, const std::string& title) {
+    return fmt::format("![{}](pictures/{})", title, file.small.filename().string());
+}
+
+std::string conditions(const SceneComparison& scene, const CompareSettings& settings) {
+    const SceneFacts& facts = scene.facts;
+    std::string text = fmt::format(
+        "{} triangles, {}×{} pixels, {} seeds, depth {}, close range up to {:.4g}, clamp radius {:.4g}. "
+        "Reference: {}, {}",
+        facts.triangles, settings.width, settings.height, settings.seed_count, facts.max_depth, facts.range,
+        facts.clamp_radius, scene.reference.method, scene.reference.samples);
+    text += scene.reference.method == to_string(ReferenceKind::path_tracing) ? " samples a pixel" : " VPLs";
+    if (scene.reference.noise.known) {
+        text += fmt::format("; its own noise, {:.2g}, is subtracted",
+                            std::sqrt(scene.reference.noise.mean_variance));
+    }
+    const std::string remark = noise_remark(scene.reference, scene.equal_vpls);
+    return text + ".\n" + (remark.empty() ? "" : "\n*Beware: " + remark + ".*\n");
+}
+
+std::string equal_vpls_table(const SceneComparison& scene) {
+    std::string text = header({"equal VPLs", "asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
+                               "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
+    for (const EqualVplsRow& entry : scene.equal_vpls) {
+        text += row({to_string(entry.method), std::to_string(entry.vpls), fixed(entry.gathered_vpls, 0),
+                     fixed(entry.sparse_vpls, 0), interval(entry.rmse.value, entry.rmse.half_width, 3),
+                     fixed(entry.rmse_ratio, 2), interval(entry.mean_ratio.mean, entry.mean_ratio.half_width, 4),
+                     number(entry.flip.mean, 2), fixed(entry.generate_seconds, 2),
+                     fixed(entry.gather_seconds, 2)});
+    }
+    return text;
+}
+
+std::string equal_rmse_table(const SceneComparison& scene, const CompareSettings& settings) {
+    if (scene.equal_rmse.empty()) {
+        return {};
+    }
+    std::string text = header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "known"});
+    for (const EqualRmse& group : scene.equal_rmse) {
+        for (const EqualRmseRow& entry : group.rows) {
+            text += row({to_string(settings.methods[entry.curve]), number(group.rmse), fixed(entry.vpls, 0),
+                         fixed(entry.seconds, 2), fixed(entry.vpls_ratio, 1), fixed(entry.time_ratio, 1),
+                         to_string(entry.reach)});
+        }
+    }
+    return text + "\n";
+}
+
+std::string vpl_pictures(const SceneComparison& scene, const CompareSettings& settings) {
+    std::string text = fmt::format("Where {} VPLs are (orange: on the close range, blue: by walks):\n\n",
+                                   settings.vpl_counts.front());
+    for (const VplFigure& figure : scene.figures.vpls) {
+        text += image(figure.file, to_string(figure.method)) + "\n";
+    }
+    return text + "\n";
+}
+
+std::string method_pictures(const SceneComparison& scene, const CompareSettings& settings) {
+    const uint count = settings.vpl_counts.front();
+    std::string text = fmt::format(
+        "Indirect light with {} VPLs, and its error relative to the reference (red: too bright, blue: too "
+        "dark):\n\n",
+        count);
+    text += "| | picture | error |\n| --- | --- | --- |\n";
+    text += row({"reference", image(scene.figures.reference, "reference"), ""});
+    for (const MethodFigure& figure : scene.figures.methods) {
+        if (figure.vpls == count) {
+            const std::string name = to_string(figure.method);
+            text += row({name, image(figure.picture, name), image(figure.error_map, "error of " + name)});
+        }
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string comparison_markdown(const Comparison& comparison, const CompareSettings& settings) {
+    std::string text = fmt::format("Device: {}. Baseline: {}. Seconds are medians over seeds.\n\n",
+                                   comparison.device, to_string(settings.baseline));
+    for (const SceneComparison& scene : comparison.scenes) {
+        text += "## " + scene.facts.name + "\n\n" + conditions(scene, settings) + "\n";
+        text += equal_vpls_table(scene) + "\n" + equal_rmse_table(scene, settings);
+        text += vpl_pictures(scene, settings) + method_pictures(scene, settings);
+    }
+    return text;
+}
+
+}  // namespace nearlight
