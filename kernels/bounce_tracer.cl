@@ -12,6 +12,7 @@
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
+#include "lib/vpl.cl"
 
 /// Irradiance at x through at most `bounce_count` reflections, by one path.
 inline float3 trace_bounces(const SceneView* scene, float3 x, float3 n, float2 first, uint bounce_count, float clamp_radius,
@@ -63,8 +64,8 @@ kernel void bounce_tracer(SCENE_PARAMETERS, const global ReceiverPacket* restric
     }
     const SceneView scene = SCENE_VIEW;
     const global ReceiverPacket* receiver = receivers + packet;
-    const float3 x = (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]);
-    const float3 n = (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]);
+    const float3 x = receiver_position(receiver, lane);
+    const float3 n = receiver_normal(receiver, lane);
     if (!(dot(n, n) > 0.0f) || scene.info->emitter_count == 0) {
         return;
     }

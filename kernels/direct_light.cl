@@ -5,6 +5,7 @@
 // Random numbers are keyed by the receiver's position, so no split of the work changes the result.
 
 #include "lib/emitter.cl"
+#include "lib/vpl.cl"
 
 kernel void direct_light(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint packet_count,
                          uint sample_count, uint seed, global IrradiancePacket* restrict irradiance) {
@@ -16,8 +17,8 @@ kernel void direct_light(SCENE_PARAMETERS, const global ReceiverPacket* restrict
     }
     const SceneView scene = SCENE_VIEW;
     const global ReceiverPacket* receiver = receivers + packet;
-    const float3 x = (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]);
-    const float3 n = (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]);
+    const float3 x = receiver_position(receiver, lane);
+    const float3 n = receiver_normal(receiver, lane);
     float3 e = (float3)(0.0f);
     if (dot(n, n) > 0.0f && scene.info->emitter_count > 0) {
         const uint4 keys = random_uint4((uint4)(as_uint(x.x), as_uint(x.y), as_uint(x.z), seed));

@@ -6,6 +6,7 @@
 
 #include "lib/bvh_traverse.cl"
 #include "lib/gather.cl"
+#include "lib/vpl.cl"
 
 /// Geometry term of VPL and receiver without visibility, 0 if there is nothing to trace: `segment` leads from
 /// the VPL to the receiver.
@@ -32,8 +33,8 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
         return;
     }
     const global ReceiverPacket* from = receivers + packet;
-    const float3 position = (float3)(from->px[lane], from->py[lane], from->pz[lane]);
-    const float3 normal = (float3)(from->nx[lane], from->ny[lane], from->nz[lane]);
+    const float3 position = receiver_position(from, lane);
+    const float3 normal = receiver_normal(from, lane);
     global IrradiancePacket* to = irradiance + packet;
     float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
     for (uint chunk = first_vpl; chunk < end_vpl; chunk += GATHER_CHUNK) {

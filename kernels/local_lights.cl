@@ -24,6 +24,7 @@
 // another, so no cut of the picture changes the result.
 
 #include "lib/path_walk.cl"
+#include "lib/vpl.cl"
 
 typedef struct LocalPoint {
     float3 position;
@@ -32,8 +33,8 @@ typedef struct LocalPoint {
 
 inline LocalPoint receiver_point(const global ReceiverPacket* packet, uint lane) {
     LocalPoint point;
-    point.position = (float3)(packet->px[lane], packet->py[lane], packet->pz[lane]);
-    point.normal = (float3)(packet->nx[lane], packet->ny[lane], packet->nz[lane]);
+    point.position = receiver_position(packet, lane);
+    point.normal = receiver_normal(packet, lane);
     return point;
 }
 inline LocalPoint light_point(const global Vpl* light) {
@@ -67,7 +68,8 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
 
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
                              uint slot_count, uint rays_per_receiver, float radius, const global Vpl* restrict vpls,
-                             uint vpl_count, uint connections, uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights, global uint* restrict flags) {
+                             uint vpl_count, uint connections, uint bounce_count, uint direct_samples, uint seed,
+                             global Vpl* restrict lights, global uint* restrict flags) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= slot_count) {
         return;
@@ -103,14 +105,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     if (is_black(exitance)) {
         return;
     }
-    Vpl vpl;
-    vpl.position = store3(light.position);
-    vpl.depth = 0;
-    vpl.normal = store3(light.normal);
-    vpl.flags = 0;
-    vpl.power = store3(exitance);
-    vpl.pad0 = 0.0f;
-    lights[slot] = vpl;
+    lights[slot] = make_vpl(light.position, light.normal, 0, 0, exitance);
     flags[slot] = 1;
 }
 

@@ -9,6 +9,7 @@
 
 #include "lib/close_range.cl"
 #include "lib/material.cl"
+#include "lib/vpl.cl"
 
 kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict samples, uint sample_count,
                        const global CloseRange* restrict close_range, uint whole_triangles, float area_per_sample,
@@ -31,13 +32,7 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
         return;
     }
     const float3 normal = front ? load3(point.normal) : -load3(point.normal);
-    Vpl vpl;
-    vpl.position = store3(offset_point(&scene, position, normal));
-    vpl.depth = 0;  // whichever light comes
-    vpl.normal = store3(normal);
-    vpl.flags = NEARLIGHT_VPL_CLOSE;
-    vpl.power = store3(power);
-    vpl.pad0 = 0.0f;
-    vpls[index] = vpl;
+    // Depth 0: whichever light comes.
+    vpls[index] = make_vpl(offset_point(&scene, position, normal), normal, 0, NEARLIGHT_VPL_CLOSE, power);
     flags[index] = 1;
 }

@@ -12,6 +12,7 @@
 #include "lib/material.cl"
 #include "lib/random.cl"
 #include "lib/sampling.cl"
+#include "lib/vpl.cl"
 
 kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, uint point_count, uint rays_per_point,
                          uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
@@ -37,13 +38,6 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, ui
     if (is_black(albedo) || !(height > 0.1f * ray_epsilon(y, scene.info->extent))) {
         return;
     }
-    Vpl vpl;
-    vpl.position = store3(y);
-    vpl.depth = 0;  // whichever light comes
-    vpl.normal = store3(hit.geometric);
-    vpl.flags = 0;
-    vpl.power = store3(albedo);
-    vpl.pad0 = 0.0f;
-    vpls[ray] = vpl;
+    vpls[ray] = make_vpl(y, hit.geometric, 0, 0, albedo);  // depth 0: whichever light comes
     flags[ray] = 1;
 }

@@ -19,6 +19,7 @@
 #include "host/base/random.h"
 #include "host/samplers/candidates.h"
 #include "host/samplers/incident_light.h"
+#include "host/samplers/resampling.h"
 #include "host/samplers/sparse_walks.h"
 
 namespace nearlight {
@@ -132,13 +133,6 @@ std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
     return light;
 }
 
-/// Multiplies powers by the light that arrives.
-void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance) {
-    for (std::size_t i = 0; i < vpls.size(); ++i) {
-        vpls[i].power *= irradiance[i];
-    }
-}
-
 }  // namespace
 
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
@@ -161,7 +155,8 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     const std::vector<Vpl> standard = weigh_standard(examine(stages, task, balance, deposits.vpls));
     candidates.insert(candidates.end(), standard.begin(), standard.end());
 
-    const Choice choice = choose_by_contribution(stages, task, candidates, kChoiceStream);
+    const Choice choice = resample(choice_weights(stages, task, candidates, ContributionNorm::mean),
+                                   task.vpl_count, Pcg32(task.seed, kChoiceStream).uniform());
     std::ranges::copy(unlit, candidates.begin());
     VplSet set;
     set.vpls = take(choice, candidates);

@@ -2,7 +2,6 @@
 #include "host/samplers/candidates.h"
 
 #include "host/base/math.h"
-#include "host/base/random.h"
 
 namespace nearlight {
 namespace {
@@ -28,15 +27,15 @@ void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
 
 }  // namespace
 
-Choice choose_by_contribution(SamplerStages& stages, const SamplingTask& task,
-                              std::span<const Vpl> candidates, uint stream) {
+std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& task,
+                                  std::span<const Vpl> candidates, ContributionNorm norm) {
     const Buffer<Vpl> vpls(stages.device, candidates);
     Buffer<float> contribution(stages.device, candidates.size());
     stages.vpl_contribution.run(task.scene, vpls, candidates.size(), task.view, task.clamp_radius,
-                                contribution);
+                                contribution, norm);
     std::vector<float> weights = contribution.download();
     add_blind_part(candidates, weights);
-    return resample(weights, task.vpl_count, Pcg32(task.seed, stream).uniform());
+    return weights;
 }
 
 }  // namespace nearlight

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // The policy `complete` of close-range sampling, which goes beyond the paper:
 //
-//  1. Candidates, several times as many as are wanted: points spread evenly over the close range [paper §3],
-//  whether
-//     light reaches them or not, and deposits of light walks over the whole scene.
-//  2. Two of a kind must not both answer for the close range. A point there is the end of a patch with
-//  density
-//     p_patch = points / area, and of a walk with density p_walk ≈ E(y) · walks / Φ, as each walk carries
-//     about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between them: w_patch
-//     = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light falls on
-//     much surface, which ends the strong deposits beside the camera, and walks remain where much light falls
-//     on little surface (a lamp's shade), which evenly spread patches would miss or make outliers of. Outside
-//     the close range walks have it all.
-//  3. The shares follow a rough estimate of E(y): a few samples of direct light, a gather from a small sparse
-//  set, one
-//     short path, and a constant, so that nothing is taken for dark that is not. The estimate need not be
-//     right for the shares to add up to 1 in expectation: at y it has the same distribution for a patch and
-//     for a walk, and it is independent of both and of the light that the patch carries in the end.
-//  4. From all candidates VPLs are drawn in proportion to the error each would leave in the picture
-//     (ContributionNorm::mean_square) by systematic resampling along the Morton curve. The split between
-//     close and distant follows by itself. Each is divided by the probability that it was really chosen with:
-//     unbiased.
-//  5. The chosen patches get their light of all depths in full: many direct samples, a gather from a larger
-//  sparse set,
-//     and short paths for what the bounded gather leaves out.
+// Candidates, several times as many as are wanted, are points spread evenly over the close range [paper §3],
+// whether light reaches them or not, and deposits of light walks over the whole scene.
+//
+// Shares. Two of a kind must not both answer for the close range. A point there is the end of a patch with
+// density p_patch = points / area, and of a walk with density p_walk ≈ E(y) · walks / Φ, as each walk carries
+// about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between them: w_patch =
+// p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light falls on much
+// surface, which ends the strong deposits beside the camera, and walks remain where much light falls on
+// little surface (a lamp's shade), which evenly spread patches would miss or make outliers of. Outside the
+// close range walks have it all. The shares follow a rough estimate of E(y): a few samples of direct light, a
+// gather from a small sparse set, one short path, and a constant, so that nothing is taken for dark that is
+// not. The estimate need not be right for the shares to add up to 1 in expectation: at y it has the same
+// distribution for a patch and for a walk, and it is independent of both and of the light that the patch
+// carries in the end.
+//
+// Choice. VPLs are drawn from all candidates in proportion to the error each would leave in the picture
+// (ContributionNorm::mean_square), by systematic resampling along the Morton curve. The split between close
+// and distant follows by itself. Each is divided by the probability that it was really chosen with: unbiased.
+//
+// Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
+// larger sparse set, and short paths for what the bounded gather leaves out.
 #include "host/samplers/complete.h"
 
 #include <algorithm>
@@ -32,6 +30,7 @@
 #include "host/base/math.h"
 #include "host/base/message.h"
 #include "host/base/random.h"
+#include "host/samplers/candidates.h"
 #include "host/samplers/incident_light.h"
 #include "host/samplers/resampling.h"
 #include "host/samplers/sparse_walks.h"
@@ -42,21 +41,22 @@ namespace {
 // Found on desk and showcase; bench/RESULTS.md has what was tried.
 constexpr uint kPointsPerVpl = 4;     ///< candidates on the close range; each has two sides
 constexpr uint kDepositsPerVpl = 48;  ///< candidates from walks
-constexpr uint kMostCandidates =
-    1u << 22u;  ///< of each kind; where more VPLs are wanted, there is less choice
+/// Of each kind; where more VPLs are wanted, there is less choice.
+constexpr uint kMostCandidates = 1u << 22u;
 constexpr uint kRoughSparseVpls = 256;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
 /// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
 constexpr float kAmbientShare = 0.3f;
-/// Part of the mean probability (per watt) that every candidate has; the camera's points may miss what it
-/// lights.
-constexpr float kFluxFloor = 0.1f;
 /// Part of the error that a close VPL makes in its own neighbourhood, if that is in view and faces it. The
 /// camera's points are too few to meet every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
 constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kResamplingStream = 0x5e1ec7u;
+
+bool is_close(const Vpl& vpl) {
+    return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
+}
 
 struct Candidates {
     std::vector<Vpl> vpls;  ///< patches, without light yet, then deposits
@@ -86,7 +86,7 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     return candidates;
 }
 
-/// The part of each candidate's light that is its own: step 2.
+/// The part of each candidate's light that is its own.
 std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> rough_light) {
     std::vector<float> result(candidates.vpls.size(), 1.0f);
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -95,7 +95,7 @@ std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> ro
             static_cast<float>(candidates.patch_density / (candidates.patch_density + walk_density));
         if (i < candidates.patch_count) {
             result[i] = of_patch;
-        } else if ((candidates.vpls[i].flags & NEARLIGHT_VPL_CLOSE) != 0) {
+        } else if (is_close(candidates.vpls[i])) {
             result[i] = 1.0f - of_patch;
         }
     }
@@ -113,25 +113,14 @@ double neighbourhood_error(const SamplingTask& task, Vec3 position) {
            (M_PI * M_PI * radius * radius);
 }
 
-/// In proportion to the probabilities to be chosen with: step 4.
 std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& task,
                                      std::span<const Vpl> lit) {
-    const Buffer<Vpl> vpls(stages.device, lit);
-    Buffer<float> errors(stages.device, lit.size());
-    stages.vpl_contribution.run(task.scene, vpls, lit.size(), task.view, task.clamp_radius, errors,
-                                ContributionNorm::mean_square);
-    std::vector<float> weights = errors.download();
-    double error = 0;
-    double flux = 0;
+    std::vector<float> weights = choice_weights(stages, task, lit, ContributionNorm::mean_square);
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        error += weights[i];
-        flux += luminance(lit[i].power);
-    }
-    const double floor = flux > 0 && error > 0 ? kFluxFloor * error / flux : 1.0;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        const bool close = (lit[i].flags & NEARLIGHT_VPL_CLOSE) != 0;
-        const double near = close ? kNeighbourhoodFloor * neighbourhood_error(task, lit[i].position) : 0.0;
-        weights[i] += static_cast<float>((floor + near) * luminance(lit[i].power));
+        if (is_close(lit[i])) {
+            const double error = neighbourhood_error(task, lit[i].position) * luminance(lit[i].power);
+            weights[i] += static_cast<float>(kNeighbourhoodFloor * error);
+        }
     }
     return weights;
 }
@@ -147,7 +136,7 @@ Choice choose(const SamplingTask& task, std::span<const Vpl> lit, std::span<cons
     std::vector<float> close(weights.size());
     std::vector<float> distant(weights.size());
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        ((lit[i].flags & NEARLIGHT_VPL_CLOSE) != 0 ? close : distant)[i] = weights[i];
+        (is_close(lit[i]) ? close : distant)[i] = weights[i];
     }
     // Neither side may be empty, or its light would be lost.
     Choice choice = resample(close, std::max<std::size_t>(close_count, 1), random.uniform());
@@ -179,6 +168,29 @@ std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float
     return vpls;
 }
 
+/// What arrives at each candidate, roughly, and never nothing.
+std::vector<Vec3> rough_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+                              const Candidates& candidates) {
+    std::vector<Vec3> light =
+        incident_light_at(stages, task, sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
+    const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
+    for (Vec3& irradiance : light) {
+        irradiance += Vec3{ambient, ambient, ambient};
+    }
+    return light;
+}
+
+/// Candidates as they look by rough light, to choose by.
+std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3> light,
+                             std::span<const float> share) {
+    std::vector<Vpl> lit = candidates.vpls;
+    illuminate(std::span(lit).first(candidates.patch_count), light);
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        lit[i].power *= share[i];
+    }
+    return lit;
+}
+
 }  // namespace
 
 VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
@@ -187,17 +199,9 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     }
     const Candidates candidates = make_candidates(stages, task, surface);
     const SparseSet rough_sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed);
-    std::vector<Vec3> rough =
-        incident_light_at(stages, task, rough_sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
-    const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
-    for (Vec3& light : rough) {
-        light = light + Vec3{ambient, ambient, ambient};
-    }
+    const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates);
     const std::vector<float> share = shares(candidates, rough);
-    std::vector<Vpl> lit = candidates.vpls;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        lit[i].power = lit[i].power * (i < candidates.patch_count ? rough[i] : Vec3{1, 1, 1}) * share[i];
-    }
+    const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
     const Choice choice = choose(task, lit, selection_weights(stages, task, lit));
 
     VplSet set;
@@ -206,12 +210,8 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
         std::ranges::lower_bound(choice.indices, static_cast<uint>(candidates.patch_count)) -
         choice.indices.begin());
     const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
-    const std::vector<Vec3> light =
-        incident_light_at(stages, task, sparse, std::span(set.vpls).first(patch_count), kFull, task.seed);
-    for (std::size_t i = 0; i < patch_count; ++i) {
-        set.vpls[i].power = set.vpls[i].power * light[i];
-    }
-    const auto is_close = [](const Vpl& vpl) { return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0; };
+    const std::span patches = std::span(set.vpls).first(patch_count);
+    illuminate(patches, incident_light_at(stages, task, sparse, patches, kFull, task.seed));
     set.close_count = static_cast<std::size_t>(std::ranges::count_if(set.vpls, is_close));
     set.distant_count = set.vpls.size() - set.close_count;
     set.sparse_count = sparse.count + rough_sparse.count;

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "host/base/math.h"
 #include "host/samplers/sparse_walks.h"
 
 namespace nearlight {
@@ -78,6 +79,12 @@ std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& t
     stages.vpl_light.make_receivers(vpls, points.size(), receivers);
     gather_incident_light(stages, task, sparse, receivers, packets, quality, seed, irradiance);
     return unpack(irradiance, points.size());
+}
+
+void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance) {
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        vpls[i].power *= irradiance[i];
+    }
 }
 
 }  // namespace nearlight

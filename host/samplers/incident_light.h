@@ -31,6 +31,8 @@ void gather_incident_light(SamplerStages& stages, const SamplingTask& task, cons
 /// The same at each of `points`: multiplies the power of a VPL that was made for an irradiance of 1 W/m².
 std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
                                     std::span<const Vpl> points, const IncidentQuality& quality, uint seed);
+/// Multiplies powers by the light that arrives.
+void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance);
 /// The first `count` lanes.
 std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
 

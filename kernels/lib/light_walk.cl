@@ -5,6 +5,7 @@
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
+#include "lib/vpl.cl"
 
 /// Follows the particle to where it lands: `hit` is what it met, its flux what is reflected there, its origin
 /// stands off the surface. False, with both undefined, if it meets nothing or a side that reflects nothing.
@@ -25,14 +26,7 @@ inline bool land(const SceneView* scene, EmittedParticle* particle, SurfaceHit* 
 /// The VPL that a particle leaves where it landed.
 inline Vpl make_deposit(const EmittedParticle* particle, const SurfaceHit* hit, uint depth, uint flags,
                         float3 power) {
-    Vpl vpl;
-    vpl.position = store3(particle->origin);
-    vpl.depth = depth;
-    vpl.normal = store3(hit->geometric);
-    vpl.flags = flags;
-    vpl.power = store3(power);
-    vpl.pad0 = 0.0f;
-    return vpl;
+    return make_vpl(particle->origin, hit->geometric, depth, flags, power);
 }
 
 /// Sends it on from there.

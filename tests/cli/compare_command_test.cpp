@@ -7,28 +7,15 @@
 #include "host/cl/device_list.h"
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
+#include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
 namespace nearlight {
 namespace {
 
-/// A floor and a wall under a point light.
-constexpr const char* kScene = R"(<scene version="3.0.0">
-  <integrator type="path"><integer name="max_depth" value="5"/></integrator>
-  <sensor type="perspective">
-    <float name="fov" value="60"/>
-    <transform name="to_world"><lookat origin="0, -1, 3" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/></film>
-  </sensor>
-  <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, 0.125"/></bsdf></shape>
-  <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="1" z="1"/></transform>
-    <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.7, 0.7"/></bsdf></bsdf></shape>
-  <emitter type="point"><point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1, 1, 1"/></emitter>
-</scene>)";
-
 class Compare : public testing::Test {
   protected:
-    Compare() { std::ofstream(scene_) << kScene; }
+    Compare() { std::ofstream(scene_) << floor_and_wall(); }
     [[nodiscard]] std::string command(const std::string& options) const {
         return "compare " + quoted(scene_) + " -o " + quoted(output_) + " " + options;
     }
