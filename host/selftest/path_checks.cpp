@@ -46,41 +46,61 @@ std::vector<Vec3> lanes_of(const IrradiancePacket& packet) {
     return lanes;
 }
 
-constexpr LocalLightPlan kPlan{.gather_radius = 0.8f,
+constexpr LocalLightPlan kPlan{.clamp_radius = 0.1f,
+                               .widest_radius = 0.8f,
+                               .radius_at_unit_light = 0.2f,
                                .rays_per_receiver = 2,
                                .connections = 0,
                                .direct_samples = 1,
                                .bounce_count = 1,
                                .seed = 3};
-constexpr float kClampRadius = 0.1f;
 constexpr std::size_t kSlotsPerPacket = std::size_t{kPlan.rays_per_receiver} * NEARLIGHT_PACKET_SIZE;
 
 /// cosθx·cosθy / d² of points within the radius that face each other, by Embree's ray. Points of one plane
 /// do not, whatever rounding says.
-double pair_geometry(const EmbreeScene& embree, const RoomPoint& x, const Vpl& light) {
+double pair_geometry(const EmbreeScene& embree, const RoomPoint& x, const Vpl& light, float radius) {
     const Vec3 between = x.position - light.position;
     const double squared = dot(between, between);
     const double height = dot(light.normal, between);
     const double cosine = -dot(x.normal, between);
-    const bool open = squared < kPlan.gather_radius * kPlan.gather_radius && height > 4e-6 && cosine > 0 &&
+    const bool open = squared < radius * radius && height > 4e-6 && cosine > 0 &&
                       !embree.blocked(light.position, x.position);
     return open ? height * cosine / (squared * squared) : 0.0;
 }
 
-/// What a light's surface gives off under the point and spot lights, W/m².
-Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
-    const float back = 1e-3f;
-    const BvhHit hit =
-        embree.closest_hit(light.position + light.normal * back, -light.normal, 0.0f, kInfinity);
-    if (hit.triangle == ~0u) {
-        return {0, 0, 0};
-    }
-    const Surface surface = surface_at(scene, hit, -light.normal);
+Vec3 light_at(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     Vec3 irradiance{0, 0, 0};
     for (const Emitter& emitter : scene.delta_emitters) {
         irradiance += delta_light_irradiance(embree, emitter, light.position, light.normal);
     }
-    return irradiance * light_albedo(scene, *surface.material, surface.u, surface.v);
+    return irradiance;
+}
+
+/// What a light's surface gives off under the point and spot lights, W/m².
+Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
+    constexpr float kBack = 1e-3f;
+    const BvhHit hit =
+        embree.closest_hit(light.position + light.normal * kBack, -light.normal, 0.0f, kInfinity);
+    if (hit.triangle == ~0u) {
+        return {0, 0, 0};
+    }
+    const Surface surface = surface_at(scene, hit, -light.normal);
+    return light_at(scene, embree, light) * light_albedo(scene, *surface.material, surface.u, surface.v);
+}
+
+/// The first halving of the widest radius that is small enough for the light there, or nearly so.
+bool radius_fits(float radius, Vec3 irradiance) {
+    const float wanted = kPlan.radius_at_unit_light / std::sqrt(luminance(irradiance));
+    float least_wanted = kPlan.widest_radius;
+    for (int level = 1; level < 4 && least_wanted > wanted * 1.001f; ++level) {
+        least_wanted *= 0.5f;
+    }
+    float most_wanted = kPlan.widest_radius;
+    for (int level = 1; level < 4 && most_wanted > wanted * 0.999f; ++level) {
+        most_wanted *= 0.5f;
+    }
+    return radius == std::max(least_wanted, kPlan.clamp_radius) ||
+           radius == std::max(most_wanted, kPlan.clamp_radius);
 }
 
 /// The lights of all packets, what they are made of, and what they are good for.
@@ -89,6 +109,7 @@ struct LocalCase {
     const EmbreeScene& embree;
     const std::vector<ReceiverPacket>& receivers;
     std::vector<Vpl> lights;
+    std::vector<float> radii;
     std::vector<uint> flags;
     std::vector<std::uint64_t> seen_by;
 };
@@ -101,8 +122,7 @@ bool is_excused(EdgeExcuse& edges, const LocalCase& data, std::size_t slot) {
     const Vec3 y = data.lights[slot].position;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
         const RoomPoint x = receiver_at(packet_of(data, slot), lane);
-        if (!is_zero(x.normal) && length(x.position - y) < kPlan.gather_radius &&
-            edges.excuses(y, x.position)) {
+        if (!is_zero(x.normal) && length(x.position - y) < data.radii[slot] && edges.excuses(y, x.position)) {
             return true;
         }
     }
@@ -110,18 +130,21 @@ bool is_excused(EdgeExcuse& edges, const LocalCase& data, std::size_t slot) {
                                [&](const Emitter& light) { return edges.excuses(y, light.position); });
 }
 
-/// Power is exitance over the density of all rays of the packet; bits are the receivers that see the light.
+/// The radius is what the law says, power is exitance over the density of all rays of the packet; bits are
+/// the receivers that see the light.
 bool light_fits(const LocalCase& data, std::size_t slot) {
     const Vpl& light = data.lights[slot];
     double density = 0;
     std::uint64_t seen_by = 0;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const double geometry = pair_geometry(data.embree, receiver_at(packet_of(data, slot), lane), light);
+        const double geometry =
+            pair_geometry(data.embree, receiver_at(packet_of(data, slot), lane), light, data.radii[slot]);
         density += kPlan.rays_per_receiver * geometry / static_cast<double>(kPi);
         seen_by |= std::uint64_t{geometry > 0 ? 1u : 0u} << lane;
     }
     const Vec3 want = exitance(data.scene, data.embree, light) / static_cast<float>(density);
-    return seen_by == data.seen_by[slot] && length(light.power - want) <= 1e-3f * length(want);
+    return radius_fits(data.radii[slot], light_at(data.scene, data.embree, light)) &&
+           seen_by == data.seen_by[slot] && length(light.power - want) <= 1e-3f * length(want);
 }
 
 /// Σ power/π · (G_R − G_Rg) over the lights that see the receiver, by the kernel's own bits.
@@ -140,8 +163,8 @@ double sum_of_lights(const LocalCase& data, std::size_t receiver) {
         const auto bounded = [&](float radius) {
             return cosines / std::max(squared, double{radius} * radius);
         };
-        sum +=
-            light.power.y / static_cast<double>(kPi) * (bounded(kClampRadius) - bounded(kPlan.gather_radius));
+        sum += light.power.y / static_cast<double>(kPi) *
+               (bounded(kPlan.clamp_radius) - bounded(data.radii[slot]));
     }
     return sum;
 }
@@ -190,15 +213,20 @@ void check_local_lights(Device& device, CheckResult& result) {
     const DeviceScene on_device = upload_scene(device, scene, bvhs);
     const EmbreeScene embree(scene);
     const Buffer<ReceiverPacket> input(device, receivers);
-    const Buffer<Vpl> no_vpls(device, 0);
+    const LocalVpls no_vpls(device);
     LocalLights stage(device);
     LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
-    stage.make(on_device, no_vpls, 0, input, 0, receivers.size(), kPlan, slots);
+    stage.make(on_device, no_vpls, input, 0, receivers.size(), kPlan, slots);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     irradiance.fill_zero();
-    stage.add(on_device, no_vpls, 0, input, receivers.size(), kClampRadius, kPlan, irradiance);
-    const LocalCase data{
-        scene, embree, receivers, slots.lights.download(), slots.flags.download(), slots.seen_by.download()};
+    stage.add(on_device, no_vpls, input, receivers.size(), kPlan, irradiance);
+    const LocalCase data{scene,
+                         embree,
+                         receivers,
+                         slots.lights.download(),
+                         slots.radii.download(),
+                         slots.flags.download(),
+                         slots.seen_by.download()};
     EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
     for (std::size_t slot = 0; slot < data.lights.size(); ++slot) {
         if (data.flags[slot] != 0) {
