@@ -175,12 +175,13 @@ struct Renderer::State {
     DeviceScene device_scene;
 
     /// Kernels compile while the tree is built: one waits for the driver, the other for memory.
-    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel) {
+    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel,
+                                       BvhQuality bvh_quality) {
         const Stopwatch total;
         RenderSeconds seconds;
         auto building = std::async(std::launch::async, [&] {
             Stopwatch watch;
-            SceneBvhs bvhs = build_scene_bvhs(scene);
+            SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = bvh_quality});
             seconds.build_bvh = watch.seconds();
             return bvhs;
         });
@@ -197,8 +198,8 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel)
-    : state_(State::make(device, scene, gather_kernel)) {}
+Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel, BvhQuality bvh_quality)
+    : state_(State::make(device, scene, gather_kernel, bvh_quality)) {}
 Renderer::~Renderer() = default;
 
 RenderReport Renderer::render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
@@ -242,7 +243,7 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
 
 RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress) {
-    return Renderer(device, scene, settings.gather_kernel).render(settings, start, sink, progress);
+    return Renderer(device, scene, settings.gather_kernel, settings.bvh_quality).render(settings, start, sink, progress);
 }
 
 }  // namespace nearlight
