@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/bench_gather.h"
+
+#include <charconv>
+
+#include "host/base/log.h"
+#include "host/bench/gather_bench.h"
+#include "host/bench/segment_file.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/cli/device_options.h"
+#include "host/cli/output.h"
+#include "host/cli/scene_options.h"
+
+namespace nearlight {
+namespace {
+
+struct BenchGatherOptions {
+    SceneOptions scene;
+    std::filesystem::path dump;
+    std::filesystem::path replay;
+    DeviceChoice device;
+    ImageSize size{512, 512};
+    std::size_t vpls = 128;
+    int repeats = 11;
+    std::string kernel = "all";
+};
+
+constexpr std::string_view kSpheres = "spheres:";
+
+/// "spheres:N" is a made-up room of N triangles; anything else is a file.
+Scene make_scene(const SceneOptions& options) {
+    const std::string name = options.file.string();
+    if (!name.starts_with(kSpheres)) {
+        return load_scene(options);
+    }
+    std::size_t triangles = 0;
+    const char* const end = name.data() + name.size();
+    const auto [rest, error] = std::from_chars(name.data() + kSpheres.size(), end, triangles);
+    if (error != std::errc() || rest != end || triangles == 0 || triangles > 50'000'000) {
+        throw Error(ExitCode::usage, "'" + name + "': give a number of triangles, as in spheres:400000");
+    }
+    return make_sphere_room(triangles);
+}
+
+GatherSegments make_segments(const BenchGatherOptions& options) {
+    if (options.scene.file.empty() == options.replay.empty()) {
+        throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
+    }
+    if (!options.replay.empty()) {
+        return read_segments(options.replay);
+    }
+    const Scene scene = make_scene(options.scene);
+    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    return make_camera_segments(scene, bvhs.opaque, options.vpls, options.size.width, options.size.height);
+}
+
+GatherKernel kernel_of(const std::string& name) {
+    return name == "packets" ? GatherKernel::packets
+           : name == "rays"  ? GatherKernel::rays
+                             : GatherKernel::automatic;
+}
+
+double millions(std::uint64_t count) {
+    return static_cast<double>(count) * 1e-6;
+}
+
+nlohmann::ordered_json to_json(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+nlohmann::ordered_json to_json(const Disagreement& item) {
+    return {{"tracer", item.tracer},
+            {"packet", item.packet},
+            {"lane", item.lane},
+            {"vpl", item.vpl},
+            {"from", to_json(item.from)},
+            {"to", to_json(item.to)},
+            {"about", item.is_culling ? "culling" : "occlusion"},
+            {"tracer_says", item.tracer_says},
+            {item.is_culling ? "least_cosine" : "edge_distance", item.distance},
+            {"excused", item.excused}};
+}
+
+nlohmann::ordered_json to_json(const TracerFigures& tracer, std::uint64_t pairs) {
+    return {{"tracer", tracer.name},
+            {"rays", tracer.rays},
+            {"occluded", tracer.occluded},
+            {"disagreements", tracer.disagreements},
+            {"seconds", tracer.median.wall},
+            {"processor_seconds", tracer.median.processor},
+            {"mpairs_per_second", millions(pairs) / tracer.median.wall},
+            {"mrays_per_second", millions(tracer.rays) / tracer.median.wall}};
+}
+
+nlohmann::ordered_json to_json(const Ratio& ratio) {
+    return {{"median", ratio.median}, {"deviation", ratio.deviation}};
+}
+
+nlohmann::ordered_json to_json(const std::string& name, const GatherBenchResult& result) {
+    nlohmann::ordered_json json{{"segments", name},
+                                {"triangles", result.triangles},
+                                {"device", result.device},
+                                {"pairs", result.pairs},
+                                {"after_culling", result.after_culling},
+                                {"rays_traced", result.tracers[result.ours].rays}};
+    for (const TracerFigures& tracer : result.tracers) {
+        json["tracers"].push_back(to_json(tracer, result.pairs));
+    }
+    json["fastest"] = {{"nearlight", result.tracers[result.ours].name},
+                       {"embree1", result.tracers[result.embree1].name},
+                       {"embree16", result.tracers[result.embree16].name}};
+    json["ratio_embree1"] = to_json(result.wall1);
+    json["ratio_embree16"] = to_json(result.wall16);
+    if (result.processor16.median > 0.0) {
+        json["processor_ratio_embree1"] = to_json(result.processor1);
+        json["processor_ratio_embree16"] = to_json(result.processor16);
+    }
+    json["edge_tolerance"] = result.edge_tolerance;
+    json["disagreements"] = nlohmann::ordered_json::array();
+    for (const Disagreement& item : result.disagreements) {
+        json["disagreements"].push_back(to_json(item));
+    }
+    json["agrees"] = result.agrees;
+    return json;
+}
+
+std::string line_of(const Disagreement& item) {
+    const std::string says =
+        item.is_culling ? (item.tracer_says ? "traces" : "culls") : (item.tracer_says ? "hits" : "passes");
+    return fmt::format(
+        "  {} {} packet {} lane {} VPL {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), {} "
+        "{:.3g}{}\n",
+        item.tracer, says, item.packet, item.lane, item.vpl, item.from.x, item.from.y, item.from.z, item.to.x,
+        item.to.y, item.to.z, item.is_culling ? "cosine" : "nearest edge at", item.distance,
+        item.excused ? "" : ", TOO FAR");
+}
+
+std::string to_text(const std::string& name, const GatherBenchResult& result) {
+    std::string text = fmt::format("{}: {} triangles, device {}\n", name, result.triangles, result.device);
+    text +=
+        fmt::format("{:.2f} M pairs, {:.2f} M after culling, {:.2f} M rays traced\n", millions(result.pairs),
+                    millions(result.after_culling), millions(result.tracers[result.ours].rays));
+    text += fmt::format("{:>10} {:>10} {:>11} {:>8}\n", "Mrays/s", "Mpairs/s", "processor s", "differ");
+    for (const TracerFigures& tracer : result.tracers) {
+        text += fmt::format("{:>10.2f} {:>10.2f} {:>11.3f} {:>8}  {}\n",
+                            millions(tracer.rays) / tracer.median.wall,
+                            millions(result.pairs) / tracer.median.wall, tracer.median.processor,
+                            tracer.disagreements, tracer.name);
+    }
+    const auto add_ratio = [&](const TracerFigures& embree, const Ratio& wall, const Ratio& processor) {
+        text += fmt::format("{:.2f} ± {:.2f} times as fast as {}", wall.median, wall.deviation, embree.name);
+        text += processor.median > 0.0 ? fmt::format(", {:.2f} ± {:.2f} by processor time\n",
+                                                     processor.median, processor.deviation)
+                                       : "\n";
+    };
+    add_ratio(result.tracers[result.embree1], result.wall1, result.processor1);
+    add_ratio(result.tracers[result.embree16], result.wall16, result.processor16);
+    text +=
+        "Medians of interleaved runs. Ours is all of the gather, Embree's the time inside its calls only.\n";
+    text += fmt::format("Hit by hit: {}; a ray within {:.3g} of an edge may go either way.\n",
+                        result.agrees ? "all agree" : "THEY DO NOT AGREE", result.edge_tolerance);
+    for (const Disagreement& item : result.disagreements) {
+        text += line_of(item);
+    }
+    return text;
+}
+
+ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
+    const GatherSegments segments = make_segments(options);
+    if (!options.dump.empty()) {
+        write_segments(options.dump, segments);
+        spdlog::info("wrote {}", options.dump.string());
+    }
+    const std::unique_ptr<Device> device = open_device(options.device);
+    const SceneBvhs bvhs = build_scene_bvhs(segments.geometry);
+    const GatherBenchResult result = bench_gather(
+        *device, segments, bvhs.opaque, {.repeats = options.repeats, .kernel = kernel_of(options.kernel)});
+    if (global.json) {
+        print_json(to_json(segments.geometry.name, result));
+    } else {
+        print(to_text(segments.geometry.name, result));
+    }
+    return result.agrees ? ExitCode::done : ExitCode::runtime;
+}
+
+}  // namespace
+
+void add_bench_gather(CommandLine& line, CLI::App& group) {
+    auto options = std::make_shared<BenchGatherOptions>();
+    CLI::App& command = line.add_part(
+        group, "gather", "Shadow rays from VPLs to receivers, beside Embree; fails where they disagree",
+        [options](const GlobalOptions& global) { return run_bench_gather(*options, global); });
+    add_scene_options(command, options->scene);
+    command.get_option("SCENE")->required(false)->description(
+        "Mitsuba XML (.xml), OBJ (.obj), or spheres:N, a made-up room of N triangles");
+    command.add_option("--dump", options->dump, "Write the segments for others to replay (docs/bench.md)")
+        ->type_name("FILE");
+    command.add_option("--replay", options->replay, "Take the segments of such a file instead of a scene")
+        ->type_name("FILE");
+    add_size_option(command, options->size)->default_str("512x512");
+    command.add_option("--vpls", options->vpls, "VPLs")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    command.add_option("--repeats", options->repeats, "Runs of which the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--kernel", options->kernel, "Our gather kernels that take part")
+        ->check(CLI::IsMember({"all", "packets", "rays"}))
+        ->capture_default_str();
+    add_device_options(command, options->device);
+}
+
+}  // namespace nearlight
