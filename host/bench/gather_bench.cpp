@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "host/bench/embree_occlusion.h"
-#include "host/bench/statistics.h"
 
 namespace nearlight {
 namespace {
@@ -17,6 +16,7 @@ namespace {
 struct Tracer {
     std::string name;
     int embree_width;  ///< 0: ours
+    bool has_roulette;
     std::function<Seconds()> time;
     std::function<TracerAnswer()> answer;
 };
@@ -31,8 +31,8 @@ struct DeviceSegments {
           irradiance(device, segments.receivers.size()),
           clamp_radius(segments.clamp_radius) {}
 
-    [[nodiscard]] GatherInput input() const {
-        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius};
+    [[nodiscard]] GatherInput input(float roulette) const {
+        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
     }
 
     Buffer<BvhNode> nodes;
@@ -56,22 +56,25 @@ TracerAnswer to_masks(std::span<const GatherPair> pairs) {
     return answer;
 }
 
-Tracer make_own_tracer(Device& device, const std::shared_ptr<DeviceSegments>& job, GatherKernel kernel) {
+Tracer make_own_tracer(Device& device, const std::shared_ptr<DeviceSegments>& job, GatherKernel kernel,
+                       float roulette) {
     const auto gatherer = std::make_shared<Gatherer>(device, GatherConfig{.kernel = kernel});
-    const auto time = [gatherer, job] {
+    const auto time = [gatherer, job, roulette] {
         const TwoClocks clocks(TwoClocks::Of::process);
-        gatherer->gather(job->input(), job->irradiance);
+        gatherer->gather(job->input(roulette), job->irradiance);
         return clocks.seconds();
     };
-    const auto answer = [gatherer, job] {
-        return to_masks(gatherer->gather_recorded(job->input(), job->irradiance));
+    const auto answer = [gatherer, job, roulette] {
+        return to_masks(gatherer->gather_recorded(job->input(roulette), job->irradiance));
     };
-    return {kernel == GatherKernel::packets ? "nearlight packets" : "nearlight rays", 0, time, answer};
+    std::string name = kernel == GatherKernel::packets ? "nearlight packets" : "nearlight rays";
+    name += roulette > 0.0f ? ", roulette" : "";
+    return {std::move(name), 0, roulette > 0.0f, time, answer};
 }
 
 Tracer make_embree_tracer(const std::shared_ptr<EmbreeOcclusion>& embree, const GatherSegments& segments,
                           const EmbreeMode& mode, int threads) {
-    return {to_string(mode), mode.width,
+    return {to_string(mode), mode.width, false,
             [=, &segments] { return embree->trace(segments, mode, threads).seconds; },
             [=, &segments] {
                 return TracerAnswer{segments.rays, embree->trace(segments, mode, threads, true).occluded};
@@ -95,7 +98,10 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
     const auto job = std::make_shared<DeviceSegments>(device, segments, bvh);
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
         if (config.kernel == GatherKernel::automatic || config.kernel == kernel) {
-            tracers.push_back(make_own_tracer(device, job, kernel));
+            tracers.push_back(make_own_tracer(device, job, kernel, 0.0f));
+            if (config.roulette > 0.0f) {
+                tracers.push_back(make_own_tracer(device, job, kernel, config.roulette));
+            }
         }
     }
     return tracers;
@@ -111,10 +117,11 @@ void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<c
         if (reference.empty()) {
             reference = answer.occluded;
         }
-        TracerFigures figures{.name = tracer.name, .embree_width = tracer.embree_width};
+        TracerFigures figures{
+            .name = tracer.name, .embree_width = tracer.embree_width, .has_roulette = tracer.has_roulette};
         figures.rays = count_bits(answer.rays);
         figures.occluded = count_bits(answer.occluded);
-        figures.disagreements = agreement.compare(tracer.name, answer, reference);
+        figures.disagreements = agreement.compare(tracer.name, answer, reference, tracer.has_roulette);
         result.tracers.push_back(std::move(figures));
     }
     result.edge_tolerance = agreement.edge_tolerance();
@@ -122,27 +129,10 @@ void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<c
     result.agrees = agreement.good();
 }
 
-/// One clock's readings of one tracer, repeat by repeat.
-std::vector<double> readings(const std::vector<Seconds>& runs, double Seconds::*clock) {
-    std::vector<double> values;
-    for (const Seconds& run : runs) {
-        values.push_back(run.*clock);
-    }
-    return values;
-}
-
-Ratio ratio(const std::vector<Seconds>& theirs, const std::vector<Seconds>& ours, double Seconds::*clock) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-        ratios.push_back(theirs[i].*clock / ours[i].*clock);
-    }
-    return {median(ratios), median_absolute_deviation(ratios)};
-}
-
-std::size_t fastest(std::span<const TracerFigures> tracers, int embree_width) {
+std::size_t fastest(std::span<const TracerFigures> tracers, int embree_width, bool has_roulette = false) {
     std::size_t best = tracers.size();
     for (std::size_t i = 0; i < tracers.size(); ++i) {
-        if (tracers[i].embree_width == embree_width &&
+        if (tracers[i].embree_width == embree_width && tracers[i].has_roulette == has_roulette &&
             (best == tracers.size() || tracers[i].median.wall < tracers[best].median.wall)) {
             best = i;
         }
@@ -164,6 +154,14 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
     if (is_cpu) {
         result.processor1 = ratio(runs[result.embree1], ours, &Seconds::processor);
         result.processor16 = ratio(runs[result.embree16], ours, &Seconds::processor);
+    }
+    const std::size_t roulette = fastest(result.tracers, 0, true);
+    if (roulette < result.tracers.size()) {
+        result.roulette = roulette;
+        result.wall_roulette = ratio(runs[result.embree16], runs[roulette], &Seconds::wall);
+        if (is_cpu) {
+            result.processor_roulette = ratio(runs[result.embree16], runs[roulette], &Seconds::processor);
+        }
     }
 }
 

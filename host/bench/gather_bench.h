@@ -2,12 +2,13 @@
 // Replays one set of segments through every tracer: our kernels and Embree in all its modes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/bench/agreement.h"
 #include "host/bench/gather_segments.h"
-#include "host/bench/seconds.h"
+#include "host/bench/statistics.h"
 #include "host/bvh/bvh.h"
 #include "host/cl/device.h"
 #include "host/stages/gatherer.h"
@@ -19,23 +20,19 @@ struct GatherBenchConfig {
     int threads = 0;  ///< Embree's; 0: as many as there are cores
     /// Ours that take part; `automatic`: both.
     GatherKernel kernel = GatherKernel::automatic;
+    float roulette = 0.0f;  ///< threshold; above 0 our kernels take part with Russian roulette too
 };
 
 /// One tracer. Rates follow from `median`: ours is the whole gather (cosines, culling, set-up of rays,
 /// visibility, shading), Embree's only the time inside its calls, with rays laid out beforehand.
 struct TracerFigures {
     std::string name;
-    int embree_width = 0;  ///< rays a call: 1 or 16; 0: ours
-    Seconds median{};      ///< over the repeats
+    int embree_width = 0;       ///< rays a call: 1 or 16; 0: ours
+    bool has_roulette = false;  ///< resolves all pairs with fewer rays
+    Seconds median{};           ///< over the repeats
     std::uint64_t rays = 0;
     std::uint64_t occluded = 0;
     std::uint64_t disagreements = 0;  ///< rays about which it and rtcOccluded1 (incoherent, medium) differ
-};
-
-/// One tracer's seconds over another's, run by run.
-struct Ratio {
-    double median = 0.0;
-    double deviation = 0.0;  ///< median absolute deviation
 };
 
 struct GatherBenchResult {
@@ -45,8 +42,10 @@ struct GatherBenchResult {
     std::uint64_t after_culling = 0;
     std::vector<TracerFigures> tracers;
     std::size_t ours = 0, embree1 = 0, embree16 = 0;  ///< the fastest of each kind, in `tracers`
-    Ratio wall1, wall16;            ///< the fastest of Embree's modes ÷ the fastest of ours
-    Ratio processor1, processor16;  ///< the same in processor time; only where the device is a CPU
+    std::optional<std::size_t> roulette;              ///< the fastest with roulette, if there is one
+    Ratio wall1, wall16;                      ///< the fastest of Embree's modes ÷ the fastest of ours
+    Ratio processor1, processor16;            ///< the same in processor time; only where the device is a CPU
+    Ratio wall_roulette, processor_roulette;  ///< the fastest with 16 rays a call ÷ the fastest with roulette
 
     double edge_tolerance = 0.0;  ///< see Agreement
     std::vector<Disagreement> disagreements;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/bvh/bvh.h"
+#include "host/cl/device.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
@@ -38,6 +39,11 @@ GatherSegments make_gather_segments(const Scene& scene, std::vector<Vpl> vpls,
 /// (gather_workload.h).
 GatherSegments make_camera_segments(const Scene& scene, const Bvh& bvh, std::size_t vpl_count, int width,
                                     int height);
+
+/// The same with the VPLs and the clamp radius of a render with default settings: unequal powers, many near
+/// the camera.
+GatherSegments make_rendered_segments(Device& device, const Scene& scene, const Bvh& bvh,
+                                      std::size_t vpl_count, int width, int height);
 
 std::uint64_t count_bits(std::span<const std::uint64_t> mask);
 /// Pairs whose receiver is there.

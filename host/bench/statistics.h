@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Medians of repeated measurements.
+// Medians and ratios of repeated measurements.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "host/bench/seconds.h"
 
 namespace nearlight {
 
@@ -22,6 +24,30 @@ inline double median_absolute_deviation(const std::vector<double>& values) {
         deviations.push_back(std::abs(value - center));
     }
     return median(deviations);
+}
+
+/// One clock's readings, repeat by repeat.
+inline std::vector<double> readings(const std::vector<Seconds>& runs, double Seconds::*clock) {
+    std::vector<double> values;
+    for (const Seconds& run : runs) {
+        values.push_back(run.*clock);
+    }
+    return values;
+}
+
+struct Ratio {
+    double median = 0.0;
+    double deviation = 0.0;  ///< median absolute deviation
+};
+
+/// Their seconds over ours, repeat by repeat.
+inline Ratio ratio(const std::vector<Seconds>& theirs, const std::vector<Seconds>& ours,
+                   double Seconds::*clock) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        ratios.push_back((theirs[i].*clock) / (ours[i].*clock));
+    }
+    return {median(ratios), median_absolute_deviation(ratios)};
 }
 
 }  // namespace nearlight

@@ -2,6 +2,7 @@
 #include "host/cli/bench_command.h"
 
 #include "host/cli/bench_gather.h"
+#include "host/cli/bench_sort.h"
 
 namespace nearlight {
 
@@ -9,6 +10,7 @@ void add_bench_command(CommandLine& line) {
     CLI::App& group =
         line.add_command_group("bench", "Measure a part beside the best that others offer, on the same work");
     add_bench_gather(line, group);
+    add_bench_sort(line, group);
 }
 
 }  // namespace nearlight

@@ -23,6 +23,8 @@ struct BenchGatherOptions {
     std::size_t vpls = 128;
     int repeats = 11;
     std::string kernel = "all";
+    bool rendered = false;
+    float roulette = 0.0f;
 };
 
 constexpr std::string_view kSpheres = "spheres:";
@@ -42,16 +44,15 @@ Scene make_scene(const SceneOptions& options) {
     return make_sphere_room(triangles);
 }
 
-GatherSegments make_segments(const BenchGatherOptions& options) {
-    if (options.scene.file.empty() == options.replay.empty()) {
-        throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
-    }
+GatherSegments make_segments(const BenchGatherOptions& options, Device& device) {
     if (!options.replay.empty()) {
         return read_segments(options.replay);
     }
     const Scene scene = make_scene(options.scene);
     const SceneBvhs bvhs = build_scene_bvhs(scene);
-    return make_camera_segments(scene, bvhs.opaque, options.vpls, options.size.width, options.size.height);
+    const auto [width, height] = options.size;
+    return options.rendered ? make_rendered_segments(device, scene, bvhs.opaque, options.vpls, width, height)
+                            : make_camera_segments(scene, bvhs.opaque, options.vpls, width, height);
 }
 
 GatherKernel kernel_of(const std::string& name) {
@@ -115,6 +116,10 @@ nlohmann::ordered_json to_json(const std::string& name, const GatherBenchResult&
         json["processor_ratio_embree1"] = to_json(result.processor1);
         json["processor_ratio_embree16"] = to_json(result.processor16);
     }
+    if (result.roulette) {
+        json["ratio_roulette"] = to_json(result.wall_roulette);
+        json["processor_ratio_roulette"] = to_json(result.processor_roulette);
+    }
     json["edge_tolerance"] = result.edge_tolerance;
     json["disagreements"] = nlohmann::ordered_json::array();
     for (const Disagreement& item : result.disagreements) {
@@ -147,14 +152,19 @@ std::string to_text(const std::string& name, const GatherBenchResult& result) {
                             millions(result.pairs) / tracer.median.wall, tracer.median.processor,
                             tracer.disagreements, tracer.name);
     }
-    const auto add_ratio = [&](const TracerFigures& embree, const Ratio& wall, const Ratio& processor) {
-        text += fmt::format("{:.2f} ± {:.2f} times as fast as {}", wall.median, wall.deviation, embree.name);
+    const auto add_ratio = [&](std::size_t ours, std::size_t embree, const Ratio& wall,
+                               const Ratio& processor) {
+        text += fmt::format("{} {:.2f} ± {:.2f} times as fast as {}", result.tracers[ours].name, wall.median,
+                            wall.deviation, result.tracers[embree].name);
         text += processor.median > 0.0 ? fmt::format(", {:.2f} ± {:.2f} by processor time\n",
                                                      processor.median, processor.deviation)
                                        : "\n";
     };
-    add_ratio(result.tracers[result.embree1], result.wall1, result.processor1);
-    add_ratio(result.tracers[result.embree16], result.wall16, result.processor16);
+    add_ratio(result.ours, result.embree1, result.wall1, result.processor1);
+    add_ratio(result.ours, result.embree16, result.wall16, result.processor16);
+    if (result.roulette) {
+        add_ratio(*result.roulette, result.embree16, result.wall_roulette, result.processor_roulette);
+    }
     text +=
         "Medians of interleaved runs. Ours is all of the gather, Embree's the time inside its calls only.\n";
     text += fmt::format("Hit by hit: {}; a ray within {:.3g} of an edge may go either way.\n",
@@ -166,15 +176,19 @@ std::string to_text(const std::string& name, const GatherBenchResult& result) {
 }
 
 ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
-    const GatherSegments segments = make_segments(options);
+    if (options.scene.file.empty() == options.replay.empty()) {
+        throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
+    }
+    const std::unique_ptr<Device> device = open_device(options.device);
+    const GatherSegments segments = make_segments(options, *device);
     if (!options.dump.empty()) {
         write_segments(options.dump, segments);
         spdlog::info("wrote {}", options.dump.string());
     }
-    const std::unique_ptr<Device> device = open_device(options.device);
     const SceneBvhs bvhs = build_scene_bvhs(segments.geometry);
     const GatherBenchResult result = bench_gather(
-        *device, segments, bvhs.opaque, {.repeats = options.repeats, .kernel = kernel_of(options.kernel)});
+        *device, segments, bvhs.opaque,
+        {.repeats = options.repeats, .kernel = kernel_of(options.kernel), .roulette = options.roulette});
     if (global.json) {
         print_json(to_json(segments.geometry.name, result));
     } else {
@@ -205,6 +219,13 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
     command.add_option("--kernel", options->kernel, "Our gather kernels that take part")
         ->check(CLI::IsMember({"all", "packets", "rays"}))
         ->capture_default_str();
+    command.add_flag("--rendered", options->rendered,
+                     "VPLs that a render would use, instead of those of plain light walks");
+    command
+        .add_option("--roulette", options->roulette,
+                    "Threshold; ours take part with Russian roulette too (see render)")
+        ->check(CLI::Range(0.0f, 1000.0f))
+        ->type_name("T");
     add_device_options(command, options->device);
 }
 

@@ -68,7 +68,9 @@ bool gather_indirect(RenderStages& stages, const Picture& picture, std::size_t p
          .vpl_count = picture.vpl_count,
          .receivers = buffers.receivers,
          .packet_count = packets,
-         .clamp_radius = picture.local ? picture.local->gather_radius : clamp_radius},
+         .clamp_radius = picture.local ? picture.local->gather_radius : clamp_radius,
+         .roulette = picture.settings.roulette,
+         .seed = picture.settings.seed},
         buffers.indirect, progress);
     if (finished && picture.local) {
         report.local_lights += stages.local_lights->add(picture.scene, picture.vpls, picture.vpl_count, buffers.receivers, packets, clamp_radius,

@@ -48,6 +48,21 @@ TEST_F(BenchGather, TextForPeople) {
     EXPECT_EQ(result.output.find("nearlight rays"), std::string::npos);
 }
 
+TEST_F(BenchGather, RouletteTracesFewerRays) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result = run_program(
+        "bench gather spheres:2000 --json --rendered --roulette 4 --kernel packets "
+        "--size 24x16 --vpls 50 --repeats 1");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["tracers"].size(), 10u);
+    const nlohmann::json& roulette = json["tracers"][9];
+    EXPECT_EQ(roulette["tracer"], "nearlight packets, roulette");
+    EXPECT_LT(roulette["rays"], json["after_culling"]);
+    EXPECT_GT(roulette["rays"], 0);
+    EXPECT_GT(json["ratio_roulette"]["median"], 0.0);
+}
+
 TEST_F(BenchGather, WantsASceneOrAFile) {
     EXPECT_EQ(run_program("bench gather").exit_code, 2);
     EXPECT_EQ(run_program("bench gather spheres:2000 --replay " + quoted(file_)).exit_code, 2);
@@ -57,6 +72,21 @@ TEST_F(BenchGather, WantsASceneOrAFile) {
     const ProgramResult result = run_program("bench gather --replay " + quoted(file_));
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_NE(result.errors.find("header"), std::string::npos) << result.errors;
+}
+
+TEST(BenchSort, RatiosToOtherSorts) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result = run_program("bench sort --count 20000 --repeats 2 --json");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["figures"].size(), 6u);
+    for (const nlohmann::json& figures : json["figures"]) {
+        EXPECT_TRUE(figures["is_right"]) << figures["name"];
+        EXPECT_GT(figures["seconds"], 0.0);
+    }
+    ASSERT_EQ(json["ratios"].size(), 5u);
+    EXPECT_EQ(json["ratios"][1]["name"], "sort ÷ tbb::parallel_sort");
+    EXPECT_GT(json["ratios"][1]["wall"], 0.0);
 }
 
 TEST(Bench, NamesItsParts) {
