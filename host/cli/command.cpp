@@ -118,7 +118,8 @@ CLI::App& CommandLine::add_command_group(const std::string& name, const std::str
     return group;
 }
 
-CLI::App& CommandLine::add_part(CLI::App& group, const std::string& part, const std::string& description, Run run) {
+CLI::App& CommandLine::add_part(CLI::App& group, const std::string& part, const std::string& description,
+                                Run run) {
     CLI::App& command = *group.add_subcommand(part, description);
     add_global_options(command, global_);
     command.callback([this, run = std::move(run)] { run_ = run; });

@@ -25,9 +25,9 @@ struct RouletteTask {
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    /// A packet always asks about a VPL that could bring its receivers (root mean square, as if nothing were in the
-    /// way) at least `threshold` times the mean over all VPLs; about others with a probability in proportion to
-    /// what they could bring. Above 0.
+    /// A packet always asks about a VPL that could bring its receivers (root mean square, as if nothing were
+    /// in the way) at least `threshold` times the mean over all VPLs; about others with a probability in
+    /// proportion to what they could bring. Above 0.
     float threshold = 1.0f;
     uint seed = 0;
 };
