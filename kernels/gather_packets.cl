@@ -357,7 +357,8 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first_la
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-    float clamp_radius_squared, global IrradiancePacket* irradiance GATHER_RECORD_PARAMETERS) {
+    float clamp_radius_squared, global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS
+        GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint packet = first_packet + item / (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH);
     const uint first_lane = item % (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH) * GATHER_PACKET_WIDTH;
@@ -367,9 +368,11 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const PacketBounds bounds = bounds_of(receivers + packet, first_lane);
     Segments segments;
     Accumulator sum;
-    for (uint chunk = first_vpl; chunk < end_vpl || chunk == 0; chunk += GATHER_CHUNK) {
+    const uint end = GATHER_END(packet, end_vpl);
+    for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += GATHER_CHUNK) {
         clear(&sum);
-        for (uint i = chunk; i < min(chunk + GATHER_CHUNK, end_vpl); ++i) {
+        for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
+            const uint i = GATHER_VPL(packet, k);
             connect(&segments, vpls + i, receivers + packet, first_lane, clamp_radius_squared);
 #ifdef GATHER_RECORD
             global uchar* pairs = record + gather_record_index(packet, i, record_vpl_count, first_lane);
@@ -379,7 +382,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
 #ifdef GATHER_RECORD
             record_occluded(&segments, pairs);
 #endif
-            add_visible(&sum, &segments, gather_scale(vpls + i), gather_squared(vpls + i));
+            add_visible(&sum, &segments, gather_scale(vpls + i) * GATHER_WEIGHT(packet, k),
+                        gather_squared(vpls + i));
         }
         add_to_irradiance(irradiance + packet, first_lane, &sum, chunk == 0);
     }

@@ -25,7 +25,8 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
                         const global Vpl* vpls, uint first_vpl, uint end_vpl,
                         const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
                         float clamp_radius_squared,
-                        global IrradiancePacket* irradiance GATHER_RECORD_PARAMETERS) {
+                        global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS
+                            GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint packet = first_packet + item / NEARLIGHT_PACKET_SIZE;
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
@@ -37,9 +38,11 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
     const float3 normal = receiver_normal(from, lane);
     global IrradiancePacket* to = irradiance + packet;
     float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
-    for (uint chunk = first_vpl; chunk < end_vpl; chunk += GATHER_CHUNK) {
+    const uint end = GATHER_END(packet, end_vpl);
+    for (uint chunk = first_vpl; chunk < end; chunk += GATHER_CHUNK) {
         float3 sum = (float3)0.0f;
-        for (uint i = chunk; i < min(chunk + GATHER_CHUNK, end_vpl); ++i) {
+        for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
+            const uint i = GATHER_VPL(packet, k);
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
@@ -47,7 +50,8 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const bool open = term > 0.0f;
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
-            sum += visible ? gather_scale(vpl) * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
+            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(packet, k);
+            sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
 #ifdef GATHER_RECORD
             record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0
                                                                              : visible

@@ -8,7 +8,7 @@
 #include "host/base/stopwatch.h"
 #include "host/bench/embree_trees.h"
 #include "host/bench/gather_workload.h"
-#include "host/bench/median.h"
+#include "host/bench/statistics.h"
 
 namespace nearlight {
 namespace {

@@ -3,61 +3,27 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <atomic>
-#include <chrono>
+#include <bit>
+#include <numeric>
 #include <thread>
-#include <type_traits>
+#include <vector>
 
-#include "host/base/error.h"
-#include "host/reference/embree_handles.h"
+#include "host/reference/embree_tree.h"
 
 namespace nearlight {
 namespace {
-
-EmbreeTree build_tree(RTCDevice device, const Scene& scene, std::span<const uint> ids,
-                      RTCBuildQuality quality) {
-    EmbreeTree tree(rtcNewScene(device));
-    rtcSetSceneBuildQuality(tree.get(), quality);
-    const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), scene.vertices.size()));
-    auto* indices = static_cast<uint*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint), ids.size()));
-    if (positions == nullptr || indices == nullptr) {
-        throw Error(ExitCode::out_of_memory, "Embree has no memory for " + std::to_string(ids.size()) +
-                                                 " triangles; use a smaller scene");
-    }
-    for (const Vertex& vertex : scene.vertices) {
-        *positions++ = vertex.position;
-    }
-    for (const uint id : ids) {
-        const Triangle& triangle = scene.triangles[id];
-        *indices++ = triangle.v0;
-        *indices++ = triangle.v1;
-        *indices++ = triangle.v2;
-    }
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(tree.get(), geometry.get());
-    rtcCommitScene(tree.get());
-    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-        throw Error(ExitCode::runtime, "Embree could not build a tree over " + std::to_string(ids.size()) +
-                                           " triangles: error " + std::to_string(error));
-    }
-    return tree;
-}
 
 /// VPLs whose rays are laid out at a time: with the 64 receivers of a packet 4096 rays at most, 200 kB.
 constexpr std::size_t kBlockVpls = 64;
 
 /// The rays of one packet and some VPLs.
 struct Block {
-    struct Source {
-        std::size_t pair;  ///< index into is_ray
-    };
     std::vector<RTCRay16> packets;
     std::vector<int> counts;  ///< rays in each of `packets`
     std::vector<RTCRay> singles;
-    std::vector<std::size_t> pairs;  ///< of each ray, its index into is_ray
+    std::vector<std::size_t> pairs;  ///< of each ray: word of the mask · 64 + lane
 };
 
 RTCRay make_ray(const Vpl& vpl, const ReceiverPacket& packet, std::size_t lane) {
@@ -89,37 +55,40 @@ void set_lane(RTCRay16& packet, int lane, const RTCRay& ray) {
     packet.flags[lane] = 0;
 }
 
-void add_rays(Block& block, const OcclusionWork& work, std::size_t packet, std::size_t vpl, int width) {
-    const std::size_t first = (packet * work.vpls.size() + vpl) * NEARLIGHT_PACKET_SIZE;
+void add_ray16(Block& block, int& lanes, const RTCRay& ray) {
+    if (lanes == 16) {
+        block.packets.emplace_back();
+        block.counts.push_back(0);
+        lanes = 0;
+    }
+    set_lane(block.packets.back(), lanes++, ray);
+    block.counts.back() = lanes;
+}
+
+void add_rays(Block& block, const GatherSegments& segments, std::size_t packet, std::size_t vpl, int width) {
+    const std::size_t word = segments.word(packet, vpl);
     int lanes = 16;  // used in the last of block.packets; a VPL begins a new one
-    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        if (work.is_ray[first + lane] == 0) {
-            continue;
-        }
-        const RTCRay ray = make_ray(work.vpls[vpl], work.receivers[packet], lane);
-        block.pairs.push_back(first + lane);
+    for (std::uint64_t rays = segments.rays[word]; rays != 0; rays &= rays - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rays));
+        const RTCRay ray = make_ray(segments.vpls[vpl], segments.receivers[packet], lane);
+        block.pairs.push_back(word * NEARLIGHT_PACKET_SIZE + lane);
         if (width == 1) {
             block.singles.push_back(ray);
-            continue;
+        } else {
+            add_ray16(block, lanes, ray);
         }
-        if (lanes == 16) {
-            block.packets.emplace_back();
-            block.counts.push_back(0);
-            lanes = 0;
-        }
-        set_lane(block.packets.back(), lanes++, ray);
-        block.counts.back() = lanes;
     }
 }
 
-void fill(Block& block, const OcclusionWork& work, std::size_t packet, std::size_t first_vpl, int width) {
+void fill(Block& block, const GatherSegments& segments, std::size_t packet, std::size_t first_vpl,
+          int width) {
     block.packets.clear();
     block.counts.clear();
     block.singles.clear();
     block.pairs.clear();
-    const std::size_t end = std::min(work.vpls.size(), first_vpl + kBlockVpls);
+    const std::size_t end = std::min(segments.vpls.size(), first_vpl + kBlockVpls);
     for (std::size_t vpl = first_vpl; vpl < end; ++vpl) {
-        add_rays(block, work, packet, vpl, width);
+        add_rays(block, segments, packet, vpl, width);
     }
 }
 
@@ -142,16 +111,20 @@ void trace_block(Block& block, RTCScene tree, RTCIntersectContext& context) {
     }
 }
 
-/// Calls visit(pair, occluded) for each ray.
-template <typename Visit>
-void visit_results(const Block& block, Visit&& visit) {
+/// Sets the bits of the rays that are occluded. Words are never shared by blocks, so threads do not meet.
+void keep(const Block& block, PairMask& occluded) {
     std::size_t ray = 0;
+    const auto set = [&](bool hit) {
+        const std::size_t pair = block.pairs[ray++];
+        occluded[pair / NEARLIGHT_PACKET_SIZE] |= std::uint64_t{hit ? 1u : 0u}
+                                                  << (pair % NEARLIGHT_PACKET_SIZE);
+    };
     for (const RTCRay& single : block.singles) {
-        visit(block.pairs[ray++], single.tfar < 0.0f);
+        set(single.tfar < 0.0f);
     }
     for (std::size_t i = 0; i < block.packets.size(); ++i) {
         for (int lane = 0; lane < block.counts[i]; ++lane) {
-            visit(block.pairs[ray++], block.packets[i].tfar[lane] < 0.0f);
+            set(block.packets[i].tfar[lane] < 0.0f);
         }
     }
 }
@@ -164,31 +137,32 @@ std::string to_string(const EmbreeMode& mode) {
 }
 
 struct EmbreeOcclusion::State {
+    EmbreeReport report;
     EmbreeDevice device;
     EmbreeTree medium;
     EmbreeTree high;
 };
 
-EmbreeOcclusion::EmbreeOcclusion(const Scene& scene, std::span<const uint> ids)
-    : state_(std::make_unique<State>()) {
-    state_->device.reset(rtcNewDevice(nullptr));
-    if (state_->device == nullptr) {
-        throw Error(ExitCode::runtime,
-                    "Embree does not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
-    }
-    state_->medium = build_tree(state_->device.get(), scene, ids, RTC_BUILD_QUALITY_MEDIUM);
-    state_->high = build_tree(state_->device.get(), scene, ids, RTC_BUILD_QUALITY_HIGH);
+EmbreeOcclusion::EmbreeOcclusion(const Scene& geometry) : state_(std::make_unique<State>()) {
+    state_->device = open_embree(state_->report);
+    std::vector<uint> ids(geometry.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    const auto build = [&](RTCBuildQuality quality) {
+        return build_embree_tree(state_->device.get(), state_->report, geometry, ids, quality,
+                                 RTC_SCENE_FLAG_NONE);
+    };
+    state_->medium = build(RTC_BUILD_QUALITY_MEDIUM);
+    state_->high = build(RTC_BUILD_QUALITY_HIGH);
 }
 EmbreeOcclusion::~EmbreeOcclusion() = default;
 EmbreeOcclusion::EmbreeOcclusion(EmbreeOcclusion&&) noexcept = default;
 EmbreeOcclusion& EmbreeOcclusion::operator=(EmbreeOcclusion&&) noexcept = default;
 
-OcclusionResult EmbreeOcclusion::trace(const OcclusionWork& work, const EmbreeMode& mode, int threads,
-                                       bool keep_pairs) const {
-    using Clock = std::chrono::steady_clock;
+OcclusionResult EmbreeOcclusion::trace(const GatherSegments& segments, const EmbreeMode& mode, int threads,
+                                       bool keep_answers) const {
     RTCScene tree = (mode.high_quality ? state_->high : state_->medium).get();
     std::vector<OcclusionResult> results(static_cast<std::size_t>(threads));
-    std::vector<std::uint8_t> occluded_pairs(keep_pairs ? work.is_ray.size() : 0);
+    PairMask answers(keep_answers ? segments.rays.size() : 0);
     std::atomic<std::size_t> next_packet = 0;
     const auto run = [&](OcclusionResult& result) {
         RTCIntersectContext context;
@@ -196,19 +170,18 @@ OcclusionResult EmbreeOcclusion::trace(const OcclusionWork& work, const EmbreeMo
         context.flags =
             mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         Block block;
-        for (std::size_t packet = next_packet++; packet < work.receivers.size(); packet = next_packet++) {
-            for (std::size_t vpl = 0; vpl < work.vpls.size(); vpl += kBlockVpls) {
-                fill(block, work, packet, vpl, mode.width);
-                const auto start = Clock::now();
+        for (std::size_t packet = next_packet++; packet < segments.receivers.size(); packet = next_packet++) {
+            for (std::size_t vpl = 0; vpl < segments.vpls.size(); vpl += kBlockVpls) {
+                fill(block, segments, packet, vpl, mode.width);
+                const TwoClocks clocks(TwoClocks::Of::thread);
                 trace_block(block, tree, context);
-                result.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+                const Seconds seconds = clocks.seconds();
+                result.seconds.wall += seconds.wall;
+                result.seconds.processor += seconds.processor;
                 result.rays += block.pairs.size();
-                visit_results(block, [&](std::size_t pair, bool occluded) {
-                    result.occluded += occluded ? 1 : 0;
-                    if (keep_pairs) {
-                        occluded_pairs[pair] = occluded ? 1 : 0;
-                    }
-                });
+                if (keep_answers) {
+                    keep(block, answers);
+                }
             }
         }
     };
@@ -219,11 +192,11 @@ OcclusionResult EmbreeOcclusion::trace(const OcclusionWork& work, const EmbreeMo
     OcclusionResult sum;
     for (std::size_t i = 0; i < workers.size(); ++i) {
         workers[i].join();
-        sum.seconds += results[i].seconds / threads;
+        sum.seconds.wall += results[i].seconds.wall / threads;
+        sum.seconds.processor += results[i].seconds.processor;
         sum.rays += results[i].rays;
-        sum.occluded += results[i].occluded;
     }
-    sum.occluded_pairs = std::move(occluded_pairs);
+    sum.occluded = std::move(answers);
     return sum;
 }
 

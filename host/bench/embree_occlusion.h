@@ -3,12 +3,10 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "host/scene/scene.h"
-#include "kernels/shared/types.h"
+#include "host/bench/gather_segments.h"
+#include "host/bench/seconds.h"
 
 namespace nearlight {
 
@@ -20,33 +18,24 @@ struct EmbreeMode {
 };
 std::string to_string(const EmbreeMode& mode);
 
-/// (receiver, VPL) pairs, of which some are rays. The spans must outlive their user.
-struct OcclusionWork {
-    std::span<const Vpl> vpls;
-    std::span<const ReceiverPacket> receivers;
-    /// Entry (packet·vpl_count + vpl)·64 + lane is not 0 where the pair is a ray.
-    std::span<const std::uint8_t> is_ray;
-};
-
 struct OcclusionResult {
-    double seconds = 0.0;  ///< inside Embree's calls only, summed over threads and divided by their number
+    Seconds seconds;  ///< inside Embree's calls only; wall: summed over threads and divided by their number
     std::uint64_t rays = 0;
-    std::uint64_t occluded = 0;
-    std::vector<std::uint8_t> occluded_pairs;  ///< if asked for: 1 where a ray is occluded, indexed as is_ray
+    PairMask occluded;  ///< if asked for
 };
 
 class EmbreeOcclusion {
   public:
-    /// Builds both trees, without robust edges, over the triangles `ids`. Throws Error(ExitCode::runtime).
-    EmbreeOcclusion(const Scene& scene, std::span<const uint> ids);
+    /// Builds both trees, without robust edges, over all triangles. Throws Error: out_of_memory, or runtime.
+    explicit EmbreeOcclusion(const Scene& geometry);
     ~EmbreeOcclusion();
     EmbreeOcclusion(EmbreeOcclusion&&) noexcept;
     EmbreeOcclusion& operator=(EmbreeOcclusion&&) noexcept;
 
-    /// Traces every ray of the work, VPL to receiver, packet by packet and VPL by VPL as the gather does.
-    /// Rays are laid out in full groups of 16 beforehand, block by block in the cache, and that is not timed.
-    [[nodiscard]] OcclusionResult trace(const OcclusionWork& work, const EmbreeMode& mode, int threads,
-                                        bool keep_pairs = false) const;
+    /// Traces every segment, VPL to receiver, packet by packet and VPL by VPL as the gather does. Rays are
+    /// laid out in full groups of 16 beforehand, block by block in the cache, and that is not timed.
+    [[nodiscard]] OcclusionResult trace(const GatherSegments& segments, const EmbreeMode& mode, int threads,
+                                        bool keep_answers = false) const;
 
   private:
     struct State;

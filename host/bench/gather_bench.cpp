@@ -1,157 +1,191 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/gather_bench.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <thread>
 
-#include "host/base/log.h"
 #include "host/bench/embree_occlusion.h"
-#include "host/bench/gather_workload.h"
-#include "host/bench/median.h"
 
 namespace nearlight {
 namespace {
 
-constexpr float kClampRadiusShare = 0.01f;  // of the scene's extent; the work does not depend on it
+/// Anything that can be given a set of segments.
+struct Tracer {
+    std::string name;
+    int embree_width;  ///< 0: ours
+    bool has_roulette;
+    std::function<Seconds()> time;
+    std::function<TracerAnswer()> answer;
+};
 
-double median_absolute_deviation(const std::vector<double>& values) {
-    const double center = median(values);
-    std::vector<double> deviations;
-    for (const double value : values) {
-        deviations.push_back(std::abs(value - center));
+/// The set on the device, for all our kernels in turn.
+struct DeviceSegments {
+    DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh)
+        : nodes(device, bvh.nodes),
+          triangles(device, bvh.triangles),
+          vpls(device, segments.vpls),
+          receivers(device, segments.receivers),
+          irradiance(device, segments.receivers.size()),
+          clamp_radius(segments.clamp_radius) {}
+
+    [[nodiscard]] GatherInput input(float roulette) const {
+        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
     }
-    return median(deviations);
-}
 
-/// Everything that one gather needs, on the device.
-struct GatherJob {
     Buffer<BvhNode> nodes;
     Buffer<BvhTriangle> triangles;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;
     float clamp_radius;
-
-    [[nodiscard]] GatherInput input() const {
-        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius};
-    }
 };
 
-double seconds_of_gather(Gatherer& gatherer, GatherJob& job) {
-    const auto start = std::chrono::steady_clock::now();
-    gatherer.gather(job.input(), job.irradiance);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+TracerAnswer to_masks(std::span<const GatherPair> pairs) {
+    TracerAnswer answer{PairMask(pairs.size() / NEARLIGHT_PACKET_SIZE),
+                        PairMask(pairs.size() / NEARLIGHT_PACKET_SIZE)};
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        const bool traced = pairs[i] != GatherPair::culled;
+        const bool occluded = pairs[i] == GatherPair::occluded;
+        answer.rays[i / NEARLIGHT_PACKET_SIZE] |= std::uint64_t{traced ? 1u : 0u} << lane;
+        answer.occluded[i / NEARLIGHT_PACKET_SIZE] |= std::uint64_t{occluded ? 1u : 0u} << lane;
+    }
+    return answer;
 }
 
-/// The mode that is fastest in one run each.
-EmbreeMode best_mode(const EmbreeOcclusion& embree, const OcclusionWork& work, int width, int threads) {
-    EmbreeMode best;
-    double best_seconds = std::numeric_limits<double>::infinity();
-    for (const bool coherent : {false, true}) {
-        for (const bool high_quality : {false, true}) {
-            const EmbreeMode mode{width, coherent, high_quality};
-            const double seconds = embree.trace(work, mode, threads).seconds;
-            spdlog::debug("{}: {:.4f} s", to_string(mode), seconds);
-            if (seconds < best_seconds) {
-                best = mode;
-                best_seconds = seconds;
+Tracer make_own_tracer(Device& device, const std::shared_ptr<DeviceSegments>& job, GatherKernel kernel,
+                       float roulette) {
+    const auto gatherer = std::make_shared<Gatherer>(device, GatherConfig{.kernel = kernel});
+    const auto time = [gatherer, job, roulette] {
+        const TwoClocks clocks(TwoClocks::Of::process);
+        gatherer->gather(job->input(roulette), job->irradiance);
+        return clocks.seconds();
+    };
+    const auto answer = [gatherer, job, roulette] {
+        return to_masks(gatherer->gather_recorded(job->input(roulette), job->irradiance));
+    };
+    std::string name = kernel == GatherKernel::packets ? "nearlight packets" : "nearlight rays";
+    name += roulette > 0.0f ? ", roulette" : "";
+    return {std::move(name), 0, roulette > 0.0f, time, answer};
+}
+
+Tracer make_embree_tracer(const std::shared_ptr<EmbreeOcclusion>& embree, const GatherSegments& segments,
+                          const EmbreeMode& mode, int threads) {
+    return {to_string(mode), mode.width, false,
+            [=, &segments] { return embree->trace(segments, mode, threads).seconds; },
+            [=, &segments] {
+                return TracerAnswer{segments.rays, embree->trace(segments, mode, threads, true).occluded};
+            }};
+}
+
+/// Embree's come first, and of them the reference that all are compared with.
+std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments, const Bvh& bvh,
+                                 const GatherBenchConfig& config) {
+    std::vector<Tracer> tracers;
+    const auto embree = std::make_shared<EmbreeOcclusion>(segments.geometry);
+    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    for (const int width : {1, 16}) {
+        for (const bool coherent : {false, true}) {
+            for (const bool high_quality : {false, true}) {
+                tracers.push_back(make_embree_tracer(embree, segments, {width, coherent, high_quality},
+                                                     config.threads > 0 ? config.threads : cores));
             }
+        }
+    }
+    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        if (config.kernel == GatherKernel::automatic || config.kernel == kernel) {
+            tracers.push_back(make_own_tracer(device, job, kernel, 0.0f));
+            if (config.roulette > 0.0f) {
+                tracers.push_back(make_own_tracer(device, job, kernel, config.roulette));
+            }
+        }
+    }
+    return tracers;
+}
+
+/// Asks every tracer about every pair. This also warms them up.
+void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<const Tracer> tracers,
+                     GatherBenchResult& result) {
+    Agreement agreement(segments, bvh.triangles);
+    PairMask reference;
+    for (const Tracer& tracer : tracers) {
+        TracerAnswer answer = tracer.answer();
+        if (reference.empty()) {
+            reference = answer.occluded;
+        }
+        TracerFigures figures{
+            .name = tracer.name, .embree_width = tracer.embree_width, .has_roulette = tracer.has_roulette};
+        figures.rays = count_bits(answer.rays);
+        figures.occluded = count_bits(answer.occluded);
+        figures.disagreements = agreement.compare(tracer.name, answer, reference, tracer.has_roulette);
+        result.tracers.push_back(std::move(figures));
+    }
+    result.edge_tolerance = agreement.edge_tolerance();
+    result.disagreements = agreement.items();
+    result.agrees = agreement.good();
+}
+
+std::size_t fastest(std::span<const TracerFigures> tracers, int embree_width, bool has_roulette = false) {
+    std::size_t best = tracers.size();
+    for (std::size_t i = 0; i < tracers.size(); ++i) {
+        if (tracers[i].embree_width == embree_width && tracers[i].has_roulette == has_roulette &&
+            (best == tracers.size() || tracers[i].median.wall < tracers[best].median.wall)) {
+            best = i;
         }
     }
     return best;
 }
 
-struct Samples {
-    std::vector<double> nearlight, embree1, embree16;  ///< seconds
-};
-
-double mrays(std::uint64_t rays, const std::vector<double>& seconds) {
-    return static_cast<double>(rays) / median(seconds) * 1e-6;
-}
-
-std::vector<double> ratios(const std::vector<double>& seconds, const std::vector<double>& to) {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < seconds.size(); ++i) {
-        result.push_back(seconds[i] / to[i]);
+void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> runs, bool is_cpu) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        result.tracers[i].median = {median(readings(runs[i], &Seconds::wall)),
+                                    median(readings(runs[i], &Seconds::processor))};
     }
-    return result;
-}
-
-void compare(GatherBenchResult& result, std::span<const std::uint8_t> record,
-             const OcclusionResult& reference) {
-    constexpr auto kOccluded = static_cast<std::uint8_t>(GatherPair::occluded);
-    std::uint64_t occluded = 0;
-    for (std::size_t i = 0; i < record.size(); ++i) {
-        const bool ours = record[i] == kOccluded;
-        occluded += ours ? 1 : 0;
-        result.disagreements += ours != (reference.occluded_pairs[i] != 0) ? 1 : 0;
+    result.ours = fastest(result.tracers, 0);
+    result.embree1 = fastest(result.tracers, 1);
+    result.embree16 = fastest(result.tracers, 16);
+    const std::vector<Seconds>& ours = runs[result.ours];
+    result.wall1 = ratio(runs[result.embree1], ours, &Seconds::wall);
+    result.wall16 = ratio(runs[result.embree16], ours, &Seconds::wall);
+    if (is_cpu) {
+        result.processor1 = ratio(runs[result.embree1], ours, &Seconds::processor);
+        result.processor16 = ratio(runs[result.embree16], ours, &Seconds::processor);
     }
-    result.rays = reference.rays;
-    result.occluded_fraction =
-        static_cast<double>(occluded) / std::max(1.0, static_cast<double>(result.rays));
-}
-
-std::uint64_t count_present(std::span<const ReceiverPacket> packets) {
-    std::uint64_t count = 0;
-    for (const ReceiverPacket& packet : packets) {
-        for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
-            count += is_zero({packet.nx[i], packet.ny[i], packet.nz[i]}) ? 0 : 1;
+    const std::size_t roulette = fastest(result.tracers, 0, true);
+    if (roulette < result.tracers.size()) {
+        result.roulette = roulette;
+        result.wall_roulette = ratio(runs[result.embree16], runs[roulette], &Seconds::wall);
+        if (is_cpu) {
+            result.processor_roulette = ratio(runs[result.embree16], runs[roulette], &Seconds::processor);
         }
     }
-    return count;
-}
-
-void summarise(GatherBenchResult& result, const Samples& samples) {
-    const std::vector<double> ratios16 = ratios(samples.embree16, samples.nearlight);
-    result.nearlight_mrays = mrays(result.rays, samples.nearlight);
-    result.embree1_mrays = mrays(result.rays, samples.embree1);
-    result.embree16_mrays = mrays(result.rays, samples.embree16);
-    result.ratio_embree1 = median(ratios(samples.embree1, samples.nearlight));
-    result.ratio_embree16 = median(ratios16);
-    result.ratio_embree16_deviation = median_absolute_deviation(ratios16);
 }
 
 }  // namespace
 
-GatherBenchResult bench_gather(Device& device, const Scene& scene, const Bvh& bvh,
+GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config) {
-    const std::vector<ReceiverPacket> receivers =
-        make_camera_receivers(scene, bvh, config.width, config.height);
-    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, config.vpl_count);
-    GatherJob job{Buffer<BvhNode>(device, bvh.nodes),
-                  Buffer<BvhTriangle>(device, bvh.triangles),
-                  Buffer<Vpl>(device, vpls),
-                  Buffer<ReceiverPacket>(device, receivers),
-                  Buffer<IrradiancePacket>(device, receivers.size()),
-                  kClampRadiusShare * max_component(bounds(scene).size())};
-    Gatherer gatherer(device, config.gather);
-    const std::vector<GatherPair> record = gatherer.gather_recorded(job.input(), job.irradiance);
-    const std::span record_bytes(reinterpret_cast<const std::uint8_t*>(record.data()), record.size());
-
-    const std::vector<uint> ids = distinct_triangles(bvh);
-    const EmbreeOcclusion embree(scene, ids);
-    const OcclusionWork work{vpls, receivers, record_bytes};
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    const int threads = config.threads > 0 ? config.threads : cores;
+    const std::vector<Tracer> tracers = make_tracers(device, segments, bvh, config);
     GatherBenchResult result;
-    result.triangles = ids.size();
+    result.triangles = segments.geometry.triangles.size();
     result.device = device.name();
-    result.pairs = count_present(receivers) * vpls.size();
-    compare(result, record_bytes, embree.trace(work, {1, false, false}, threads, true));
-    const EmbreeMode mode1 = best_mode(embree, work, 1, threads);
-    const EmbreeMode mode16 = best_mode(embree, work, 16, threads);
-    result.embree1_mode = to_string(mode1);
-    result.embree16_mode = to_string(mode16);
-    seconds_of_gather(gatherer, job);  // compiles and warms up
-    Samples samples;
-    for (int i = 0; i < config.repeats; ++i) {
-        samples.nearlight.push_back(seconds_of_gather(gatherer, job));
-        samples.embree16.push_back(embree.trace(work, mode16, threads).seconds);
-        samples.embree1.push_back(embree.trace(work, mode1, threads).seconds);
+    result.pairs = count_pairs(segments);
+    result.after_culling = count_bits(segments.rays);
+    compare_answers(segments, bvh, tracers, result);
+    std::vector<std::vector<Seconds>> runs(tracers.size());
+    for (int repeat = -1; repeat < config.repeats; ++repeat) {
+        for (std::size_t i = 0; i < tracers.size(); ++i) {
+            const Seconds seconds = tracers[i].time();
+            if (repeat >= 0) {  // the first round warms up
+                runs[i].push_back(seconds);
+            }
+        }
     }
-    summarise(result, samples);
+    summarise(result, runs, device.is_cpu());
     return result;
 }
 

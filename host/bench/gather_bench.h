@@ -1,49 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the gather against Embree on the very same rays.
+// Replays one set of segments through every tracer: our kernels and Embree in all its modes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/bench/agreement.h"
+#include "host/bench/gather_segments.h"
+#include "host/bench/statistics.h"
 #include "host/bvh/bvh.h"
 #include "host/cl/device.h"
-#include "host/scene/scene.h"
 #include "host/stages/gatherer.h"
 
 namespace nearlight {
 
 struct GatherBenchConfig {
-    std::size_t vpl_count = 128;
-    int width = 512;  ///< receivers: pixels
-    int height = 512;
     int repeats = 11;
     int threads = 0;  ///< Embree's; 0: as many as there are cores
-    GatherConfig gather;
+    /// Ours that take part; `automatic`: both.
+    GatherKernel kernel = GatherKernel::automatic;
+    float roulette = 0.0f;  ///< threshold; above 0 our kernels take part with Russian roulette too
 };
 
-/// Rates are medians over the repeats, in millions of rays (pairs that survive culling) a second of wall
-/// clock. Ours is the whole gather: cosines, culling, set-up of rays, visibility, and shading. Embree's
-/// counts only the time inside its calls, with rays laid out beforehand, and is that of the best mode.
+/// One tracer. Rates follow from `median`: ours is the whole gather (cosines, culling, set-up of rays,
+/// visibility, shading), Embree's only the time inside its calls, with rays laid out beforehand.
+struct TracerFigures {
+    std::string name;
+    int embree_width = 0;       ///< rays a call: 1 or 16; 0: ours
+    bool has_roulette = false;  ///< resolves all pairs with fewer rays
+    Seconds median{};           ///< over the repeats
+    std::uint64_t rays = 0;
+    std::uint64_t occluded = 0;
+    std::uint64_t disagreements = 0;  ///< rays about which it and rtcOccluded1 (incoherent, medium) differ
+};
+
 struct GatherBenchResult {
     std::size_t triangles = 0;
-    BvhQuality bvh = BvhQuality::fast;  ///< of our tree; the caller knows
-    std::uint64_t pairs = 0;
-    std::uint64_t rays = 0;
-    double occluded_fraction = 0.0;
-    std::uint64_t disagreements = 0;  ///< rays about which we and Embree differ
-    double nearlight_mrays = 0.0;
-    double embree1_mrays = 0.0;
-    double embree16_mrays = 0.0;
-    double ratio_embree1 = 0.0;  ///< median of the ratios of each repeat
-    double ratio_embree16 = 0.0;
-    double ratio_embree16_deviation = 0.0;  ///< median absolute deviation of that
-    std::string embree1_mode;
-    std::string embree16_mode;
     std::string device;
+    std::uint64_t pairs = 0;  ///< of a receiver and a VPL
+    std::uint64_t after_culling = 0;
+    std::vector<TracerFigures> tracers;
+    std::size_t ours = 0, embree1 = 0, embree16 = 0;  ///< the fastest of each kind, in `tracers`
+    std::optional<std::size_t> roulette;              ///< the fastest with roulette, if there is one
+    Ratio wall1, wall16;                      ///< the fastest of Embree's modes ÷ the fastest of ours
+    Ratio processor1, processor16;            ///< the same in processor time; only where the device is a CPU
+    Ratio wall_roulette, processor_roulette;  ///< the fastest with 16 rays a call ÷ the fastest with roulette
+
+    double edge_tolerance = 0.0;  ///< see Agreement
+    std::vector<Disagreement> disagreements;
+    bool agrees = false;
 };
 
-/// Every repeat runs us and Embree one after the other, so that whatever else the machine does meets all.
-GatherBenchResult bench_gather(Device& device, const Scene& scene, const Bvh& bvh,
+/// Every repeat runs all tracers one after the other, so that whatever else the machine does meets all.
+GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config = {});
 
 }  // namespace nearlight

@@ -235,12 +235,16 @@ std::vector<Vpl> make_traced_vpls(const Scene& scene, const Bvh& bvh, std::size_
     if (vpls.empty()) {
         vpls = spread_over_surfaces(scene, count, random);
     }
+    sort_along_morton_curve(scene, vpls);
+    return vpls;
+}
+
+void sort_along_morton_curve(const Scene& scene, std::vector<Vpl>& vpls) {
     const Aabb box = bounds(scene);
     const float scale = 1.0f / std::max(1e-30f, max_component(box.size()));
     std::stable_sort(vpls.begin(), vpls.end(), [&](const Vpl& a, const Vpl& b) {
         return morton_code((a.position - box.min) * scale) < morton_code((b.position - box.min) * scale);
     });
-    return vpls;
 }
 
 }  // namespace nearlight

@@ -21,4 +21,7 @@ std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh&
 std::vector<Vpl> make_traced_vpls(const Scene& scene, const Bvh& bvh, std::size_t count,
                                   std::uint64_t seed = 1);
 
+/// Along the Morton curve through the bounds of the scene.
+void sort_along_morton_curve(const Scene& scene, std::vector<Vpl>& vpls);
+
 }  // namespace nearlight

@@ -40,17 +40,31 @@ std::string unknown(const char* kind, const std::string& word, const std::vector
            (nearest.empty() ? "" : ", did you mean '" + nearest + "'?");
 }
 
+/// The command that the line names, or the part of it; the program itself if none.
+const CLI::App& named_command(const CLI::App& app) {
+    const CLI::App* command = &app;
+    for (auto next = command->get_subcommands(); !next.empty(); next = command->get_subcommands()) {
+        command = next.front();
+    }
+    return *command;
+}
+
+/// "nearlight bench gather"
+std::string full_name(const CLI::App& command) {
+    const CLI::App* const parent = command.get_parent();
+    return (parent != nullptr ? full_name(*parent) + " " : std::string()) + command.get_name();
+}
+
 /// What is wrong with the line. A word that nothing knows explains more than whatever misses because of it.
-std::string describe(const CLI::ParseError& error, CLI::App& app, const CLI::App* command) {
+std::string describe(const CLI::ParseError& error, const CLI::App& app, const CLI::App& command) {
     const std::vector<std::string> extras = app.remaining(true);
     const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
     const auto option = std::find_if(extras.begin(), extras.end(), is_option);
     if (option != extras.end()) {
-        return unknown("option", option->substr(0, option->find('=')),
-                       option_names(command ? *command : app));
+        return unknown("option", option->substr(0, option->find('=')), option_names(command));
     }
-    if (!extras.empty() && command == nullptr) {
-        return unknown("command", extras.front(), command_names(app));
+    if (!extras.empty() && !command_names(command).empty()) {
+        return unknown(&command == &app ? "command" : "part", extras.front(), command_names(command));
     }
     if (!extras.empty()) {
         return "unexpected argument '" + extras.front() + "'";
@@ -59,12 +73,11 @@ std::string describe(const CLI::ParseError& error, CLI::App& app, const CLI::App
 }
 
 /// One line: what is wrong, and where to read more.
-Error usage_error(const CLI::ParseError& error, CLI::App& app) {
-    const auto commands = app.get_subcommands();
-    const CLI::App* command = commands.empty() ? nullptr : commands.front();
+Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
+    const CLI::App& command = named_command(app);
     std::string text = describe(error, app, command);
     std::replace(text.begin(), text.end(), '\n', ' ');
-    const std::string help = "nearlight " + (command ? command->get_name() + " " : std::string()) + "--help";
+    const std::string help = full_name(command) + " --help";
     return {ExitCode::usage, text + (text.back() == '?' ? " See '" : "; see '") + help + "'"};
 }
 
@@ -95,7 +108,19 @@ CommandLine::CommandLine() : app_("Global illumination with virtual point lights
 }
 
 CLI::App& CommandLine::add_command(const std::string& name, const std::string& description, Run run) {
-    CLI::App& command = *app_.add_subcommand(name, description);
+    return add_part(app_, name, description, std::move(run));
+}
+
+CLI::App& CommandLine::add_command_group(const std::string& name, const std::string& description) {
+    CLI::App& group = *app_.add_subcommand(name, description);
+    add_global_options(group, global_);
+    group.require_subcommand(1);
+    return group;
+}
+
+CLI::App& CommandLine::add_part(CLI::App& group, const std::string& part, const std::string& description,
+                                Run run) {
+    CLI::App& command = *group.add_subcommand(part, description);
     add_global_options(command, global_);
     command.callback([this, run = std::move(run)] { run_ = run; });
     return command;

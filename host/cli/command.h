@@ -32,6 +32,10 @@ class CommandLine {
     /// A command that takes the global options; declare its own on what this returns. `run` is called once
     /// the whole line is known to be right.
     CLI::App& add_command(const std::string& name, const std::string& description, Run run);
+    /// A command that only names its parts, as `bench` does.
+    CLI::App& add_command_group(const std::string& name, const std::string& description);
+    /// The same as add_command() for `part` of such a group.
+    CLI::App& add_part(CLI::App& group, const std::string& part, const std::string& description, Run run);
     /// Parses the line and runs its command. Throws Error(ExitCode::usage) with a hint for a wrong line, and
     /// whatever the command throws.
     ExitCode run(int argc, const char* const* argv);

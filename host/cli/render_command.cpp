@@ -123,6 +123,7 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     json["max_depth"] = report.max_depth;
     json["seed"] = settings.seed;
     json["bvh"] = to_string(settings.bvh_quality);
+    json["roulette"] = settings.roulette;
     json["device"] = {device.name};
     json["seconds"] = {{"load", load_seconds},
                        {"build_bvh", report.seconds.build_bvh},
@@ -236,6 +237,12 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
     command.add_option("--seed", settings.seed, "Another seed, another noise")->type_name("N")->capture_default_str();
+    command
+        .add_option("--roulette", settings.roulette,
+                    "Trace VPLs that could bring pixels less than T times the mean by chance only; 0: trace all")
+        ->check(CLI::Range(0.0f, 1000.0f))
+        ->type_name("T")
+        ->capture_default_str();
     add_choice(command, "--gather", settings.gather_kernel, kGatherKernels, "Gather kernel: auto, packets or rays")
         ->default_str("auto");
     add_bvh_option(command, settings.bvh_quality);

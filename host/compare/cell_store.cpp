@@ -8,7 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
-#include "host/compare/files.h"
+#include "host/base/files.h"
 #include "host/image/image_io.h"
 
 namespace nearlight {

@@ -12,7 +12,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/compare/cost_model.h"
-#include "host/compare/files.h"
+#include "host/base/files.h"
 #include "host/image/image_io.h"
 
 namespace nearlight {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/compare/files.h"
+#include "host/base/files.h"
 #include "host/compare/pictures.h"
 #include "host/compare/vpl_figure.h"
 #include "host/image/image_io.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "host/compare/files.h"
+#include "host/base/files.h"
 
 namespace nearlight {
 namespace {

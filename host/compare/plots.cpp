@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "host/base/message.h"
-#include "host/compare/files.h"
+#include "host/base/files.h"
 
 extern char** environ;
 

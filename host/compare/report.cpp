@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/report.h"
 
-#include "host/compare/files.h"
+#include "host/base/files.h"
 #include "host/compare/report_csv.h"
 #include "host/compare/report_html.h"
 #include "host/compare/report_json.h"

@@ -4,15 +4,12 @@
 #include <embree3/rtcore.h>
 
 #include <limits>
-#include <mutex>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "host/base/error.h"
-#include "host/reference/embree_handles.h"
+#include "host/reference/embree_tree.h"
 
 namespace nearlight {
 namespace {
@@ -25,28 +22,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of a segment: what its end points' own surfaces may take.
 constexpr float kSegmentMargin = 1e-5f;
 
-/// The first error that Embree reported, possibly from a thread of its own.
-struct Report {
-    std::mutex mutex;
-    RTCError code = RTC_ERROR_NONE;
-    std::string message;
-};
-
-void record_error(void* user, RTCError code, const char* message) {
-    auto& report = *static_cast<Report*>(user);
-    const std::scoped_lock lock(report.mutex);
-    if (report.code == RTC_ERROR_NONE) {
-        report.code = code;
-        report.message = message != nullptr ? message : "no message";
-    }
-}
-
-[[noreturn]] void throw_report(const Report& report) {
-    const auto code = report.code == RTC_ERROR_OUT_OF_MEMORY ? ExitCode::out_of_memory : ExitCode::runtime;
-    throw Error(code, "Embree could not build its scene: " + report.message + " (error " +
-                          std::to_string(report.code) + "); use a smaller scene or free memory");
-}
-
 RTCBuildQuality build_quality(EmbreeOptions::Quality quality) {
     switch (quality) {
         case EmbreeOptions::Quality::low:
@@ -57,45 +32,6 @@ RTCBuildQuality build_quality(EmbreeOptions::Quality quality) {
             return RTC_BUILD_QUALITY_HIGH;
     }
     return RTC_BUILD_QUALITY_MEDIUM;
-}
-
-EmbreeGeometry make_geometry(RTCDevice device, const Scene& scene, std::span<const uint> ids) {
-    EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), scene.vertices.size()));
-    auto* indices = static_cast<uint*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint), ids.size()));
-    if (positions == nullptr || indices == nullptr) {
-        return nullptr;  // the error callback has the reason
-    }
-    for (const Vertex& vertex : scene.vertices) {
-        *positions++ = vertex.position;
-    }
-    for (const uint id : ids) {
-        const Triangle& triangle = scene.triangles[id];
-        *indices++ = triangle.v0;
-        *indices++ = triangle.v1;
-        *indices++ = triangle.v2;
-    }
-    rtcCommitGeometry(geometry.get());
-    return geometry;
-}
-
-EmbreeTree make_scene(RTCDevice device, const Scene& scene, std::span<const uint> ids,
-                      const EmbreeOptions& options) {
-    EmbreeTree handle(rtcNewScene(device));
-    if (handle == nullptr) {
-        return handle;
-    }
-    rtcSetSceneFlags(handle.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(handle.get(), build_quality(options.quality));
-    if (!ids.empty()) {
-        if (const EmbreeGeometry geometry = make_geometry(device, scene, ids)) {
-            rtcAttachGeometry(handle.get(), geometry.get());
-        }
-    }
-    rtcCommitScene(handle.get());
-    return handle;
 }
 
 /// Embree may return anything for NaN, so such rays do not reach it.
@@ -120,7 +56,7 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float t_min, float t_max) {
 }  // namespace
 
 struct EmbreeScene::State {
-    Report report;
+    EmbreeReport report;
     EmbreeDevice device;
     std::vector<uint> opaque_ids;
     std::vector<uint> glass_ids;
@@ -151,23 +87,19 @@ struct EmbreeScene::State {
 EmbreeScene::EmbreeScene(const Scene& scene, const EmbreeOptions& options)
     : state_(std::make_unique<State>()) {
     State& state = *state_;
-    state.device.reset(rtcNewDevice(nullptr));
-    if (state.device == nullptr) {
-        throw Error(ExitCode::runtime, "Embree does not start on this machine (error " +
-                                           std::to_string(rtcGetDeviceError(nullptr)) + ")");
-    }
-    rtcSetDeviceErrorFunction(state.device.get(), record_error, &state.report);
+    state.device = open_embree(state.report);
     for (uint id = 0; id < scene.triangles.size(); ++id) {
         const bool glass = is_glass(scene.materials[scene.triangles[id].material]);
         (glass ? state.glass_ids : state.opaque_ids).push_back(id);
     }
     state.context_flags =
         options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    state.opaque = make_scene(state.device.get(), scene, state.opaque_ids, options);
-    state.glass = make_scene(state.device.get(), scene, state.glass_ids, options);
-    if (state.report.code != RTC_ERROR_NONE) {
-        throw_report(state.report);
-    }
+    const auto build = [&](std::span<const uint> ids) {
+        return build_embree_tree(state.device.get(), state.report, scene, ids, build_quality(options.quality),
+                                 options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    };
+    state.opaque = build(state.opaque_ids);
+    state.glass = build(state.glass_ids);
 }
 
 EmbreeScene::~EmbreeScene() = default;

@@ -2,9 +2,10 @@
 #include "host/stages/gatherer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+
+#include "host/base/stopwatch.h"
 
 namespace nearlight {
 namespace {
@@ -46,11 +47,22 @@ struct Gatherer::Part {
     }
 };
 
-Gatherer::Gatherer(Device& device, const GatherConfig& config)
-    : device_(&device), config_(resolved(config, device)), kernel_(make_kernel(false)) {}
+/// How far a gather has come.
+struct Gatherer::Course {
+    const GatherProgress& progress;
+    std::uint64_t total;  ///< pairs
+    double budget;        ///< pairs of the next launch
+    std::uint64_t done = 0;
+};
 
-Kernel Gatherer::make_kernel(bool recording) const {
+Gatherer::Gatherer(Device& device, const GatherConfig& config)
+    : device_(&device), config_(resolved(config, device)), kernel_(make_kernel(false, false)) {}
+
+Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
     Defines defines{{"GATHER_CHUNK", std::to_string(kChunk)}};
+    if (roulette) {
+        defines.emplace("GATHER_ROULETTE", "1");
+    }
     if (recording) {
         defines.emplace("GATHER_RECORD", "1");
     }
@@ -62,55 +74,91 @@ Kernel Gatherer::make_kernel(bool recording) const {
 }
 
 /// The part after `done`: the same packets against further VPLs, or, when those are through, further packets.
-Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done,
+Gatherer::Part Gatherer::next_part(std::size_t vpl_count, const Part& done, std::size_t end_packet,
                                    std::uint64_t pair_budget) const {
     constexpr std::uint64_t kChunkPairs = std::uint64_t{kChunk} * NEARLIGHT_PACKET_SIZE;
     Part part = done;
-    if (done.end_vpl >= input.vpl_count) {
+    if (done.end_vpl >= vpl_count) {
         const std::size_t most = device_->is_cpu() ? kCpuPackets : kGpuPackets;
         const std::size_t packets = std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, most);
         part.first_packet = done.end_packet;
-        part.end_packet = std::min(input.packet_count, part.first_packet + packets);
+        part.end_packet = std::min(end_packet, part.first_packet + packets);
         part.end_vpl = 0;
     }
     const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_packet - part.first_packet));
     part.first_vpl = part.end_vpl;
     part.end_vpl = std::min<std::uint64_t>(
-        input.vpl_count, part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
+        vpl_count, part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
     return part;
 }
 
-template <typename... Record>
+template <typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part,
-                      Buffer<IrradiancePacket>& irradiance, const Record&... record) {
+                      Buffer<IrradiancePacket>& irradiance, const More&... more) {
     const bool rays = config_.kernel == GatherKernel::rays;
     const std::size_t items_per_packet = NEARLIGHT_PACKET_SIZE / (rays ? 1 : config_.packet_width);
     kernel.launch((part.end_packet - part.first_packet) * items_per_packet, rays ? device_->local_size() : 1,
                   input.nodes, input.triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
                   static_cast<cl_uint>(part.end_vpl), input.receivers,
                   static_cast<cl_uint>(part.first_packet), static_cast<cl_uint>(part.end_packet),
-                  input.clamp_radius * input.clamp_radius, irradiance, record...);
+                  input.clamp_radius * input.clamp_radius, irradiance, more...);
+}
+
+/// Packets [first_packet, end_packet), launch by launch. False if cancelled.
+template <typename... More>
+bool Gatherer::gather_packets(Kernel& kernel, const GatherInput& input, std::size_t first_packet,
+                              std::size_t end_packet, Buffer<IrradiancePacket>& irradiance, Course& course,
+                              const More&... more) {
+    Part part;
+    part.end_packet = first_packet;
+    part.end_vpl = input.vpl_count;
+    while (part.end_packet < end_packet || part.end_vpl < input.vpl_count) {
+        part = next_part(input.vpl_count, part, end_packet, static_cast<std::uint64_t>(course.budget));
+        const Stopwatch watch;
+        launch(kernel, input, part, irradiance, more...);
+        device_->finish();
+        // At most four times as much, because neighbouring parts may differ in cost.
+        const double fitting =
+            static_cast<double>(part.pairs()) * config_.launch_seconds / std::max(1e-6, watch.seconds());
+        course.budget = std::clamp(fitting, 1.0, std::min(course.budget * 4.0, kMostLaunchPairs));
+        course.done += part.pairs();
+        if (course.progress && !course.progress(course.done, course.total)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const RouletteLists& Gatherer::choose(const GatherInput& input, std::size_t first_packet,
+                                      std::size_t end_packet) {
+    if (!roulette_) {
+        roulette_.emplace(*device_);
+    }
+    return roulette_->choose({.vpls = input.vpls,
+                              .vpl_count = input.vpl_count,
+                              .receivers = input.receivers,
+                              .clamp_radius = input.clamp_radius,
+                              .threshold = input.roulette,
+                              .seed = input.seed},
+                             first_packet, end_packet);
 }
 
 bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                       const GatherProgress& progress) {
-    using Clock = std::chrono::steady_clock;
-    const std::uint64_t total = std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE;
-    double budget = std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs);
-    std::uint64_t done = 0;
-    Part part;
-    part.end_vpl = input.vpl_count;
-    while (part.end_packet < input.packet_count || part.end_vpl < input.vpl_count) {
-        part = next_part(input, part, static_cast<std::uint64_t>(budget));
-        const auto start = Clock::now();
-        launch(kernel_, input, part, irradiance);
-        device_->finish();
-        const double seconds = std::max(1e-6, std::chrono::duration<double>(Clock::now() - start).count());
-        // At most four times as much, because neighbouring parts may differ in cost.
-        const double fitting = static_cast<double>(part.pairs()) * config_.launch_seconds / seconds;
-        budget = std::clamp(fitting, 1.0, std::min(budget * 4.0, kMostLaunchPairs));
-        done += part.pairs();
-        if (progress && !progress(done, total)) {
+    Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
+                  std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)};
+    if (input.roulette <= 0.0f) {
+        return gather_packets(kernel_, input, 0, input.packet_count, irradiance, course);
+    }
+    if (!roulette_kernel_) {
+        roulette_kernel_ = make_kernel(true, false);
+    }
+    const std::size_t most = Roulette::most_packets(input.vpl_count);
+    for (std::size_t first = 0; first < input.packet_count; first += most) {
+        const std::size_t end = std::min(input.packet_count, first + most);
+        const RouletteLists& lists = choose(input, first, end);
+        if (!gather_packets(*roulette_kernel_, input, first, end, irradiance, course, lists.vpls,
+                            lists.weights, lists.counts, lists.first_packet, lists.stride)) {
             return false;
         }
     }
@@ -121,11 +169,21 @@ std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,
                                                   Buffer<IrradiancePacket>& irradiance) {
     const std::size_t pairs = input.packet_count * input.vpl_count * NEARLIGHT_PACKET_SIZE;
     Buffer<std::uint8_t> record(*device_, pairs);
-    Kernel kernel = make_kernel(true);
-    Part all;
-    all.end_packet = input.packet_count;
-    all.end_vpl = input.vpl_count;
-    launch(kernel, input, all, irradiance, record, static_cast<cl_uint>(input.vpl_count));
+    record.fill_zero();
+    const bool roulette = input.roulette > 0.0f;
+    Kernel kernel = make_kernel(roulette, true);
+    const auto vpl_count = static_cast<cl_uint>(input.vpl_count);
+    const std::size_t most = roulette ? Roulette::most_packets(input.vpl_count) : input.packet_count;
+    for (std::size_t first = 0; first < input.packet_count; first += most) {
+        const Part part{first, std::min(input.packet_count, first + most), 0, input.vpl_count};
+        if (roulette) {
+            const RouletteLists& lists = choose(input, part.first_packet, part.end_packet);
+            launch(kernel, input, part, irradiance, lists.vpls, lists.weights, lists.counts,
+                   lists.first_packet, lists.stride, record, vpl_count);
+        } else {
+            launch(kernel, input, part, irradiance, record, vpl_count);
+        }
+    }
     std::vector<GatherPair> result(pairs);
     record.download(std::span(reinterpret_cast<std::uint8_t*>(result.data()), pairs));
     return result;

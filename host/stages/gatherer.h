@@ -4,11 +4,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
+#include "host/stages/roulette.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight {
@@ -39,6 +40,10 @@ struct GatherInput {
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
+    /// Threshold of the Russian roulette (RouletteTask); 0: every pair is resolved. The expectation is the
+    /// same.
+    float roulette = 0.0f;
+    uint seed = 0;  ///< of the roulette
 };
 
 /// Called between launches with the number of (receiver, VPL) pairs done so far and of all; false cancels.
@@ -46,7 +51,9 @@ using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t tota
 
 /// What became of one (receiver, VPL) pair.
 enum class GatherPair : std::uint8_t {
-    culled = 0,  ///< no ray: a cosine is not positive (an absent receiver's is 0), or something is not finite
+    /// No ray: a cosine is not positive (an absent receiver's is 0), something is not finite, or the roulette
+    /// passed over the VPL.
+    culled = 0,
     visible = 1,
     occluded = 2,
 };
@@ -72,15 +79,24 @@ class Gatherer {
 
   private:
     struct Part;
-    [[nodiscard]] Kernel make_kernel(bool recording) const;
-    [[nodiscard]] Part next_part(const GatherInput& input, const Part& done, std::uint64_t pair_budget) const;
-    template <typename... Record>
+    struct Course;
+    [[nodiscard]] Kernel make_kernel(bool roulette, bool recording) const;
+    [[nodiscard]] Part next_part(std::size_t vpl_count, const Part& done, std::size_t end_packet,
+                                 std::uint64_t pair_budget) const;
+    template <typename... More>
     void launch(Kernel& kernel, const GatherInput& input, const Part& part,
-                Buffer<IrradiancePacket>& irradiance, const Record&... record);
+                Buffer<IrradiancePacket>& irradiance, const More&... more);
+    template <typename... More>
+    bool gather_packets(Kernel& kernel, const GatherInput& input, std::size_t first_packet,
+                        std::size_t end_packet, Buffer<IrradiancePacket>& irradiance, Course& course,
+                        const More&... more);
+    const RouletteLists& choose(const GatherInput& input, std::size_t first_packet, std::size_t end_packet);
 
     Device* device_;
     GatherConfig config_;
     Kernel kernel_;
+    std::optional<Roulette> roulette_;  ///< compiled when first asked for, like the kernel that follows it
+    std::optional<Kernel> roulette_kernel_;
 };
 
 }  // namespace nearlight

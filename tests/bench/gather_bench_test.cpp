@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
+#include "host/bench/agreement.h"
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
@@ -62,36 +64,6 @@ std::size_t count_different(const std::vector<IrradiancePacket>& a, const std::v
     return count;
 }
 
-TEST_F(GatherBenchTest, EveryRayAgreesWithEmbreeButForEdges) {
-    const Workload work = make_workload(25'000, 96, 64);
-    const EmbreeOcclusion embree(work.scene, work.bvh.triangle_ids);
-    const double tolerance = 1e-5 * max_component(bounds(work.scene).size());
-    on_each_device([&](Device& device) {
-        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-            std::vector<GatherPair> pairs;
-            gather(device, kernel, work, pairs);
-            const std::span is_ray(reinterpret_cast<const std::uint8_t*>(pairs.data()), pairs.size());
-            const OcclusionResult reference =
-                embree.trace({work.vpls, work.receivers, is_ray}, {1, false, false}, 2, true);
-            ASSERT_GT(reference.rays, 100'000u);
-            std::size_t different = 0;
-            for (std::size_t i = 0; i < pairs.size(); ++i) {
-                if ((pairs[i] == GatherPair::occluded) == (reference.occluded_pairs[i] != 0)) {
-                    continue;
-                }
-                ++different;
-                const std::size_t block = i / NEARLIGHT_PACKET_SIZE;
-                const Vec3 from = work.vpls[block % work.vpls.size()].position;
-                const ReceiverPacket& packet = work.receivers[block / work.vpls.size()];
-                const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-                const Vec3 to{packet.px[lane], packet.py[lane], packet.pz[lane]};
-                EXPECT_LE(distance_to_edges(work.bvh.triangles, from, to), tolerance) << "pair " << i;
-            }
-            EXPECT_LE(static_cast<double>(different), 1.0 + 1e-5 * static_cast<double>(reference.rays));
-        }
-    });
-}
-
 TEST_F(GatherBenchTest, IrradianceAgreesWithTheReferenceGather) {
     const Workload work = make_workload(10'000, 64, 100);
     const EmbreeScene embree(work.scene);
@@ -106,57 +78,135 @@ TEST_F(GatherBenchTest, IrradianceAgreesWithTheReferenceGather) {
     });
 }
 
-TEST_F(GatherBenchTest, AllWaysToAskEmbreeAgree) {
-    const Workload work = make_workload(5'000, 32, 70);
-    const EmbreeOcclusion embree(work.scene, work.bvh.triangle_ids);
-    const std::vector<std::uint8_t> every_other = [&] {
-        std::vector<std::uint8_t> rays(work.receivers.size() * work.vpls.size() * NEARLIGHT_PACKET_SIZE);
-        for (std::size_t i = 0; i < rays.size(); i += 2) {
-            rays[i] = 1;
+TEST_F(GatherBenchTest, EveryTracerAgreesButForEdges) {
+    const Scene scene = make_sphere_room(25'000);
+    const GatherSegments segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 64, 96, 96);
+    const Bvh bvh = build_scene_bvhs(segments.geometry).opaque;
+    on_each_device([&](Device& device) {
+        const GatherBenchResult result = bench_gather(device, segments, bvh, {.repeats = 1});
+        EXPECT_TRUE(result.agrees);
+        EXPECT_EQ(result.tracers.size(), 10u);
+        EXPECT_GT(result.after_culling, 100'000u);
+        for (const TracerFigures& tracer : result.tracers) {
+            EXPECT_GT(tracer.occluded, tracer.rays / 100) << tracer.name;
+            EXPECT_NEAR(static_cast<double>(tracer.rays), static_cast<double>(result.after_culling), 2.0);
         }
-        return rays;
-    }();
-    std::vector<OcclusionResult> results;
-    for (const int width : {1, 16}) {
-        for (const bool coherent : {false, true}) {
-            results.push_back(
-                embree.trace({work.vpls, work.receivers, every_other}, {width, coherent, coherent}, 2, true));
+        for (const Disagreement& item : result.disagreements) {
+            EXPECT_TRUE(item.excused);
+            EXPECT_LE(item.distance, item.is_culling ? 1e-5 : result.edge_tolerance) << item.tracer;
         }
-    }
-    for (const OcclusionResult& result : results) {
-        EXPECT_EQ(result.rays, every_other.size() / 2);
-        EXPECT_GT(result.occluded, result.rays / 100);
-        EXPECT_GT(result.seconds, 0.0);
-        std::size_t different = 0;
-        for (std::size_t i = 0; i < every_other.size(); ++i) {
-            different += result.occluded_pairs[i] != results.front().occluded_pairs[i] ? 1 : 0;
-        }
-        EXPECT_LE(different, 5u);
-    }
+    });
 }
 
-TEST_F(GatherBenchTest, ResultIsConsistent) {
+TEST_F(GatherBenchTest, CountsAndRatiosFitTogether) {
     const Scene scene = make_sphere_room(3'000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const GatherSegments segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 20, 40, 24);
+    const Bvh bvh = build_scene_bvhs(segments.geometry).opaque;
     on_each_device([&](Device& device) {
-        GatherBenchConfig config;
-        config.vpl_count = 20;
-        config.width = 40;
-        config.height = 24;
-        config.repeats = 3;
-        const GatherBenchResult result = bench_gather(device, scene, bvh, config);
+        const GatherBenchResult result =
+            bench_gather(device, segments, bvh, {.repeats = 3, .kernel = GatherKernel::rays});
         EXPECT_EQ(result.triangles, scene.triangles.size());
-        EXPECT_EQ(result.pairs, 40u * 24u * 20u);  // the room is closed: every pixel has a receiver
-        EXPECT_GT(result.rays, result.pairs / 10);
-        EXPECT_LT(result.rays, result.pairs);
-        EXPECT_GT(result.occluded_fraction, 0.0);
-        EXPECT_LT(result.occluded_fraction, 1.0);
-        EXPECT_LE(result.disagreements, 1u);
-        EXPECT_GT(result.nearlight_mrays, 0.0);
-        EXPECT_GT(result.ratio_embree1, 0.0);
-        EXPECT_GT(result.ratio_embree16, 0.0);
         EXPECT_EQ(result.device, device.name());
+        EXPECT_EQ(result.pairs, 40u * 24u * 20u);  // the room is closed: every pixel has a receiver
+        EXPECT_GT(result.after_culling, result.pairs / 10);
+        EXPECT_LT(result.after_culling, result.pairs);
+        ASSERT_EQ(result.tracers.size(), 9u);
+        EXPECT_EQ(result.tracers[result.ours].name, "nearlight rays");
+        EXPECT_EQ(result.tracers[result.embree1].embree_width, 1);
+        EXPECT_EQ(result.tracers[result.embree16].embree_width, 16);
+        for (const TracerFigures& tracer : result.tracers) {
+            EXPECT_GT(tracer.median.wall, 0.0);
+            EXPECT_GT(tracer.median.processor, 0.0);
+            EXPECT_TRUE(tracer.embree_width != 1 ||
+                        tracer.median.wall >= result.tracers[result.embree1].median.wall);
+        }
+        EXPECT_GT(result.wall1.median, 0.0);
+        EXPECT_GT(result.wall16.median, 0.0);
     });
+}
+
+/// Segments through a room, and the answer that Embree gives.
+struct Answered {
+    Answered() {
+        const Scene scene = make_sphere_room(3'000);
+        segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 40, 64, 64);
+        bvh = build_scene_bvhs(segments.geometry).opaque;
+        truth.rays = segments.rays;
+        truth.occluded =
+            EmbreeOcclusion(segments.geometry).trace(segments, {1, false, false}, 2, true).occluded;
+    }
+    GatherSegments segments;
+    Bvh bvh;
+    TracerAnswer truth;
+};
+
+/// A segment that stays away from all edges.
+std::pair<std::size_t, std::uint64_t> clear_ray(const Answered& room) {
+    for (std::size_t word = 0; word < room.segments.rays.size(); ++word) {
+        const std::uint64_t lane = room.segments.rays[word] & -room.segments.rays[word];
+        if (lane == 0) {
+            continue;
+        }
+        const Vec3 from = room.segments.vpls[word % room.segments.vpls.size()].position;
+        const Vec3 to = receiver_position(room.segments.receivers[word / room.segments.vpls.size()],
+                                          static_cast<std::size_t>(std::countr_zero(lane)));
+        if (distance_to_edges(room.bvh.triangles, from, to) > 1e-3) {
+            return {word, lane};
+        }
+    }
+    return {0, 0};
+}
+
+TEST(Agreement, RefusesARayThatIsWrongAwayFromEdges) {
+    const Answered room;
+    Agreement same(room.segments, room.bvh.triangles);
+    EXPECT_EQ(same.compare("same", room.truth, room.truth.occluded), 0u);
+    EXPECT_TRUE(same.good());
+    const auto [word, lane] = clear_ray(room);
+    ASSERT_NE(lane, 0u);
+    TracerAnswer wrong = room.truth;
+    wrong.occluded[word] ^= lane;
+    Agreement agreement(room.segments, room.bvh.triangles);
+    EXPECT_EQ(agreement.compare("wrong", wrong, room.truth.occluded), 1u);
+    EXPECT_FALSE(agreement.good());
+    ASSERT_EQ(agreement.items().size(), 1u);
+    const Disagreement& item = agreement.items().front();
+    EXPECT_EQ(room.segments.word(item.packet, item.vpl), word);
+    EXPECT_EQ(std::uint64_t{1} << item.lane, lane);
+    EXPECT_FALSE(item.is_culling);
+    EXPECT_GT(item.distance, 1e-3);
+    EXPECT_EQ(item.tracer_says, (wrong.occluded[word] & lane) != 0);
+}
+
+TEST(Agreement, RefusesMoreDifferencesThanItsShare) {
+    const Answered room;
+    Agreement agreement(room.segments, room.bvh.triangles);
+    TracerAnswer wrong = room.truth;
+    for (std::size_t word = 0; word < 300; ++word) {
+        wrong.occluded[word] ^= wrong.rays[word];
+    }
+    EXPECT_GT(agreement.compare("wrong", wrong, room.truth.occluded), 300u);
+    EXPECT_FALSE(agreement.good());
+    EXPECT_EQ(agreement.items().size(), 100u);
+}
+
+TEST(Agreement, RefusesPairsLostOrMadeUp) {
+    const Answered room;
+    const auto [word, lane] = clear_ray(room);
+    TracerAnswer lost = room.truth;
+    lost.rays[word] &= ~lane;
+    lost.occluded[word] &= ~lane;
+    Agreement agreement(room.segments, room.bvh.triangles);
+    EXPECT_EQ(agreement.compare("roulette", lost, room.truth.occluded, true), 0u);
+    EXPECT_TRUE(agreement.good());
+    EXPECT_EQ(agreement.compare("lost", lost, room.truth.occluded), 1u);
+    EXPECT_FALSE(agreement.good());
+    EXPECT_TRUE(agreement.items().front().is_culling);
+    GatherSegments fewer = room.segments;
+    fewer.rays[word] &= ~lane;
+    Agreement made_up(fewer, room.bvh.triangles);
+    EXPECT_EQ(made_up.compare("made up", room.truth, room.truth.occluded, true), 1u);
+    EXPECT_FALSE(made_up.good());
 }
 
 TEST(GatherWorkload, VplsOfASceneWithoutLampsLieOnItsSurfaces) {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "host/compare/files.h"
+#include "host/base/files.h"
 #include "host/compare/pictures.h"
 #include "host/compare/report_csv.h"
 #include "host/image/image_io.h"

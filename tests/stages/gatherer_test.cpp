@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "host/bvh/segment_distance.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
+#include "tests/support/uploaded_gather.h"
 
 namespace nearlight::test {
 namespace {
@@ -27,47 +27,6 @@ std::vector<Variant> variants() {
             {"packets of 32", {GatherKernel::packets, 32}},
             {"packets of 16", {GatherKernel::packets, 16}},
             {"rays", {GatherKernel::rays, 64}}};
-}
-
-/// The data of a case, on a device.
-class Uploaded {
-  public:
-    Uploaded(Device& device, const GatherCase& data)
-        : nodes_(device, data.bvh.nodes),
-          triangles_(device, data.bvh.triangles),
-          vpls_(device, data.vpls),
-          receivers_(device, data.receivers),
-          // Whatever the memory holds must not matter.
-          irradiance_(device, std::vector<IrradiancePacket>(data.receivers.size(), garbage())),
-          clamp_radius_(data.clamp_radius) {}
-
-    [[nodiscard]] GatherInput input() const {
-        return {nodes_, triangles_, vpls_, vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
-    }
-    std::vector<IrradiancePacket> gather(Gatherer& gatherer) {
-        EXPECT_TRUE(gatherer.gather(input(), irradiance_));
-        return irradiance_.download();
-    }
-    [[nodiscard]] Buffer<IrradiancePacket>& irradiance() { return irradiance_; }
-
-  private:
-    static IrradiancePacket garbage() {
-        IrradiancePacket packet;
-        std::fill_n(packet.r, 3 * NEARLIGHT_PACKET_SIZE, std::nanf(""));
-        return packet;
-    }
-
-    Buffer<BvhNode> nodes_;
-    Buffer<BvhTriangle> triangles_;
-    Buffer<Vpl> vpls_;
-    Buffer<ReceiverPacket> receivers_;
-    Buffer<IrradiancePacket> irradiance_;
-    float clamp_radius_;
-};
-
-bool same_bits(const std::vector<IrradiancePacket>& a, const std::vector<IrradiancePacket>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(IrradiancePacket)) == 0);
 }
 
 /// How the pairs came out that kernel and host see differently.

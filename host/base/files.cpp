@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/compare/files.h"
+#include "host/base/files.h"
 
 #include <unistd.h>
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bench/agreement.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "host/bvh/segment_distance.h"
+
+namespace nearlight {
+namespace {
+
+constexpr double kEdgeShare = 1e-5;        // of the scene's extent
+constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign
+constexpr double kMostShare = 1e-5;        // of all rays
+constexpr std::uint64_t kMostItems = 100;  // of a tracer: each costs a look at every edge
+
+double cosine(Vec3 normal, Vec3 direction) {
+    return std::abs(double{normal.x} * direction.x + double{normal.y} * direction.y +
+                    double{normal.z} * direction.z) /
+           std::max(1e-300, double{length(normal)} * length(direction));
+}
+
+}  // namespace
+
+Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges)
+    : segments_(&segments),
+      edges_(edges),
+      edge_tolerance_(kEdgeShare * max_component(bounds(segments.geometry).size())) {}
+
+void Agreement::add(Disagreement item, std::uint64_t count_before) {
+    if (count_before >= kMostItems) {
+        good_ = false;
+        return;
+    }
+    const Vpl& vpl = segments_->vpls[item.vpl];
+    const ReceiverPacket& packet = segments_->receivers[item.packet];
+    item.from = vpl.position;
+    item.to = receiver_position(packet, item.lane);
+    const Vec3 segment = item.to - item.from;
+    item.distance = item.is_culling ? std::min(cosine(vpl.normal, segment),
+                                               cosine(receiver_normal(packet, item.lane), segment))
+                                    : distance_to_edges(edges_, item.from, item.to);
+    item.excused = item.distance <= (item.is_culling ? kCosineTolerance : edge_tolerance_);
+    good_ = good_ && item.excused;
+    items_.push_back(std::move(item));
+}
+
+std::uint64_t Agreement::compare(const std::string& tracer, const TracerAnswer& answer,
+                                 const PairMask& reference, bool may_skip) {
+    std::uint64_t count = 0;
+    for (std::size_t word = 0; word < segments_->rays.size(); ++word) {
+        const std::uint64_t both = answer.rays[word] & segments_->rays[word];
+        const std::uint64_t hits = (answer.occluded[word] ^ reference[word]) & both;
+        const std::uint64_t culls = (answer.rays[word] & ~segments_->rays[word]) |
+                                    (may_skip ? 0 : segments_->rays[word] & ~answer.rays[word]);
+        for (std::uint64_t lanes = hits | culls; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+            const bool is_culling = ((culls >> lane) & 1u) != 0;
+            const PairMask& says = is_culling ? answer.rays : answer.occluded;
+            add({.tracer = tracer,
+                 .packet = word / segments_->vpls.size(),
+                 .lane = lane,
+                 .vpl = word % segments_->vpls.size(),
+                 .is_culling = is_culling,
+                 .tracer_says = ((says[word] >> lane) & 1u) != 0},
+                count++);
+        }
+    }
+    good_ = good_ && (count <= 1 || static_cast<double>(count) <
+                                        kMostShare * static_cast<double>(count_bits(segments_->rays)));
+    return count;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Medians and ratios of repeated measurements.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "host/bench/seconds.h"
+
+namespace nearlight {
+
+/// Of at least one value.
+inline double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+inline double median_absolute_deviation(const std::vector<double>& values) {
+    const double center = median(values);
+    std::vector<double> deviations;
+    for (const double value : values) {
+        deviations.push_back(std::abs(value - center));
+    }
+    return median(deviations);
+}
+
+/// One clock's readings, repeat by repeat.
+inline std::vector<double> readings(const std::vector<Seconds>& runs, double Seconds::*clock) {
+    std::vector<double> values;
+    for (const Seconds& run : runs) {
+        values.push_back(run.*clock);
+    }
+    return values;
+}
+
+struct Ratio {
+    double median = 0.0;
+    double deviation = 0.0;  ///< median absolute deviation
+};
+
+/// Their seconds over ours, repeat by repeat.
+inline Ratio ratio(const std::vector<Seconds>& theirs, const std::vector<Seconds>& ours,
+                   double Seconds::*clock) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        ratios.push_back((theirs[i].*clock) / (ours[i].*clock));
+    }
+    return {median(ratios), median_absolute_deviation(ratios)};
+}
+
+}  // namespace nearlight

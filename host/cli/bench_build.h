@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight bench build: our trees beside Embree's.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_bench_build(CommandLine& line, CLI::App& group);
+
+}  // namespace nearlight

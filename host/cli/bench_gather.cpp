@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/bench_gather.h"
+
+#include "host/base/log.h"
+#include "host/bench/gather_bench.h"
+#include "host/bench/segment_file.h"
+#include "host/cli/bench_scene.h"
+#include "host/cli/device_options.h"
+#include "host/cli/output.h"
+#include "host/cli/scene_options.h"
+
+namespace nearlight {
+namespace {
+
+struct BenchGatherOptions {
+    SceneOptions scene;
+    std::filesystem::path dump;
+    std::filesystem::path replay;
+    DeviceChoice device;
+    ImageSize size{512, 512};
+    std::size_t vpls = 128;
+    int repeats = 11;
+    std::string kernel = "all";
+    bool rendered = false;
+    float roulette = 0.0f;
+    BvhQuality bvh = BvhQuality::quality;
+};
+
+GatherSegments make_segments(const BenchGatherOptions& options, Device& device) {
+    if (!options.replay.empty()) {
+        return read_segments(options.replay);
+    }
+    const Scene scene = make_bench_scene(options.scene);
+    const SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = options.bvh});
+    const auto [width, height] = options.size;
+    return options.rendered ? make_rendered_segments(device, scene, bvhs.opaque, options.vpls, width, height)
+                            : make_camera_segments(scene, bvhs.opaque, options.vpls, width, height);
+}
+
+GatherKernel kernel_of(const std::string& name) {
+    return name == "packets" ? GatherKernel::packets
+           : name == "rays"  ? GatherKernel::rays
+                             : GatherKernel::automatic;
+}
+
+double millions(std::uint64_t count) {
+    return static_cast<double>(count) * 1e-6;
+}
+
+nlohmann::ordered_json to_json(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+nlohmann::ordered_json to_json(const Disagreement& item) {
+    return {{"tracer", item.tracer},
+            {"packet", item.packet},
+            {"lane", item.lane},
+            {"vpl", item.vpl},
+            {"from", to_json(item.from)},
+            {"to", to_json(item.to)},
+            {"about", item.is_culling ? "culling" : "occlusion"},
+            {"tracer_says", item.tracer_says},
+            {item.is_culling ? "least_cosine" : "edge_distance", item.distance},
+            {"excused", item.excused}};
+}
+
+nlohmann::ordered_json to_json(const TracerFigures& tracer, std::uint64_t pairs) {
+    return {{"tracer", tracer.name},
+            {"rays", tracer.rays},
+            {"occluded", tracer.occluded},
+            {"disagreements", tracer.disagreements},
+            {"seconds", tracer.median.wall},
+            {"processor_seconds", tracer.median.processor},
+            {"mpairs_per_second", millions(pairs) / tracer.median.wall},
+            {"mrays_per_second", millions(tracer.rays) / tracer.median.wall}};
+}
+
+nlohmann::ordered_json to_json(const Ratio& ratio) {
+    return {{"median", ratio.median}, {"deviation", ratio.deviation}};
+}
+
+nlohmann::ordered_json to_json(const std::string& name, BvhQuality bvh, const GatherBenchResult& result) {
+    nlohmann::ordered_json json{{"segments", name},
+                                {"triangles", result.triangles},
+                                {"bvh", to_string(bvh)},
+                                {"device", result.device},
+                                {"pairs", result.pairs},
+                                {"after_culling", result.after_culling},
+                                {"rays_traced", result.tracers[result.ours].rays}};
+    for (const TracerFigures& tracer : result.tracers) {
+        json["tracers"].push_back(to_json(tracer, result.pairs));
+    }
+    json["fastest"] = {{"nearlight", result.tracers[result.ours].name},
+                       {"embree1", result.tracers[result.embree1].name},
+                       {"embree16", result.tracers[result.embree16].name}};
+    json["ratio_embree1"] = to_json(result.wall1);
+    json["ratio_embree16"] = to_json(result.wall16);
+    if (result.processor16.median > 0.0) {
+        json["processor_ratio_embree1"] = to_json(result.processor1);
+        json["processor_ratio_embree16"] = to_json(result.processor16);
+    }
+    if (result.roulette) {
+        json["ratio_roulette"] = to_json(result.wall_roulette);
+        json["processor_ratio_roulette"] = to_json(result.processor_roulette);
+    }
+    json["edge_tolerance"] = result.edge_tolerance;
+    json["disagreements"] = nlohmann::ordered_json::array();
+    for (const Disagreement& item : result.disagreements) {
+        json["disagreements"].push_back(to_json(item));
+    }
+    json["agrees"] = result.agrees;
+    return json;
+}
+
+std::string line_of(const Disagreement& item) {
+    const std::string says =
+        item.is_culling ? (item.tracer_says ? "traces" : "culls") : (item.tracer_says ? "hits" : "passes");
+    return fmt::format(
+        "  {} {} packet {} lane {} VPL {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), {} "
+        "{:.3g}{}\n",
+        item.tracer, says, item.packet, item.lane, item.vpl, item.from.x, item.from.y, item.from.z, item.to.x,
+        item.to.y, item.to.z, item.is_culling ? "cosine" : "nearest edge at", item.distance,
+        item.excused ? "" : ", TOO FAR");
+}
+
+std::string to_text(const std::string& name, BvhQuality bvh, const GatherBenchResult& result) {
+    std::string text = fmt::format("{}: {} triangles in a {} tree, device {}\n", name, result.triangles,
+                                   to_string(bvh), result.device);
+    text +=
+        fmt::format("{:.2f} M pairs, {:.2f} M after culling, {:.2f} M rays traced\n", millions(result.pairs),
+                    millions(result.after_culling), millions(result.tracers[result.ours].rays));
+    text += fmt::format("{:>10} {:>10} {:>11} {:>8}\n", "Mrays/s", "Mpairs/s", "processor s", "differ");
+    for (const TracerFigures& tracer : result.tracers) {
+        text += fmt::format("{:>10.2f} {:>10.2f} {:>11.3f} {:>8}  {}\n",
+                            millions(tracer.rays) / tracer.median.wall,
+                            millions(result.pairs) / tracer.median.wall, tracer.median.processor,
+                            tracer.disagreements, tracer.name);
+    }
+    const auto add_ratio = [&](std::size_t ours, std::size_t embree, const Ratio& wall,
+                               const Ratio& processor) {
+        text += fmt::format("{} {:.2f} ± {:.2f} times as fast as {}", result.tracers[ours].name, wall.median,
+                            wall.deviation, result.tracers[embree].name);
+        text += processor.median > 0.0 ? fmt::format(", {:.2f} ± {:.2f} by processor time\n",
+                                                     processor.median, processor.deviation)
+                                       : "\n";
+    };
+    add_ratio(result.ours, result.embree1, result.wall1, result.processor1);
+    add_ratio(result.ours, result.embree16, result.wall16, result.processor16);
+    if (result.roulette) {
+        add_ratio(*result.roulette, result.embree16, result.wall_roulette, result.processor_roulette);
+    }
+    text +=
+        "Medians of interleaved runs. Ours is all of the gather, Embree's the time inside its calls only.\n";
+    text += fmt::format("Hit by hit: {}; a ray within {:.3g} of an edge may go either way.\n",
+                        result.agrees ? "all agree" : "THEY DO NOT AGREE", result.edge_tolerance);
+    for (const Disagreement& item : result.disagreements) {
+        text += line_of(item);
+    }
+    return text;
+}
+
+ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
+    if (options.scene.file.empty() == options.replay.empty()) {
+        throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
+    }
+    const std::unique_ptr<Device> device = open_device(options.device);
+    const GatherSegments segments = make_segments(options, *device);
+    if (!options.dump.empty()) {
+        write_segments(options.dump, segments);
+        spdlog::info("wrote {}", options.dump.string());
+    }
+    const SceneBvhs bvhs = build_scene_bvhs(segments.geometry, {.quality = options.bvh});
+    const GatherBenchResult result = bench_gather(
+        *device, segments, bvhs.opaque,
+        {.repeats = options.repeats, .kernel = kernel_of(options.kernel), .roulette = options.roulette});
+    if (global.json) {
+        print_json(to_json(segments.geometry.name, options.bvh, result));
+    } else {
+        print(to_text(segments.geometry.name, options.bvh, result));
+    }
+    return result.agrees ? ExitCode::done : ExitCode::runtime;
+}
+
+}  // namespace
+
+void add_bench_gather(CommandLine& line, CLI::App& group) {
+    auto options = std::make_shared<BenchGatherOptions>();
+    CLI::App& command = line.add_part(
+        group, "gather", "Shadow rays from VPLs to receivers, beside Embree; fails where they disagree",
+        [options](const GlobalOptions& global) { return run_bench_gather(*options, global); });
+    add_bench_scene_options(command, options->scene);
+    command.add_option("--dump", options->dump, "Write the segments for others to replay (docs/bench.md)")
+        ->type_name("FILE");
+    command.add_option("--replay", options->replay, "Take the segments of such a file instead of a scene")
+        ->type_name("FILE");
+    add_size_option(command, options->size)->default_str("512x512");
+    command.add_option("--vpls", options->vpls, "VPLs")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    command.add_option("--repeats", options->repeats, "Runs of which the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--kernel", options->kernel, "Our gather kernels that take part")
+        ->check(CLI::IsMember({"all", "packets", "rays"}))
+        ->capture_default_str();
+    command.add_flag("--rendered", options->rendered,
+                     "VPLs that a render would use, instead of those of plain light walks");
+    command
+        .add_option("--roulette", options->roulette,
+                    "Threshold; ours take part with Russian roulette too (see render)")
+        ->check(CLI::Range(0.0f, 1000.0f))
+        ->type_name("T");
+    add_bvh_option(command, options->bvh);
+    add_device_options(command, options->device);
+}
+
+}  // namespace nearlight

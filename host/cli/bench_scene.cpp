@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/bench_scene.h"
+
+#include <charconv>
+#include <string_view>
+
+#include "host/base/error.h"
+#include "host/bench/synthetic_scene.h"
+
+namespace nearlight {
+namespace {
+
+constexpr std::string_view kSpheres = "spheres:";
+
+}  // namespace
+
+void add_bench_scene_options(CLI::App& command, SceneOptions& options) {
+    add_scene_options(command, options);
+    command.get_option("SCENE")->required(false)->description(
+        "Mitsuba XML (.xml), OBJ (.obj), or spheres:N, a made-up room of N triangles");
+}
+
+Scene make_bench_scene(const SceneOptions& options) {
+    const std::string name = options.file.string();
+    if (name.empty()) {
+        throw Error(ExitCode::usage, "give a SCENE, or spheres:N");
+    }
+    if (!name.starts_with(kSpheres)) {
+        return load_scene(options);
+    }
+    std::size_t triangles = 0;
+    const char* const end = name.data() + name.size();
+    const auto [rest, error] = std::from_chars(name.data() + kSpheres.size(), end, triangles);
+    if (error != std::errc() || rest != end || triangles == 0 || triangles > 50'000'000) {
+        throw Error(ExitCode::usage, "'" + name + "': give a number of triangles, as in spheres:400000");
+    }
+    return make_sphere_room(triangles);
+}
+
+}  // namespace nearlight

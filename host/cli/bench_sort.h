@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// nearlight bench sort: radix sort and prefix sum, beside the host's libraries and the memory's speed.
+#pragma once
+
+#include "host/cli/command.h"
+
+namespace nearlight {
+
+void add_bench_sort(CommandLine& line, CLI::App& group);
+
+}  // namespace nearlight

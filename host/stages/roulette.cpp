@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/roulette.h"
+
+#include <algorithm>
+
+namespace nearlight {
+namespace {
+
+/// Of bounds, indices and weights together.
+constexpr std::size_t kListBytes = std::size_t{96} << 20u;
+constexpr std::size_t kEntryBytes = 2 * sizeof(float) + sizeof(uint);
+
+/// VPLs of a work-item: on CPUs enough to pay for its start.
+constexpr uint kCpuRun = 64;
+
+}  // namespace
+
+Roulette::Roulette(Device& device)
+    : device_(&device),
+      program_(device, "roulette.cl"),
+      bounds_kernel_(program_, "roulette_bounds"),
+      choose_kernel_(program_, "roulette_choose") {}
+
+std::size_t Roulette::most_packets(std::size_t vpl_count) {
+    return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
+}
+
+const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t first_packet,
+                                      std::size_t end_packet) {
+    const std::size_t packets = end_packet - first_packet;
+    const std::size_t entries = packets * task.vpl_count;
+    if (bounds_.count() < entries || lists_.counts.count() < packets) {
+        bounds_ = Buffer<float>(*device_, entries);
+        lists_.vpls = Buffer<uint>(*device_, entries);
+        lists_.weights = Buffer<float>(*device_, entries);
+        lists_.counts = Buffer<uint>(*device_, packets);
+    }
+    const auto vpl_count = lists_.stride = static_cast<uint>(task.vpl_count);
+    const auto first = lists_.first_packet = static_cast<uint>(first_packet);
+    const auto end = lists_.end_packet = static_cast<uint>(end_packet);
+    const uint run = device_->is_cpu() ? kCpuRun : 1;
+    bounds_kernel_.launch_items(packets * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
+                                task.receivers, first, end, task.clamp_radius * task.clamp_radius, bounds_);
+    choose_kernel_.launch_items(packets, bounds_, vpl_count, task.receivers, first, end, task.threshold,
+                                task.seed, lists_.vpls, lists_.weights, lists_.counts);
+    return lists_;
+}
+
+}  // namespace nearlight
