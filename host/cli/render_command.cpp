@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <iterator>
 #include <map>
 
 #include "host/base/hash.h"
@@ -86,8 +88,20 @@ RenderSettings settled(const RenderOptions& options) {
     return settings;
 }
 
+/// What `text` says of each device, without repeats.
+template <typename Text>
+std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
+    std::vector<std::string> parts;
+    for (const auto& device : devices) {
+        if (const std::string part = text(device->entry()); std::ranges::find(parts, part) == parts.end()) {
+            parts.push_back(part);
+        }
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 Metadata metadata_of(const Scene& scene, const RenderSettings& settings, const RenderReport& report, const View& view,
-                     const DeviceEntry& device) {
+                     const std::vector<std::unique_ptr<Device>>& devices) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
     metadata["nearlight:sampler"] = to_string(settings.sampler);
@@ -97,14 +111,23 @@ Metadata metadata_of(const Scene& scene, const RenderSettings& settings, const R
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
     metadata["nearlight:seed"] = static_cast<int>(settings.seed);
-    metadata["nearlight:device"] = device.name;
-    metadata["nearlight:driver"] = device.driver;
+    metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
+    metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
     metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
     return metadata;
 }
 
+/// Of all finished bands.
+double share_of(const BandShare& one, std::span<const BandShare> all) {
+    uint total = 0;
+    for (const BandShare& share : all) {
+        total += share.bands;
+    }
+    return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
+}
+
 nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSettings& settings, const RenderReport& report,
-                               const DeviceEntry& device, double load_seconds) {
+                               double load_seconds) {
     nlohmann::ordered_json json;
     json["scene"] = options.scene.file.string();
     json["width"] = report.width;
@@ -122,7 +145,16 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     json["clamp_radius"] = report.clamp_radius;
     json["max_depth"] = report.max_depth;
     json["seed"] = settings.seed;
-    json["device"] = {device.name};
+    json["device"] = nlohmann::ordered_json::array();
+    json["device_shares"] = nlohmann::ordered_json::array();
+    for (const BandShare& share : report.shares) {
+        json["device"].push_back(share.name);
+        json["device_shares"].push_back({{"device", share.name},
+                                         {"bands", share.bands},
+                                         {"share", share_of(share, report.shares)},
+                                         {"seconds", share.seconds},
+                                         {"failed", share.failed}});
+    }
     json["seconds"] = {{"load", load_seconds},
                        {"build_bvh", report.seconds.build_bvh},
                        {"compile", report.seconds.compile},
@@ -153,6 +185,12 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
                  report.distant_vpls, seconds);
+    for (const BandShare& share : report.shares) {
+        if (report.shares.size() > 1) {
+            spdlog::info("{:.0f} % by {}{}", 100 * share_of(share, report.shares), share.name,
+                         share.failed ? ", which failed" : "");
+        }
+    }
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
     }
@@ -160,6 +198,7 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
 
 /// Device time of each kernel, for those who look for where it goes.
 void tell_kernel_times(Device& device) {
+    spdlog::debug("kernels on {}:", device.entry().label());
     for (const auto& [kernel, total] : device.profiler().totals()) {
         spdlog::debug("{:<24} {:8.3f} s in {} launches", kernel, total.seconds, total.launches);
     }
@@ -169,19 +208,30 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const RenderSettings settings = settled(options);
     check_outputs(options.picture);
     const Stopwatch total;
-    Stopwatch watch;
+    // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
+    const DeviceList list = list_devices();
+    auto opening = std::async(std::launch::async, [&] {
+        auto opened = open_devices(options.device, list);
+        for (const auto& device : opened) {
+            begin_compiling(*device, settings);
+        }
+        return opened;
+    });
+    const Stopwatch loading;
     const Scene scene = load_scene(options.scene);
-    const double load_seconds = watch.lap();
+    const double load_seconds = loading.seconds();
     check_request(scene, settings);
-    const auto device = open_device(options.device);
+    const std::vector<std::unique_ptr<Device>> devices = opening.get();
+    std::vector<Device*> plain_devices;
+    std::ranges::transform(devices, std::back_inserter(plain_devices), &std::unique_ptr<Device>::get);
 
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
     const RenderReport report = render(
-        *device, scene, settings,
+        plain_devices, scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height, metadata_of(scene, settings, started, view, device->entry()));
+            files.open(started.width, started.height, metadata_of(scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) { files.write_rows(rows); },
         [&](const std::string&, double fraction) {
@@ -191,10 +241,12 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(to_json(options, settings, report, device->entry(), load_seconds));
+        print_json(to_json(options, settings, report, load_seconds));
     }
     if (global.verbose) {
-        tell_kernel_times(*device);
+        for (Device* device : plain_devices) {
+            tell_kernel_times(*device);
+        }
     }
     tell(options, report, total.seconds());
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
