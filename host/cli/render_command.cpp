@@ -7,15 +7,14 @@
 #include <iterator>
 #include <map>
 
-#include "host/base/hash.h"
 #include "host/base/log.h"
-#include "host/base/memory.h"
 #include "host/base/stopwatch.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/output.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
+#include "host/cli/render_output.h"
 #include "host/cli/scene_options.h"
 #include "host/render/renderer.h"
 
@@ -88,86 +87,6 @@ RenderSettings settled(const RenderOptions& options) {
     return settings;
 }
 
-/// What `text` says of each device, without repeats.
-template <typename Text>
-std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
-    std::vector<std::string> parts;
-    for (const auto& device : devices) {
-        if (const std::string part = text(device->entry()); std::ranges::find(parts, part) == parts.end()) {
-            parts.push_back(part);
-        }
-    }
-    return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-Metadata metadata_of(const Scene& scene, const RenderSettings& settings, const RenderReport& report, const View& view,
-                     const std::vector<std::unique_ptr<Device>>& devices) {
-    Metadata metadata = camera_metadata(view.scene_camera);
-    metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
-    metadata["nearlight:sampler"] = to_string(settings.sampler);
-    metadata["nearlight:policy"] = settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
-    metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
-    metadata["nearlight:clampRadius"] = report.clamp_radius;
-    metadata["nearlight:range"] = report.range;
-    metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
-    metadata["nearlight:seed"] = static_cast<int>(settings.seed);
-    metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
-    metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
-    metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
-    return metadata;
-}
-
-/// Of all finished bands.
-double share_of(const BandShare& one, std::span<const BandShare> all) {
-    uint total = 0;
-    for (const BandShare& share : all) {
-        total += share.bands;
-    }
-    return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
-}
-
-nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSettings& settings, const RenderReport& report,
-                               double load_seconds) {
-    nlohmann::ordered_json json;
-    json["scene"] = options.scene.file.string();
-    json["width"] = report.width;
-    json["height"] = report.height;
-    json["sampler"] = to_string(settings.sampler);
-    json["policy"] = settings.sampler == SamplerKind::close_range ? nlohmann::ordered_json(to_string(settings.policy)) : nullptr;
-    json["vpls"] = {{"requested", settings.vpl_count},
-                    {"close", report.close_vpls},
-                    {"distant", report.distant_vpls},
-                    {"sparse", report.sparse_vpls},
-                    {"candidates", report.candidates},
-                    {"local_lights", report.local_lights}};
-    json["close_fraction"] = report.close_fraction;
-    json["range"] = report.range;
-    json["clamp_radius"] = report.clamp_radius;
-    json["max_depth"] = report.max_depth;
-    json["seed"] = settings.seed;
-    json["device"] = nlohmann::ordered_json::array();
-    json["device_shares"] = nlohmann::ordered_json::array();
-    for (const BandShare& share : report.shares) {
-        json["device"].push_back(share.name);
-        json["device_shares"].push_back({{"device", share.name},
-                                         {"bands", share.bands},
-                                         {"share", share_of(share, report.shares)},
-                                         {"seconds", share.seconds},
-                                         {"failed", share.failed}});
-    }
-    json["seconds"] = {{"load", load_seconds},
-                       {"build_bvh", report.seconds.build_bvh},
-                       {"compile", report.seconds.compile},
-                       {"generate", report.seconds.generate},
-                       {"gather", report.seconds.gather},
-                       {"total", load_seconds + report.seconds.total}};
-    json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
-    json["outputs"] = options.picture.outputs;
-    json["image_hash"] = hex_digits(report.image_hash);
-    json["interrupted"] = report.interrupted;
-    return json;
-}
-
 /// What is asked for, yet worth a word; refuses pictures that no file system would thank for.
 void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.width.value_or(scene.camera.width);
@@ -185,12 +104,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
                  report.distant_vpls, seconds);
-    for (const BandShare& share : report.shares) {
-        if (report.shares.size() > 1) {
-            spdlog::info("{:.0f} % by {}{}", 100 * share_of(share, report.shares), share.name,
-                         share.failed ? ", which failed" : "");
-        }
-    }
+    tell_shares(report);
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
     }
@@ -204,6 +118,12 @@ void tell_kernel_times(Device& device) {
     }
 }
 
+std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) {
+    std::vector<Device*> result;
+    std::ranges::transform(devices, std::back_inserter(result), &std::unique_ptr<Device>::get);
+    return result;
+}
+
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const RenderSettings settings = settled(options);
     check_outputs(options.picture);
@@ -212,9 +132,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const DeviceList list = list_devices();
     auto opening = std::async(std::launch::async, [&] {
         auto opened = open_devices(options.device, list);
-        for (const auto& device : opened) {
-            begin_compiling(*device, settings);
-        }
+        begin_compiling(plain(opened), settings);
         return opened;
     });
     const Stopwatch loading;
@@ -222,16 +140,14 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const double load_seconds = loading.seconds();
     check_request(scene, settings);
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
-    std::vector<Device*> plain_devices;
-    std::ranges::transform(devices, std::back_inserter(plain_devices), &std::unique_ptr<Device>::get);
 
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
     const RenderReport report = render(
-        plain_devices, scene, settings,
+        plain(devices), scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height, metadata_of(scene, settings, started, view, devices));
+            files.open(started.width, started.height, render_metadata(scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) { files.write_rows(rows); },
         [&](const std::string&, double fraction) {
@@ -241,10 +157,10 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(to_json(options, settings, report, load_seconds));
+        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report, load_seconds));
     }
     if (global.verbose) {
-        for (Device* device : plain_devices) {
+        for (const auto& device : devices) {
             tell_kernel_times(*device);
         }
     }

@@ -252,10 +252,16 @@ RenderReport render(Device& device, const Scene& scene, const RenderSettings& se
     return render(std::vector{&device}, scene, settings, start, sink, progress);
 }
 
-void begin_compiling(Device& device, const RenderSettings& settings) {
-    // The programs stay with the device when the stages are gone.
-    const BandStages bands(device, settings.gather_kernel);
-    SamplerStages samplers(device, {.kernel = settings.gather_kernel});
+// In the order of need. Programs stay with their device when the stages are gone.
+void begin_compiling(std::span<Device* const> devices, const RenderSettings& settings) {
+    const auto begin_bands = [&](Device& device) {
+        const BandStages bands(device, settings.gather_kernel);
+        if (settings.sampler == SamplerKind::local) {
+            const LocalLights local_lights(device);
+        }
+    };
+    begin_bands(*devices.front());
+    SamplerStages samplers(*devices.front(), {.kernel = settings.gather_kernel});
     if (settings.sampler == SamplerKind::close_range && settings.policy != Policy::complete) {
         samplers.light_visibility();
     } else if (settings.sampler == SamplerKind::metropolis) {
@@ -263,8 +269,8 @@ void begin_compiling(Device& device, const RenderSettings& settings) {
     } else if (settings.sampler == SamplerKind::bidirectional || settings.sampler == SamplerKind::local) {
         samplers.reverse_vpls();
     }
-    if (settings.sampler == SamplerKind::local) {
-        const LocalLights local_lights(device);
+    for (Device* device : devices.subspan(1)) {
+        begin_bands(*device);
     }
 }
 

@@ -55,7 +55,7 @@ using RenderStart = std::function<void(const RenderReport&, const View&, const V
 
 /// Begins to compile what a render with these settings needs, so that it goes on while the scene is loaded. A
 /// Renderer of the same device finds it compiled or waits for the rest.
-void begin_compiling(Device& device, const RenderSettings& settings);
+void begin_compiling(std::span<Device* const> devices, const RenderSettings& settings);
 
 /// A scene on one or several devices, ready for any number of pictures: tree built, everything uploaded;
 /// kernels compile until they are first launched. VPLs are made on the first device, bands of the picture on

@@ -55,6 +55,10 @@ class ProgramTest : public test::DeviceTest {
     TemporaryFolder folder_;
 };
 
+void wait_for(const Program& program, const std::string& kernel) {
+    static_cast<void>(program.kernel(kernel));
+}
+
 /// On a device that has compiled nothing yet, as a process that has just started has it.
 uint run_answer(const Device& like, const Defines& defines = {}) {
     Device device(like.entry(),
@@ -139,7 +143,7 @@ TEST_F(ProgramTest, ABinaryThatTheDriverRefusesIsRebuilt) {
 TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
     write_kernel("broken.cl", "kernel void broken(global uint* out) {\n    out[0] = no_such_name;\n}\n");
     on_each_own_device([](Device& device) {
-        const Error error = error_of([&] { Program(device, "broken.cl").kernel("broken"); });
+        const Error error = error_of([&] { wait_for(Program(device, "broken.cl"), "broken"); });
         EXPECT_EQ(error.code(), ExitCode::kernel_build);
         EXPECT_TRUE(mentions(error, "kernels/broken.cl"));
         EXPECT_TRUE(mentions(error, device.name()));
@@ -164,9 +168,9 @@ TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
 
 TEST_F(ProgramTest, ADeviceCompilesAProgramOnce) {
     on_each_own_device([&](Device& device) {
-        Program(device, "answer.cl").kernel("answer");
+        wait_for(Program(device, "answer.cl"), "answer");
         std::filesystem::remove_all(cache_dir());
-        Program(device, "answer.cl").kernel("answer");
+        wait_for(Program(device, "answer.cl"), "answer");
         EXPECT_FALSE(std::filesystem::exists(cache_dir()));
         EXPECT_GT(device.compiler().busy_seconds(), 0.0);
     });
@@ -195,9 +199,9 @@ TEST_F(ProgramTest, DevicesThatShareACompilerCompileOnce) {
         options.compiler = std::make_shared<ProgramCompiler>();
         Device one(device.entry(), options);
         Device two(device.entry(), options);
-        Program(one, "answer.cl").kernel("answer");
+        wait_for(Program(one, "answer.cl"), "answer");
         const auto time = std::filesystem::last_write_time(cached_files().at(0));
-        Program(two, "answer.cl").kernel("answer");
+        wait_for(Program(two, "answer.cl"), "answer");
         EXPECT_EQ(cached_files().size(), 1u);
         EXPECT_EQ(std::filesystem::last_write_time(cached_files()[0]), time);
     });
@@ -206,7 +210,8 @@ TEST_F(ProgramTest, DevicesThatShareACompilerCompileOnce) {
 TEST_F(ProgramTest, UnknownEntryPointIsNamed) {
     on_each_own_device([](Device& device) {
         Kernel kernel(Program(device, "answer.cl"), "question");
-        const Error error = error_of([&] { kernel.launch(1, 1); });
+        Buffer<uint> out(device, 1);
+        const Error error = error_of([&] { kernel.launch(1, 1, out); });
         EXPECT_TRUE(mentions(error, "question"));
         EXPECT_TRUE(mentions(error, "answer.cl"));
     });
