@@ -123,7 +123,7 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
     const Scene scene = make_even_room({kAlbedo, kAlbedo, kAlbedo});
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
     PilotView blind;
-    blind.importons = Buffer<Vpl>(device, 0);
+    blind.importons.vpls = Buffer<Vpl>(device, 0);
     Gatherer gatherer(device);
     VplContribution contribution(device, gatherer);
     MetropolisChains metropolis(device, contribution);
