@@ -6,6 +6,7 @@
 #include <span>
 
 #include "host/render/band_sharing.h"
+#include "host/render/local_gather.h"
 #include "host/render/plan.h"
 #include "host/render/settings.h"
 #include "host/render/view.h"
@@ -13,7 +14,6 @@
 #include "host/stages/direct_light.h"
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
-#include "host/stages/local_lights.h"
 
 namespace nearlight {
 
@@ -31,7 +31,7 @@ struct BandStages {
     DirectLight direct_light;
     Gatherer gatherer;
     Film film;
-    std::optional<LocalLights> local_lights{};  ///< compiled when first wanted
+    std::optional<LocalGather> local_gather{};  ///< compiled when first wanted
 };
 
 /// What is the same for all bands and devices.
@@ -64,9 +64,8 @@ class BandRenderer {
         Buffer<float> layers;
     };
 
-    bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress,
-                   std::size_t& local_lights);
-    bool gather_indirect(std::size_t packets, const GatherProgress& progress, std::size_t& local_lights);
+    bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
+    bool gather_indirect(std::size_t packets, const GatherProgress& progress);
 
     BandStages& stages_;
     const DeviceScene& scene_;

@@ -257,7 +257,7 @@ void begin_compiling(std::span<Device* const> devices, const RenderSettings& set
     const auto begin_bands = [&](Device& device) {
         const BandStages bands(device, settings.gather_kernel);
         if (settings.sampler == SamplerKind::local) {
-            const LocalLights local_lights(device);
+            const LocalGather local_gather(device);
         }
     };
     begin_bands(*devices.front());

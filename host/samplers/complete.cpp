@@ -104,7 +104,7 @@ uint deposit_count(const SamplingTask& task) {
 /// Deposits of walks over the whole scene, those that pass the screening, along the Morton curve.
 std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
                                    std::span<const Vpl> deposits) {
-    const std::vector<Vpl> sorted = stages.vpl_order.upload_sorted(deposits).download();
+    const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
     const std::vector<float> weights =
         selection_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
     Pcg32 random(task.seed, kScreeningStream);
