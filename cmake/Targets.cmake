@@ -25,15 +25,20 @@ function(nearlight_library name)
   endif()
 endfunction()
 
-# nearlight_test(NAME SOURCES … LIBRARIES … LABELS …): one GoogleTest binary, each case a ctest.
+# nearlight_test(NAME SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest binary, each case a ctest.
 function(nearlight_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
+  endif()
+  set(environment "")
+  if(ARG_ENVIRONMENT)
+    set(environment ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE nearlight_options GTest::gtest_main ${ARG_LIBRARIES})
   target_compile_definitions(${name} PRIVATE
     NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}." PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}."
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${environment})
 endfunction()

@@ -27,6 +27,9 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
     if (options_.cache_dir.empty()) {
         options_.cache_dir = default_cache_dir();
     }
+    if (options_.compiler == nullptr) {
+        options_.compiler = std::make_shared<ProgramCompiler>();
+    }
     try {
         context_ = cl::Context(entry_.handle);
         queue_ = cl::CommandQueue(context_, entry_.handle, CL_QUEUE_PROFILING_ENABLE);
@@ -40,6 +43,16 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
 std::size_t Device::worker_count() const {
     // CPUs: a few runs a core, to even out; GPUs: enough to fill their lanes.
     return is_cpu() ? std::max<std::size_t>(4, 4 * entry_.compute_units) : std::size_t{64} * 64;
+}
+
+std::shared_future<cl::Program> Device::start_build(const std::string& file, std::string source,
+                                                    std::string options) {
+    ProgramRequest request{entry_, context_, file, std::move(source), std::move(options), options_.cache_dir};
+    const auto [found, is_new] = programs_.try_emplace(request.key());
+    if (is_new) {
+        found->second = options_.compiler->start(std::move(request));
+    }
+    return found->second;
 }
 
 void Device::finish() {

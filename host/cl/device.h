@@ -4,10 +4,14 @@
 
 #include <CL/opencl.hpp>
 #include <filesystem>
+#include <future>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "host/cl/device_list.h"
 #include "host/cl/profiler.h"
+#include "host/cl/program_compiler.h"
 
 namespace nearlight {
 
@@ -16,12 +20,15 @@ struct DeviceOptions {
     std::filesystem::path kernel_dir;
     /// Compiled programs are kept here; empty: default_cache_dir(). "none" keeps nothing.
     std::filesystem::path cache_dir;
+    /// Compiles for this device; empty: one of its own. Devices of a kind that share one compile once.
+    std::shared_ptr<ProgramCompiler> compiler{};
 };
 
 /// $NEARLIGHT_CACHE_DIR, or $XDG_CACHE_HOME/nearlight, or ~/.cache/nearlight; empty where there is no home.
 std::filesystem::path default_cache_dir();
 
-/// Not copyable: stages hold a reference to it. All work goes through one in-order queue.
+/// Not copyable: stages hold a reference to it. All work goes through one in-order queue. For one thread at a
+/// time.
 class Device {
   public:
     explicit Device(const DeviceEntry& entry, const DeviceOptions& options = {});
@@ -41,6 +48,11 @@ class Device {
     /// How many work-items a kernel should have that gives each a long run of elements (scan, sort).
     [[nodiscard]] std::size_t worker_count() const;
 
+    /// Begins to build a program from expanded `source` of kernels/`file`, or gives the one begun before.
+    std::shared_future<cl::Program> start_build(const std::string& file, std::string source,
+                                                std::string options);
+    [[nodiscard]] ProgramCompiler& compiler() const { return *options_.compiler; }
+
     /// Waits for everything enqueued; asynchronous failures surface here.
     void finish();
 
@@ -55,6 +67,7 @@ class Device {
     cl::Context context_;
     cl::CommandQueue queue_;
     Profiler profiler_;
+    std::map<std::string, std::shared_future<cl::Program>> programs_;  ///< by their keys
     std::size_t allocated_bytes_ = 0;
     std::size_t peak_bytes_ = 0;
 };

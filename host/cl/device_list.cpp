@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <regex>
+#include <sstream>
 
 #include "host/cl/opencl_error.h"
 
@@ -40,6 +42,10 @@ DeviceEntry describe(const cl::Device& handle, const std::string& platform) {
                                                : DeviceKind::other;
     entry.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     entry.global_bytes = handle.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    const auto ways = handle.getInfo<CL_DEVICE_PARTITION_PROPERTIES>();
+    if (std::find(ways.begin(), ways.end(), CL_DEVICE_PARTITION_EQUALLY) != ways.end()) {
+        entry.max_parts = std::max(1u, handle.getInfo<CL_DEVICE_PARTITION_MAX_SUB_DEVICES>());
+    }
     entry.max_allocation_bytes = handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     if (!handle.getInfo<CL_DEVICE_AVAILABLE>()) {
         entry.unusable_because = "the driver says it is not available";
@@ -81,6 +87,31 @@ std::string describe_choices(const DeviceList& list) {
     return text;
 }
 
+/// `part_count` devices of equally many compute units; a rest of units stays idle.
+std::vector<DeviceEntry> split_device(const DeviceEntry& whole, unsigned part_count) {
+    if (part_count == 0 || part_count > whole.max_parts) {
+        throw Error(ExitCode::no_device, "OpenCL device '" + whole.name + "' can be split in 1 to " +
+                                             std::to_string(whole.max_parts) + " parts, not in " +
+                                             std::to_string(part_count));
+    }
+    const unsigned units = whole.compute_units / part_count;
+    const cl_device_partition_property equally[]{CL_DEVICE_PARTITION_EQUALLY, units, 0};
+    std::vector<cl::Device> handles;
+    with_opencl_errors("splitting device " + whole.name,
+                       [&] { cl::Device(whole.handle).createSubDevices(equally, &handles); });
+    handles.resize(std::min<std::size_t>(handles.size(), part_count));
+    std::vector<DeviceEntry> parts;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        DeviceEntry part = whole;
+        part.handle = handles[i];
+        part.compute_units = units;
+        part.max_parts = 1;
+        part.part = "part " + std::to_string(i) + " of " + std::to_string(part_count);
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 bool matches(const DeviceEntry& entry, const std::string& choice) {
     const bool is_index = !choice.empty() && std::all_of(choice.begin(), choice.end(),
                                                          [](unsigned char c) { return std::isdigit(c); });
@@ -114,6 +145,51 @@ DeviceEntry default_device(const DeviceList& list) {
     return *best;
 }
 
+/// One item of a choice without its parts.
+std::vector<DeviceEntry> choose_whole(const DeviceList& list, const std::string& choice) {
+    std::vector<DeviceEntry> chosen;
+    std::copy_if(list.devices.begin(), list.devices.end(), std::back_inserter(chosen),
+                 [&](const DeviceEntry& entry) { return matches(entry, choice); });
+    if (chosen.empty() || choice.empty()) {
+        throw Error(ExitCode::no_device,
+                    "no OpenCL device matches '" + choice + "'; there are: " + describe_choices(list));
+    }
+    std::stable_partition(chosen.begin(), chosen.end(),
+                          [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
+    if (const DeviceEntry& first = chosen.front(); !first.unusable_because.empty()) {
+        throw Error(ExitCode::no_device,
+                    "OpenCL device '" + first.name + "' cannot be used: " + first.unusable_because);
+    }
+    if (choice != "all") {
+        chosen.resize(1);
+    }
+    return chosen;
+}
+
+/// One item of a choice: "cpu", "cpu/2" or "cpu/2.0".
+std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& item) {
+    static const std::regex with_parts(R"((.+)/(\d{1,4})(\.(\d{1,4}))?)");
+    std::smatch match;
+    if (!std::regex_match(item, match, with_parts)) {
+        return choose_whole(list, item);
+    }
+    const auto part_count = static_cast<unsigned>(std::stoul(match[2].str()));
+    std::vector<DeviceEntry> chosen;
+    for (const DeviceEntry& whole : choose_whole(list, match[1].str())) {
+        std::vector<DeviceEntry> parts = split_device(whole, part_count);
+        if (!match[4].matched) {
+            std::move(parts.begin(), parts.end(), std::back_inserter(chosen));
+        } else if (const std::size_t index = std::stoul(match[4].str()); index < parts.size()) {
+            chosen.push_back(std::move(parts[index]));
+        } else {
+            throw Error(ExitCode::no_device,
+                        "'" + item + "' names a part that is not there: they are numbered from 0 to " +
+                            std::to_string(parts.size() - 1));
+        }
+    }
+    return chosen;
+}
+
 }  // namespace
 
 std::string to_string(DeviceKind kind) {
@@ -121,6 +197,9 @@ std::string to_string(DeviceKind kind) {
 }
 
 DeviceList list_devices() {
+    // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the group
+    // size of a launch. The second is no faster (bench/RESULTS.md), and users would wait for it.
+    setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
     DeviceList list;
     std::vector<cl::Platform> platforms;
     try {
@@ -149,20 +228,16 @@ std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::strin
         return {default_device(list)};
     }
     std::vector<DeviceEntry> chosen;
-    std::copy_if(list.devices.begin(), list.devices.end(), std::back_inserter(chosen),
-                 [&](const DeviceEntry& entry) { return matches(entry, choice); });
-    if (chosen.empty()) {
-        throw Error(ExitCode::no_device,
-                    "no OpenCL device matches '" + choice + "'; there are: " + describe_choices(list));
-    }
-    std::stable_partition(chosen.begin(), chosen.end(),
-                          [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
-    if (const DeviceEntry& first = chosen.front(); !first.unusable_because.empty()) {
-        throw Error(ExitCode::no_device,
-                    "OpenCL device '" + first.name + "' cannot be used: " + first.unusable_because);
-    }
-    if (choice != "all") {
-        chosen.resize(1);
+    std::istringstream items(choice);
+    for (std::string item; std::getline(items, item, ',');) {
+        for (DeviceEntry& entry : choose_item(list, item)) {
+            const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const DeviceEntry& other) {
+                return other.index == entry.index && other.part == entry.part;
+            });
+            if (is_new) {
+                chosen.push_back(std::move(entry));
+            }
+        }
     }
     return chosen;
 }

@@ -24,7 +24,12 @@ struct DeviceEntry {
     unsigned compute_units = 0;
     std::size_t global_bytes = 0;
     std::size_t max_allocation_bytes = 0;
+    unsigned max_parts = 1;        ///< equal parts of one compute unit or more that it can be split in
+    std::string part;              ///< of a split device, e.g. "part 0 of 2"; empty for a whole one
     std::string unusable_because;  ///< empty where the device can be used
+
+    /// For messages: the name, and which part of it.
+    [[nodiscard]] std::string label() const { return part.empty() ? name : name + " (" + part + ")"; }
 };
 
 /// Platforms that are broken or have no device are kept as text, so that `devices` can show them.
@@ -32,11 +37,14 @@ struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;
 };
-/// Never throws for what drivers do wrong.
+/// Never throws for what drivers do wrong. Sets an environment variable for PoCL: call it before there are
+/// threads.
 DeviceList list_devices();
 
-/// By `choice`: an index, "cpu", "gpu", "all", or part of a name (any case); empty: NEARLIGHT_DEVICE from the
-/// environment, or else the first GPU, or else the first device. Throws Error(ExitCode::no_device) with what
+/// By `choice`, a comma-separated list of: an index, "cpu", "gpu", "all", or part of a name (any case), each
+/// with "/N" behind it for N equal parts of the device as devices of their own, or "/N.K" for part K (from 0)
+/// alone; empty: NEARLIGHT_DEVICE from the environment, or else the first GPU, or else the first device. Each
+/// device comes once. Only "all", lists and parts give several. Throws Error(ExitCode::no_device) with what
 /// to install, or with the devices there are.
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
 

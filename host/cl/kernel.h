@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -13,8 +14,8 @@ namespace nearlight {
 
 class Kernel {
   public:
-    Kernel(const Program& program, const std::string& name)
-        : device_(&program.device()), name_(name), handle_(program.kernel(name)) {}
+    /// Does not wait for the compiler: the first launch does, and throws what Program::kernel() throws.
+    Kernel(const Program& program, std::string name) : program_(program), name_(std::move(name)) {}
 
     /// One work-item for each of `item_count`, in groups of `local_size`; the last group may reach beyond, so
     /// the kernel checks its index. Arguments are Buffers, groups of them and plain values, in the
@@ -25,41 +26,48 @@ class Kernel {
             return;
         }
         const std::size_t global_size = (item_count + local_size - 1) / local_size * local_size;
-        with_opencl_errors("kernel " + name_ + " on device " + device_->name(), [&] {
+        if (!handle_) {
+            handle_ = program_.kernel(name_);
+        }
+        Device& device = program_.device();
+        with_opencl_errors("kernel " + name_ + " on device " + device.name(), [&] {
             cl_uint index = 0;
             (set_arguments(index, arguments), ...);
             cl::Event event;
-            device_->queue().enqueueNDRangeKernel(handle_, cl::NullRange, cl::NDRange(global_size),
-                                                  cl::NDRange(local_size), nullptr, &event);
-            device_->profiler().record(name_, std::move(event));
+            device.queue().enqueueNDRangeKernel(*handle_, cl::NullRange, cl::NDRange(global_size),
+                                                cl::NDRange(local_size), nullptr, &event);
+            device.profiler().record(name_, std::move(event));
         });
     }
     /// With the device's usual group size.
     template <typename... Arguments>
     void launch_items(std::size_t item_count, const Arguments&... arguments) {
-        launch(item_count, device_->local_size(), arguments...);
+        launch(item_count, program_.device().local_size(), arguments...);
     }
 
   private:
     template <typename T>
     void set_arguments(cl_uint& index, const Buffer<T>& buffer) {
-        handle_.setArg(index++, buffer.handle());
+        handle_->setArg(index++, buffer.handle());
     }
-    /// Something that stands for several buffers, such as a DeviceScene: it visits them in the kernel's order.
+    /// Something that stands for several buffers, such as a DeviceScene: it visits them in the kernel's
+    /// order.
     template <typename T>
-        requires requires(const T& group) { group.for_each_buffer([](const auto&) {}); }
+    requires requires(const T& group) {
+        group.for_each_buffer([](const auto&) {});
+    }
     void set_arguments(cl_uint& index, const T& group) {
         group.for_each_buffer([&](const auto& buffer) { set_arguments(index, buffer); });
     }
     template <typename T>
     void set_arguments(cl_uint& index, const T& value) {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool> && !std::is_pointer_v<T>);
-        handle_.setArg(index++, value);
+        handle_->setArg(index++, value);
     }
 
-    Device* device_;
+    Program program_;
     std::string name_;
-    cl::Kernel handle_;
+    std::optional<cl::Kernel> handle_{};  ///< after the first launch
 };
 
 }  // namespace nearlight

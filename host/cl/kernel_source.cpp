@@ -40,7 +40,7 @@ void expand(const std::string& name, const std::filesystem::path& kernel_dir, co
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
         std::smatch match;
-        if (std::regex_match(line, match, include_line)) {
+        if (line.find("include") != std::string::npos && std::regex_match(line, match, include_line)) {
             expand(match[1].str(), kernel_dir, name, seen, out);
             out << "#line " << number + 1 << " \"" << name << "\"\n";
         } else {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compiled kernel file.
+// A kernel file, compiled in the background.
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <future>
 #include <map>
 #include <string>
 
@@ -15,19 +16,20 @@ using Defines = std::map<std::string, std::string>;
 
 class Program {
   public:
-    /// Compiles kernels/`file`, or takes it from the cache. Throws Error(ExitCode::kernel_build) with the
-    /// build log's first error, and saves the expanded source and the whole log to files named in the
-    /// message.
+    /// Begins to compile kernels/`file`, or to take it from the cache, and returns at once. What the device
+    /// has had compiled before is shared. Throws Error(ExitCode::kernel_build) where there is no such file.
     Program(Device& device, const std::string& file, const Defines& defines = {});
 
     [[nodiscard]] Device& device() const { return *device_; }
     [[nodiscard]] const std::string& file() const { return file_; }
+    /// Waits for the compiler. Throws Error(ExitCode::kernel_build), see build_program(); Error where there
+    /// is no such entry point.
     [[nodiscard]] cl::Kernel kernel(const std::string& name) const;
 
   private:
     Device* device_;
     std::string file_;
-    cl::Program handle_;
+    std::shared_future<cl::Program> built_;
 };
 
 }  // namespace nearlight

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host/cl/device.h"
 #include "host/cli/command.h"
@@ -18,8 +19,11 @@ struct DeviceChoice {
 /// --device, --kernel-dir and --cache-dir.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
-/// The one device that a command works on. Where several match, the first is taken and the rest are named in a
-/// warning. Throws Error(ExitCode::no_device).
+/// All devices of the list that match, with one compiler for all. Throws Error(ExitCode::no_device).
+std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, const DeviceList& list);
+
+/// The one device that a command works on. Where several match, the first is taken and the rest are named in
+/// a warning. Throws Error(ExitCode::no_device).
 std::unique_ptr<Device> open_device(const DeviceChoice& choice);
 
 }  // namespace nearlight

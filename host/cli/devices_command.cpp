@@ -28,6 +28,7 @@ nlohmann::ordered_json to_json(const DeviceList& list, const std::vector<DeviceE
                            {"compute_units", entry.compute_units},
                            {"global_bytes", entry.global_bytes},
                            {"max_allocation_bytes", entry.max_allocation_bytes},
+                           {"max_parts", entry.max_parts},
                            {"usable", entry.unusable_because.empty()},
                            {"unusable_because", entry.unusable_because},
                            {"used", is_used(used, entry)}});
@@ -43,6 +44,10 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used) {
                           entry.driver));
         print(fmt::format("     units     {}, memory {}, largest buffer {}\n", entry.compute_units,
                           memory_text(entry.global_bytes), memory_text(entry.max_allocation_bytes)));
+        if (entry.max_parts > 1) {
+            print(fmt::format("     parts     up to {0}: --device {1}/{0} uses them all, {1}/{0}.0 the first\n", entry.max_parts,
+                              entry.index));
+        }
         if (!entry.unusable_because.empty()) {
             print(fmt::format("     not usable: {}\n", entry.unusable_because));
         }
@@ -50,8 +55,8 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used) {
     for (const std::string& problem : list.problems) {
         print(fmt::format("  problem: {}\n", problem));
     }
-    print("* is what `nearlight render` uses: the one that --device or NEARLIGHT_DEVICE names, else the first GPU, else "
-          "the first device.\n");
+    print("* is what `nearlight render` uses: what --device or NEARLIGHT_DEVICE names (several share a picture: --device "
+          "all, or 0,1), else the first GPU, else the first device.\n");
 }
 
 ExitCode run_devices(const std::string& choice, const GlobalOptions& global) {

@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <iterator>
 #include <map>
 
-#include "host/base/hash.h"
 #include "host/base/log.h"
-#include "host/base/memory.h"
 #include "host/base/stopwatch.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/output.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
+#include "host/cli/render_output.h"
 #include "host/cli/scene_options.h"
 #include "host/render/renderer.h"
 
@@ -86,58 +87,6 @@ RenderSettings settled(const RenderOptions& options) {
     return settings;
 }
 
-Metadata metadata_of(const Scene& scene, const RenderSettings& settings, const RenderReport& report, const View& view,
-                     const DeviceEntry& device) {
-    Metadata metadata = camera_metadata(view.scene_camera);
-    metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
-    metadata["nearlight:sampler"] = to_string(settings.sampler);
-    metadata["nearlight:policy"] = settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
-    metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
-    metadata["nearlight:clampRadius"] = report.clamp_radius;
-    metadata["nearlight:range"] = report.range;
-    metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
-    metadata["nearlight:seed"] = static_cast<int>(settings.seed);
-    metadata["nearlight:device"] = device.name;
-    metadata["nearlight:driver"] = device.driver;
-    metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
-    return metadata;
-}
-
-nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSettings& settings, const RenderReport& report,
-                               const DeviceEntry& device, double load_seconds) {
-    nlohmann::ordered_json json;
-    json["scene"] = options.scene.file.string();
-    json["width"] = report.width;
-    json["height"] = report.height;
-    json["sampler"] = to_string(settings.sampler);
-    json["policy"] = settings.sampler == SamplerKind::close_range ? nlohmann::ordered_json(to_string(settings.policy)) : nullptr;
-    json["vpls"] = {{"requested", settings.vpl_count},
-                    {"close", report.close_vpls},
-                    {"distant", report.distant_vpls},
-                    {"sparse", report.sparse_vpls},
-                    {"candidates", report.candidates},
-                    {"local_lights", report.local_lights}};
-    json["close_fraction"] = report.close_fraction;
-    json["range"] = report.range;
-    json["clamp_radius"] = report.clamp_radius;
-    json["max_depth"] = report.max_depth;
-    json["seed"] = settings.seed;
-    json["bvh"] = to_string(settings.bvh_quality);
-    json["roulette"] = settings.roulette;
-    json["device"] = {device.name};
-    json["seconds"] = {{"load", load_seconds},
-                       {"build_bvh", report.seconds.build_bvh},
-                       {"compile", report.seconds.compile},
-                       {"generate", report.seconds.generate},
-                       {"gather", report.seconds.gather},
-                       {"total", load_seconds + report.seconds.total}};
-    json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
-    json["outputs"] = options.picture.outputs;
-    json["image_hash"] = hex_digits(report.image_hash);
-    json["interrupted"] = report.interrupted;
-    return json;
-}
-
 /// What is asked for, yet worth a word; refuses pictures that no file system would thank for.
 void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.width.value_or(scene.camera.width);
@@ -155,6 +104,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
                  report.distant_vpls, seconds);
+    tell_shares(report);
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
     }
@@ -162,28 +112,42 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
 
 /// Device time of each kernel, for those who look for where it goes.
 void tell_kernel_times(Device& device) {
+    spdlog::debug("kernels on {}:", device.entry().label());
     for (const auto& [kernel, total] : device.profiler().totals()) {
         spdlog::debug("{:<24} {:8.3f} s in {} launches", kernel, total.seconds, total.launches);
     }
+}
+
+std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) {
+    std::vector<Device*> result;
+    std::ranges::transform(devices, std::back_inserter(result), &std::unique_ptr<Device>::get);
+    return result;
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const RenderSettings settings = settled(options);
     check_outputs(options.picture);
     const Stopwatch total;
-    Stopwatch watch;
+    // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
+    const DeviceList list = list_devices();
+    auto opening = std::async(std::launch::async, [&] {
+        auto opened = open_devices(options.device, list);
+        begin_compiling(plain(opened), settings);
+        return opened;
+    });
+    const Stopwatch loading;
     const Scene scene = load_scene(options.scene);
-    const double load_seconds = watch.lap();
+    const double load_seconds = loading.seconds();
     check_request(scene, settings);
-    const auto device = open_device(options.device);
+    const std::vector<std::unique_ptr<Device>> devices = opening.get();
 
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
     const RenderReport report = render(
-        *device, scene, settings,
+        plain(devices), scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height, metadata_of(scene, settings, started, view, device->entry()));
+            files.open(started.width, started.height, render_metadata(scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) { files.write_rows(rows); },
         [&](const std::string&, double fraction) {
@@ -193,10 +157,12 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(to_json(options, settings, report, device->entry(), load_seconds));
+        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report, load_seconds));
     }
     if (global.verbose) {
-        tell_kernel_times(*device);
+        for (const auto& device : devices) {
+            tell_kernel_times(*device);
+        }
     }
     tell(options, report, total.seconds());
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;

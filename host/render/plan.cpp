@@ -2,9 +2,13 @@
 #include "host/render/plan.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nearlight {
 namespace {
+
+/// Of several devices: the last to finish keeps the others waiting for half a band on average.
+constexpr std::size_t kBandsPerDevice = 12;
 
 /// Enough work for a launch to keep the device busy, little enough for memory and for a smooth progress bar.
 std::size_t receivers_per_batch(const Device& device) {
@@ -35,8 +39,11 @@ std::size_t RenderPlan::max_packets(uint width) const {
                         width);
 }
 
-RenderPlan make_plan(const Device& device, uint width, uint height, uint samples_per_pixel, uint branch_count) {
-    const std::size_t budget = receivers_per_batch(device);
+RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel, uint branch_count) {
+    std::size_t budget = std::numeric_limits<std::size_t>::max();
+    for (const Device* device : devices) {
+        budget = std::min(budget, receivers_per_batch(*device));
+    }
     const std::size_t per_row_sample = static_cast<std::size_t>((width + 7) / 8) * NEARLIGHT_PACKET_SIZE * branch_count;
     RenderPlan plan;
     plan.tile_row_count = (height + 7) / 8;
@@ -45,6 +52,10 @@ RenderPlan make_plan(const Device& device, uint width, uint height, uint samples
     plan.samples_per_batch = static_cast<uint>(std::clamp<std::size_t>(budget / per_row_sample, 1, samples_per_pixel));
     plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(budget / (per_row_sample * plan.samples_per_batch), 1,
                                                       std::max(plan.tile_row_count, 1u)));
+    if (devices.size() > 1) {
+        const auto wanted_bands = static_cast<uint>(kBandsPerDevice * devices.size());
+        plan.tile_rows_per_band = std::clamp(plan.tile_row_count / wanted_bands, 1u, plan.tile_rows_per_band);
+    }
     return plan;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "host/cl/device.h"
@@ -30,6 +31,7 @@ struct RenderPlan {
 inline constexpr std::size_t kBytesPerReceiver =
     (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
 
-RenderPlan make_plan(const Device& device, uint width, uint height, uint samples_per_pixel, uint branch_count);
+/// One plan for all of the devices: what fits each, and bands enough for the faster ones to take more.
+RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel, uint branch_count);
 
 }  // namespace nearlight

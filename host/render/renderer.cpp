@@ -1,142 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/renderer.h"
 
-#include <future>
+#include <algorithm>
 
 #include "host/base/hash.h"
+#include "host/base/message.h"
 #include "host/base/stopwatch.h"
-#include "host/render/local_gather.h"
-#include "host/render/plan.h"
-#include "host/stages/film.h"
+#include "host/render/band_renderer.h"
 
 namespace nearlight {
 namespace {
 
-/// Every stage of a render, compiled.
-struct RenderStages {
-    RenderStages(Device& device, GatherKernel gather_kernel)
-        : camera_pass(device), samplers(device, {.kernel = gather_kernel}), film(device) {}
+/// Bytes of finished bands that may wait for an earlier one.
+constexpr std::size_t kMostWaitingBytes = std::size_t{256} << 20u;
 
-    CameraPass camera_pass;
-    SamplerStages samplers;
-    Film film;
-    std::optional<LocalGather> local_gather{};  ///< compiled when first wanted
+/// A device with what a picture needs on it.
+struct RenderDevice {
+    BandStages stages;
+    DeviceScene scene;
 };
 
-/// Device memory that all batches of a picture use in turn.
-struct BatchBuffers {
-    BatchBuffers(Device& device, std::size_t packets, std::size_t pixels)
-        : receivers(device, packets),
-          vertices(device, packets * NEARLIGHT_PACKET_SIZE),
-          direct(device, packets),
-          indirect(device, packets),
-          sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
-          layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
-
-    Buffer<ReceiverPacket> receivers;
-    Buffer<CameraVertex> vertices;
-    Buffer<IrradiancePacket> direct;
-    Buffer<IrradiancePacket> indirect;
-    Buffer<float> sums;
-    Buffer<float> layers;
+/// What precedes the bands of a picture.
+struct Preparation {
+    View view;
+    VplSet vpls;
+    std::vector<Vpl> gathered;  ///< the VPLs in the order in which they are gathered
 };
-
-/// What stays the same from batch to batch.
-struct Picture {
-    const DeviceScene& scene;
-    const View& view;
-    const RenderSettings& settings;
-    const Buffer<PinholeCamera>& camera;
-    const Buffer<CloseRange>& close_range;
-    const Buffer<Vpl>& vpls;
-    std::size_t vpl_count;
-    LocalGather* local;  ///< null: VPLs are all there is
-};
-
-uint direct_samples_per_sample(const RenderSettings& settings) {
-    return std::max(1u, (settings.direct_samples_per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
-}
-
-/// Indirect light of a batch's receivers. False if cancelled.
-bool gather_indirect(RenderStages& stages, const Picture& picture, std::size_t packets, BatchBuffers& buffers,
-                     const GatherProgress& progress) {
-    Gatherer& gatherer = stages.samplers.gatherer;
-    if (picture.local != nullptr) {
-        return picture.local->run(gatherer, picture.scene, buffers.receivers, packets, buffers.indirect, progress);
-    }
-    return gatherer.gather({.nodes = picture.scene.nodes,
-                            .triangles = picture.scene.bvh_triangles,
-                            .vpls = picture.vpls,
-                            .vpl_count = picture.vpl_count,
-                            .receivers = buffers.receivers,
-                            .packet_count = packets,
-                            .clamp_radius = picture.view.clamp_radius},
-                           buffers.indirect, progress);
-}
-
-/// One batch: receivers, direct light, indirect light, film. False if cancelled.
-bool render_batch(RenderStages& stages, const Picture& picture, const CameraBand& band, uint row_count,
-                  BatchBuffers& buffers, const GatherProgress& progress) {
-    const uint width = picture.view.camera.width;
-    const std::size_t packets = packet_count(band, width);
-    stages.camera_pass.run(picture.scene, picture.camera, width, picture.close_range, band, picture.settings.seed,
-                           buffers.receivers, buffers.vertices);
-    if (picture.settings.indirect_only) {
-        buffers.direct.fill_zero();
-    } else {
-        stages.samplers.direct_light.run(picture.scene, buffers.receivers, packets, direct_samples_per_sample(picture.settings),
-                                         picture.settings.seed, buffers.direct);
-    }
-    const bool finished = gather_indirect(stages, picture, packets, buffers, progress);
-    if (finished) {
-        stages.film.add(buffers.receivers, buffers.vertices, buffers.direct, buffers.indirect, band, width, row_count,
-                        buffers.sums);
-    }
-    return finished;
-}
 
 std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
     for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
         hash = fnv1a(std::as_bytes(rows.subspan(i, 3)), hash);
     }
     return hash;
-}
-
-/// All bands from top to bottom. Sets report.interrupted and stops where the caller wants no more.
-void render_bands(Device& device, RenderStages& stages, const Picture& picture, const RowSink& sink,
-                  const RenderProgress& progress, RenderReport& report) {
-    const uint width = picture.view.camera.width;
-    const uint height = picture.view.camera.height;
-    const uint spp = picture.settings.samples_per_pixel;
-    const RenderPlan plan = make_plan(device, width, height, spp, picture.scene.has_lobes ? 2 : 1);
-    const std::size_t pixels_per_band = static_cast<std::size_t>(width) * plan.tile_rows_per_band * 8;
-    BatchBuffers buffers(device, plan.max_packets(width), pixels_per_band);
-    std::vector<float> rows(pixels_per_band * NEARLIGHT_LAYER_CHANNELS);
-    report.image_hash = kFnvSeed;
-    for (uint band = 0; band < plan.band_count(); ++band) {
-        const auto batches = plan.batches(band);
-        const uint first_row = batches.front().first_tile_row * 8;
-        const uint row_count = std::min(batches.front().tile_row_count * 8, height - first_row);
-        const double batch_total = static_cast<double>(plan.band_count()) * static_cast<double>(batches.size());
-        buffers.sums.fill_zero();
-        for (std::size_t i = 0; i < batches.size(); ++i) {
-            const auto batch_progress = [&](std::uint64_t done, std::uint64_t total) {
-                const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
-                const double before = band * static_cast<double>(batches.size()) + static_cast<double>(i);
-                return progress("gathering", (before + within) / batch_total);
-            };
-            if (!render_batch(stages, picture, batches[i], row_count, buffers, batch_progress)) {
-                report.interrupted = true;
-                return;
-            }
-        }
-        const std::size_t pixel_count = static_cast<std::size_t>(width) * row_count;
-        stages.film.resolve(buffers.sums, pixel_count, spp, buffers.layers);
-        const std::span finished = std::span(rows).first(pixel_count * NEARLIGHT_LAYER_CHANNELS);
-        buffers.layers.download(finished);
-        report.image_hash = hash_beauty(finished, report.image_hash);
-        sink(finished);
-    }
 }
 
 void fill_report(const View& view, const VplSet& vpls, RenderReport& report) {
@@ -165,85 +60,222 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Ren
             .seed = settings.seed};
 }
 
+uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
+    const std::size_t band_bytes =
+        std::size_t{width} * plan.tile_rows_per_band * 8 * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+    return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMostWaitingBytes / band_bytes));
+}
+
 }  // namespace
 
 struct Renderer::State {
-    Device& device;
     const Scene& scene;
-    RenderSeconds seconds;  ///< of getting ready
-    RenderStages stages;
-    DeviceScene device_scene;
+    RenderSeconds seconds;                ///< of getting ready
+    double reported_compile_seconds = 0;  ///< of earlier pictures
+    /// Those that have not failed; the first leads.
+    std::vector<std::unique_ptr<RenderDevice>> devices;
+    GatherConfig gather_config;
+    std::optional<SamplerStages> samplers;  ///< of the first device
 
-    /// Kernels compile while the tree is built: one waits for the driver, the other for memory.
-    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel,
-                                       BvhQuality bvh_quality) {
-        const Stopwatch total;
-        RenderSeconds seconds;
-        auto building = std::async(std::launch::async, [&] {
-            Stopwatch watch;
-            SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = bvh_quality});
-            seconds.build_bvh = watch.seconds();
-            return bvhs;
-        });
-        Stopwatch watch;
-        auto state = std::unique_ptr<State>(new State{device, scene, {}, RenderStages(device, gather_kernel), {}});
-        seconds.compile = watch.lap();
-        building.wait();
-        watch.lap();
-        state->device_scene = upload_scene(device, scene, building.get());  // the host's trees end here
-        seconds.generate = watch.lap();
-        seconds.total = total.seconds();
-        state->seconds = seconds;
-        return state;
-    }
+    State(std::span<Device* const> on_devices, const Scene& of_scene, GatherKernel gather_kernel,
+          BvhQuality bvh_quality);
+    [[nodiscard]] Device& leader() const { return devices.front()->stages.device; }
+    [[nodiscard]] std::vector<const Device*> plain_devices() const;
+    void upload(const SceneBvhs& bvhs);
+    void drop(std::size_t index);
+    void lose(std::size_t index, const Error& error);
+    [[nodiscard]] double compile_seconds();
+    Preparation prepare(const RenderSettings& settings);
+    Preparation prepare_on_leader(const RenderSettings& settings);
+    std::vector<BandWorker> band_workers(const Picture& picture);
+    void render_bands(const Preparation& prepared, const RenderSettings& settings, const RowSink& sink,
+                      const RenderProgress& progress, RenderReport& report);
 };
 
+/// Kernels compile while the tree is built: one waits for the driver, the other for memory.
+Renderer::State::State(std::span<Device* const> on_devices, const Scene& of_scene, GatherKernel gather_kernel,
+                       BvhQuality bvh_quality)
+    : scene(of_scene), gather_config{.kernel = gather_kernel} {
+    const Stopwatch total;
+    for (Device* device : on_devices) {
+        devices.push_back(
+            std::make_unique<RenderDevice>(RenderDevice{BandStages(*device, gather_kernel), {}}));
+    }
+    samplers.emplace(leader(), gather_config);
+    Stopwatch watch;
+    const SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = bvh_quality});
+    seconds.build_bvh = watch.lap();
+    upload(bvhs);
+    seconds.generate = watch.lap();
+    seconds.total = total.seconds();
+}
+
+double Renderer::State::compile_seconds() {
+    const double all = leader().compiler().busy_seconds();
+    return all - std::exchange(reported_compile_seconds, all);
+}
+
+std::vector<const Device*> Renderer::State::plain_devices() const {
+    std::vector<const Device*> result;
+    for (const auto& device : devices) {
+        result.push_back(&device->stages.device);
+    }
+    return result;
+}
+
+void Renderer::State::upload(const SceneBvhs& bvhs) {
+    for (std::size_t i = devices.size(); i-- > 0;) {
+        try {
+            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs);
+        } catch (const Error& error) {
+            lose(i, error);
+        }
+    }
+}
+
+void Renderer::State::drop(std::size_t index) {
+    if (index == 0) {
+        samplers.reset();
+    }
+    devices.erase(devices.begin() + static_cast<std::ptrdiff_t>(index));
+    if (index == 0) {
+        samplers.emplace(leader(), gather_config);
+    }
+}
+
+/// Must be called while `error` is handled: where there is no other device, it is thrown on.
+void Renderer::State::lose(std::size_t index, const Error& error) {
+    if (devices.size() == 1) {
+        throw;
+    }
+    say_warning("device " + devices[index]->stages.device.entry().label() +
+                " failed, others do its part: " + error.what());
+    drop(index);
+}
+
+Preparation Renderer::State::prepare_on_leader(const RenderSettings& settings) {
+    RenderDevice& device = *devices.front();
+    Preparation prepared;
+    prepared.view = choose_view(leader(), device.stages.camera_pass, device.scene, scene, settings);
+    prepared.vpls = sample_vpls(*samplers, sampling_task(device.scene, prepared.view, settings));
+    prepared.gathered = samplers->vpl_order.upload_sorted(prepared.vpls.vpls).download();
+    return prepared;
+}
+
+Preparation Renderer::State::prepare(const RenderSettings& settings) {
+    for (;;) {
+        try {
+            return prepare_on_leader(settings);
+        } catch (const Error& error) {
+            lose(0, error);
+        }
+    }
+}
+
+std::vector<BandWorker> Renderer::State::band_workers(const Picture& picture) {
+    std::vector<BandWorker> workers;
+    for (const auto& device : devices) {
+        workers.push_back(
+            {.name = device->stages.device.entry().label(), .start = [&picture, device = device.get()] {
+                 auto bands = std::make_shared<BandRenderer>(device->stages, device->scene, picture);
+                 return [bands](uint index, const BandProgress& progress) {
+                     return bands->render(index, progress);
+                 };
+             }});
+    }
+    return workers;
+}
+
+/// All bands, sent from top to bottom. Sets report.interrupted where the caller wants no more.
+void Renderer::State::render_bands(const Preparation& prepared, const RenderSettings& settings,
+                                   const RowSink& sink, const RenderProgress& progress,
+                                   RenderReport& report) {
+    const PinholeCamera& camera = prepared.view.camera;
+    const RenderPlan plan = make_plan(plain_devices(), camera.width, camera.height,
+                                      settings.samples_per_pixel, devices.front()->scene.has_lobes ? 2 : 1);
+    const Picture picture{.view = prepared.view,
+                          .settings = settings,
+                          .plan = plan,
+                          .vpls = prepared.gathered,
+                          .local = prepared.vpls.local};
+    report.image_hash = kFnvSeed;
+    const auto take_band = [&](const FinishedBand& band) {
+        report.local_lights += band.local_lights;
+        report.image_hash = hash_beauty(band.rows, report.image_hash);
+        sink(band.rows);
+    };
+    BandOutcome outcome =
+        share_bands(plan.band_count(), band_window(plan, camera.width, devices.size()), band_workers(picture),
+                    take_band, [&](double fraction) { return progress("gathering", fraction); });
+    report.interrupted = outcome.interrupted;
+    for (const auto& device : devices) {
+        report.device_bytes += device->stages.device.peak_bytes();
+    }
+    for (std::size_t i = outcome.shares.size(); i-- > 0;) {
+        if (outcome.shares[i].failed) {
+            drop(i);
+        }
+    }
+    report.shares = std::move(outcome.shares);
+}
+
+Renderer::Renderer(std::span<Device* const> devices, const Scene& scene, GatherKernel gather_kernel,
+                   BvhQuality bvh_quality)
+    : state_(std::make_unique<State>(devices, scene, gather_kernel, bvh_quality)) {}
 Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel, BvhQuality bvh_quality)
-    : state_(State::make(device, scene, gather_kernel, bvh_quality)) {}
+    : Renderer(std::vector{&device}, scene, gather_kernel, bvh_quality) {}
 Renderer::~Renderer() = default;
 
 RenderReport Renderer::render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
                               const RenderProgress& progress) {
-    auto& [device, scene, seconds, stages, device_scene] = *state_;
-    RenderReport report{.seconds = std::exchange(seconds, {})};
+    State& state = *state_;
+    RenderReport report;
+    report.seconds = std::exchange(state.seconds, {});
     Stopwatch watch;
     const Stopwatch total;
-    const View view = choose_view(device, stages.camera_pass, device_scene, scene, settings);
-    const VplSet vpls = sample_vpls(stages.samplers, sampling_task(device_scene, view, settings));
-    const Buffer<Vpl> vpl_buffer = stages.samplers.vpl_order.upload_sorted(vpls.vpls);
-    if (vpls.local) {
-        if (!stages.local_gather) {
-            stages.local_gather.emplace(device);
-        }
-        stages.local_gather->set_vpls(device_scene, vpl_buffer.download(), *vpls.local);
-    }
+    const Preparation prepared = state.prepare(settings);
     report.seconds.generate += watch.lap();
 
-    fill_report(view, vpls, report);
-    start(report, view, vpls);
-    const Buffer<PinholeCamera> camera(device, std::span(&view.camera, 1));
-    const Buffer<CloseRange> close_range(device, std::span(&view.close_range, 1));
+    fill_report(prepared.view, prepared.vpls, report);
+    start(report, prepared.view, prepared.vpls);
     watch.lap();
-    render_bands(device, stages,
-                 {.scene = device_scene,
-                  .view = view,
-                  .settings = settings,
-                  .camera = camera,
-                  .close_range = close_range,
-                  .vpls = vpl_buffer,
-                  .vpl_count = vpls.vpls.size(),
-                  .local = vpls.local ? &*stages.local_gather : nullptr},
-                 sink, progress, report);
+    state.render_bands(prepared, settings, sink, progress, report);
     report.seconds.gather = watch.lap();
-    report.local_lights = vpls.local ? stages.local_gather->light_count() : 0;
+    report.seconds.compile = state.compile_seconds();
     report.seconds.total += total.seconds();
-    report.device_bytes = device.peak_bytes();
     return report;
 }
 
-RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress) {
-    return Renderer(device, scene, settings.gather_kernel, settings.bvh_quality).render(settings, start, sink, progress);
+RenderReport render(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings,
+                    const RenderStart& start, const RowSink& sink, const RenderProgress& progress) {
+    return Renderer(devices, scene, settings.gather_kernel, settings.bvh_quality)
+        .render(settings, start, sink, progress);
+}
+RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const RenderStart& start, const RowSink& sink, const RenderProgress& progress) {
+    return render(std::vector{&device}, scene, settings, start, sink, progress);
+}
+
+// In the order of need. Programs stay with their device when the stages are gone.
+void begin_compiling(std::span<Device* const> devices, const RenderSettings& settings) {
+    const auto begin_bands = [&](Device& device) {
+        const BandStages bands(device, settings.gather_kernel);
+        if (settings.sampler == SamplerKind::local) {
+            const LocalGather local_gather(device);
+        }
+    };
+    begin_bands(*devices.front());
+    SamplerStages samplers(*devices.front(), {.kernel = settings.gather_kernel});
+    if (settings.sampler == SamplerKind::close_range && settings.policy != Policy::complete) {
+        samplers.light_visibility();
+    } else if (settings.sampler == SamplerKind::metropolis) {
+        samplers.metropolis_chains();
+    } else if (settings.sampler == SamplerKind::bidirectional || settings.sampler == SamplerKind::local) {
+        samplers.reverse_vpls();
+    }
+    for (Device* device : devices.subspan(1)) {
+        begin_bands(*device);
+    }
 }
 
 }  // namespace nearlight

@@ -7,7 +7,9 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "host/render/band_sharing.h"
 #include "host/render/settings.h"
 #include "host/render/view.h"
 #include "host/scene/scene.h"
@@ -16,13 +18,13 @@ namespace nearlight {
 
 /// Stage ("gathering") and how far it is, 0 to 1. Returns false to stop.
 using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
-/// Finished rows, top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, channels as layer_channels()
-/// names them.
+/// Finished rows, top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, channels as
+/// layer_channels() names them.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
 struct RenderSeconds {
     double build_bvh = 0;
-    double compile = 0;
+    double compile = 0;   ///< while anything was compiled or loaded; the others go on meanwhile
     double generate = 0;  ///< upload, pilot and VPLs
     double gather = 0;    ///< camera pass, direct light, gather, film
     double total = 0;
@@ -41,25 +43,36 @@ struct RenderReport {
     float close_fraction = 0;
     std::size_t local_lights = 0;  ///< of all tiles
     RenderSeconds seconds;
-    std::size_t device_bytes = 0;  ///< most at any time
-    std::uint64_t image_hash = 0;  ///< of the beauty's bits; equal pictures have equal hashes
-    bool interrupted = false;      ///< rows that are missing were not sent
+    std::vector<BandShare> shares;  ///< of the picture, by device
+    std::size_t device_bytes = 0;   ///< most at any time, all devices together
+    std::uint64_t image_hash = 0;   ///< of the beauty's bits; equal pictures have equal hashes
+    bool interrupted = false;       ///< rows that are missing were not sent
 };
 
-/// Called when all settings are decided and before the first row, so that files can be opened with the right size
-/// and metadata, and VPLs be looked at.
+/// Called when all settings are decided and before the first row, so that files can be opened with the right
+/// size and metadata, and VPLs be looked at.
 using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
-/// A scene on a device, ready for any number of pictures: kernels compiled, tree built, everything uploaded.
+/// Begins to compile what a render with these settings needs, so that it goes on while the scene is loaded. A
+/// Renderer of the same device finds it compiled or waits for the rest.
+void begin_compiling(std::span<Device* const> devices, const RenderSettings& settings);
+
+/// A scene on one or several devices, ready for any number of pictures: tree built, everything uploaded;
+/// kernels compile until they are first launched. VPLs are made on the first device, bands of the picture on
+/// all. Devices of one type give the same bits as each of them alone.
 class Renderer {
   public:
-    /// Refers to `device` and `scene`, which must outlive it.
+    /// Refers to `devices` (one or more) and `scene`, which must outlive it. A device that fails here or in a
+    /// picture is left out from then on, with a warning; when none is left, its error is thrown.
+    Renderer(std::span<Device* const> devices, const Scene& scene,
+             GatherKernel gather_kernel = GatherKernel::automatic,
+             BvhQuality bvh_quality = BvhQuality::quality);
     Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel = GatherKernel::automatic,
              BvhQuality bvh_quality = BvhQuality::quality);
     ~Renderer();
 
-    /// A picture. The report's seconds of building and compiling are the constructor's, once; so its total is what a
-    /// render takes from the scene on.
+    /// A picture. The report's seconds of building and compiling are the constructor's, once; so its total is
+    /// what a render takes from the scene on.
     RenderReport render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
                         const RenderProgress& progress);
 
@@ -69,7 +82,9 @@ class Renderer {
 };
 
 /// The only picture of a scene.
-RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress);
+RenderReport render(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings,
+                    const RenderStart& start, const RowSink& sink, const RenderProgress& progress);
+RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings,
+                    const RenderStart& start, const RowSink& sink, const RenderProgress& progress);
 
 }  // namespace nearlight

@@ -86,7 +86,7 @@ Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balanc
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> density(stages.device, packets);
     stages.vpl_light.make_receivers(sorted, vpls.size(), receivers);
-    stages.reverse_vpls.measure_density(task.scene, balance.points, receivers, packets, density);
+    stages.reverse_vpls().measure_density(task.scene, balance.points, receivers, packets, density);
     for (const Vec3 n : unpack(density, vpls.size())) {
         candidates.reverse_density.push_back(n.x);
     }
@@ -148,7 +148,7 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
 
     const Candidates reverse =
         examine(stages, task, balance,
-                stages.reverse_vpls.trace(task.scene, balance.points, task.seed ^ kReverseSeed));
+                stages.reverse_vpls().trace(task.scene, balance.points, task.seed ^ kReverseSeed));
     const std::vector<Vpl> unlit = weigh_reverse(reverse);
     std::vector<Vpl> candidates = unlit;
     illuminate(candidates, never_dark(reverse.rough_light));

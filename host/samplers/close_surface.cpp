@@ -20,7 +20,7 @@ CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, cons
                                         flags, areas);
     const std::size_t close_count = stages.compaction.list_set(flags, all, close_ids);
     if (selection.only_lit) {
-        stages.light_visibility.run(scene, close_ids, close_count, task.seed, region_.triangles);
+        stages.light_visibility().run(scene, close_ids, close_count, task.seed, region_.triangles);
         triangle_count_ = stages.compaction.list_set(region_.triangles, all, close_ids);
     } else {
         std::swap(region_.triangles, flags);

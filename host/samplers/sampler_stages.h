@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages that samplers draw on, compiled once for a device.
+// The stages that samplers draw on, on one device.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,6 @@ struct SamplerStages {
         : device(on_device),
           gatherer(device, gather_config),
           triangle_classifier(device),
-          light_visibility(device),
           compaction(device),
           morton_sort(device),
           vpl_placement(device),
@@ -37,8 +36,7 @@ struct SamplerStages {
           bounce_tracer(device),
           light_tracer(device),
           vpl_order(device),
-          vpl_contribution(device, gatherer),
-          reverse_vpls(device, gatherer) {}
+          vpl_contribution(device, gatherer) {}
 
     SamplerStages(const SamplerStages&) = delete;  // stages refer to one another
     SamplerStages& operator=(const SamplerStages&) = delete;
@@ -46,7 +44,6 @@ struct SamplerStages {
     Device& device;
     Gatherer gatherer;
     TriangleClassifier triangle_classifier;
-    LightVisibility light_visibility;
     Compaction compaction;
     MortonSort morton_sort;
     VplPlacement vpl_placement;
@@ -57,16 +54,22 @@ struct SamplerStages {
     LightTracer light_tracer;
     VplOrder vpl_order;
     VplContribution vpl_contribution;
-    ReverseVpls reverse_vpls;
 
-    /// Made when first asked for: one sampler needs it, and its kernels take long to compile.
-    MetropolisChains& metropolis_chains() {
-        return metropolis_chains_ ? *metropolis_chains_
-                                  : metropolis_chains_.emplace(device, vpl_contribution);
-    }
+    // Made when first asked for: few samplers need them, and their kernels take long to compile.
+
+    LightVisibility& light_visibility() { return made(light_visibility_, device); }
+    MetropolisChains& metropolis_chains() { return made(metropolis_chains_, device, vpl_contribution); }
+    ReverseVpls& reverse_vpls() { return made(reverse_vpls_, device, gatherer); }
 
   private:
+    template <typename Stage, typename... Arguments>
+    static Stage& made(std::optional<Stage>& stage, Arguments&... arguments) {
+        return stage ? *stage : stage.emplace(arguments...);
+    }
+
+    std::optional<LightVisibility> light_visibility_;
     std::optional<MetropolisChains> metropolis_chains_;
+    std::optional<ReverseVpls> reverse_vpls_;
 };
 
 }  // namespace nearlight

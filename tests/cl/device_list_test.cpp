@@ -59,6 +59,53 @@ TEST_F(ChooseDevices, ByKindAndAll) {
     EXPECT_EQ(chosen("all"), (Indices{0, 2, 3})) << "what cannot be used is left out";
 }
 
+TEST_F(ChooseDevices, AListGivesEachOnceInItsOrder) {
+    EXPECT_EQ(chosen("3,0"), (Indices{3, 0}));
+    EXPECT_EQ(chosen("cpu,fast,2,cpu"), (Indices{0, 2}));
+    EXPECT_EQ(chosen("other,all"), (Indices{3, 0, 2}));
+}
+
+TEST_F(ChooseDevices, AListWithAnUnknownOrEmptyItemIsRefused) {
+    for (const char* choice : {"0,17", ",", "0,,2"}) {
+        EXPECT_EQ(error_of([&] { chosen(choice); }).code(), ExitCode::no_device) << choice;
+    }
+}
+
+TEST_F(ChooseDevices, WhatCannotBeSplitSaysSo) {
+    const Error error = error_of([] { chosen("0/2"); });
+    EXPECT_EQ(error.code(), ExitCode::no_device);
+    EXPECT_TRUE(mentions(error, "pthread-Common CPU"));
+    EXPECT_TRUE(mentions(error, "1 to 1 parts"));
+    EXPECT_EQ(error_of([] { chosen("0/0"); }).code(), ExitCode::no_device);
+    EXPECT_EQ(error_of([] { chosen("0/x"); }).code(), ExitCode::no_device) << "is no name either";
+}
+
+TEST_F(ChooseDevices, PartsOfARealDevice) {
+    const DeviceList list = list_devices();
+    for (const DeviceEntry& whole : list.devices) {
+        if (whole.max_parts < 2 || !whole.unusable_because.empty()) {
+            continue;
+        }
+        const std::string index = std::to_string(whole.index);
+        const std::vector<DeviceEntry> halves = choose_devices(list, index + "/2");
+        ASSERT_EQ(halves.size(), 2u);
+        for (const DeviceEntry& half : halves) {
+            EXPECT_EQ(half.compute_units, whole.compute_units / 2);
+            EXPECT_EQ(half.index, whole.index);
+            EXPECT_EQ(half.name, whole.name);
+            EXPECT_NE(half.label(), whole.label());
+        }
+        EXPECT_NE(halves[0].part, halves[1].part);
+        const std::vector<DeviceEntry> second = choose_devices(list, index + "/2.1," + index + "/2.1");
+        ASSERT_EQ(second.size(), 1u);
+        EXPECT_EQ(second[0].part, halves[1].part);
+        EXPECT_TRUE(mentions(error_of([&] { choose_devices(list, index + "/2.2"); }), "0 to 1"));
+        const std::string too_many = std::to_string(whole.max_parts + 1);
+        EXPECT_EQ(error_of([&] { choose_devices(list, index + "/" + too_many); }).code(),
+                  ExitCode::no_device);
+    }
+}
+
 TEST_F(ChooseDevices, TheKindSkipsDevicesThatCannotBeUsed) {
     EXPECT_EQ(chosen("gpu"), Indices{2});
 }

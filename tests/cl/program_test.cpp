@@ -55,7 +55,14 @@ class ProgramTest : public test::DeviceTest {
     TemporaryFolder folder_;
 };
 
-uint run_answer(Device& device, const Defines& defines = {}) {
+void wait_for(const Program& program, const std::string& kernel) {
+    static_cast<void>(program.kernel(kernel));
+}
+
+/// On a device that has compiled nothing yet, as a process that has just started has it.
+uint run_answer(const Device& like, const Defines& defines = {}) {
+    Device device(like.entry(),
+                  {.kernel_dir = like.options().kernel_dir, .cache_dir = like.options().cache_dir});
     Kernel kernel(Program(device, "answer.cl", defines), "answer");
     Buffer<uint> out(device, 1);
     kernel.launch(1, 1, out);
@@ -136,7 +143,7 @@ TEST_F(ProgramTest, ABinaryThatTheDriverRefusesIsRebuilt) {
 TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
     write_kernel("broken.cl", "kernel void broken(global uint* out) {\n    out[0] = no_such_name;\n}\n");
     on_each_own_device([](Device& device) {
-        const Error error = error_of([&] { Program(device, "broken.cl"); });
+        const Error error = error_of([&] { wait_for(Program(device, "broken.cl"), "broken"); });
         EXPECT_EQ(error.code(), ExitCode::kernel_build);
         EXPECT_TRUE(mentions(error, "kernels/broken.cl"));
         EXPECT_TRUE(mentions(error, device.name()));
@@ -159,10 +166,52 @@ TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
     });
 }
 
+TEST_F(ProgramTest, ADeviceCompilesAProgramOnce) {
+    on_each_own_device([&](Device& device) {
+        wait_for(Program(device, "answer.cl"), "answer");
+        std::filesystem::remove_all(cache_dir());
+        wait_for(Program(device, "answer.cl"), "answer");
+        EXPECT_FALSE(std::filesystem::exists(cache_dir()));
+        EXPECT_GT(device.compiler().busy_seconds(), 0.0);
+    });
+}
+
+TEST_F(ProgramTest, AllOfManyProgramsAreReadyAndNobodyWaitsForThoseNotUsed) {
+    on_each_own_device([](Device& device) {
+        std::vector<Kernel> kernels;
+        for (uint i = 0; i < 12; ++i) {
+            kernels.emplace_back(Program(device, "answer.cl", {{"ANSWER", std::to_string(i)}}), "answer");
+        }
+        Buffer<uint> out(device, 1);
+        for (uint i = 0; i < 12; ++i) {
+            kernels[i].launch(1, 1, out);
+            EXPECT_EQ(out.download_one(0), i);
+        }
+        for (uint i = 100; i < 112; ++i) {
+            const Program never_used(device, "answer.cl", {{"ANSWER", std::to_string(i)}});
+        }
+    });
+}
+
+TEST_F(ProgramTest, DevicesThatShareACompilerCompileOnce) {
+    on_each_own_device([&](Device& device) {
+        DeviceOptions options{.kernel_dir = kernel_dir(), .cache_dir = cache_dir()};
+        options.compiler = std::make_shared<ProgramCompiler>();
+        Device one(device.entry(), options);
+        Device two(device.entry(), options);
+        wait_for(Program(one, "answer.cl"), "answer");
+        const auto time = std::filesystem::last_write_time(cached_files().at(0));
+        wait_for(Program(two, "answer.cl"), "answer");
+        EXPECT_EQ(cached_files().size(), 1u);
+        EXPECT_EQ(std::filesystem::last_write_time(cached_files()[0]), time);
+    });
+}
+
 TEST_F(ProgramTest, UnknownEntryPointIsNamed) {
     on_each_own_device([](Device& device) {
-        const Program program(device, "answer.cl");
-        const Error error = error_of([&] { Kernel(program, "question"); });
+        Kernel kernel(Program(device, "answer.cl"), "question");
+        Buffer<uint> out(device, 1);
+        const Error error = error_of([&] { kernel.launch(1, 1, out); });
         EXPECT_TRUE(mentions(error, "question"));
         EXPECT_TRUE(mentions(error, "answer.cl"));
     });
@@ -170,8 +219,10 @@ TEST_F(ProgramTest, UnknownEntryPointIsNamed) {
 
 TEST_F(ProgramTest, ProfilerCountsLaunchesByKernel) {
     on_each_own_device([](Device& device) {
-        run_answer(device);
-        run_answer(device);
+        Kernel kernel(Program(device, "answer.cl"), "answer");
+        Buffer<uint> out(device, 1);
+        kernel.launch(1, 1, out);
+        kernel.launch(1, 1, out);
         const auto& totals = device.profiler().totals();
         ASSERT_EQ(totals.count("answer"), 1u);
         EXPECT_EQ(totals.at("answer").launches, 2);

@@ -71,7 +71,7 @@ TEST_F(Determinism, PlansAreReallyCut) {
         DeviceEntry entry = device.entry();
         entry.max_allocation_bytes = std::size_t{5} << 17u;
         const Device small(entry, device.options());
-        const RenderPlan plan = make_plan(small, 100, 60, 6, 2);
+        const RenderPlan plan = make_plan(std::vector{&small}, 100, 60, 6, 2);
         EXPECT_TRUE(plan.band_count() > 1 || plan.batches(0).size() > 1);
     });
 }

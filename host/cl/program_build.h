@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// One program, from the cache or from its source.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "host/cl/device_list.h"
+
+namespace nearlight {
+
+/// What is to be compiled, for which device, and where the outcome is kept.
+struct ProgramRequest {
+    DeviceEntry entry;
+    cl::Context context;  ///< in which the program is to be used
+    std::string file;     ///< for messages: kernels/`file`
+    std::string source;   ///< includes expanded
+    std::string options;
+    std::filesystem::path cache_dir;
+
+    /// Equal for equal programs on equal devices, over processes.
+    [[nodiscard]] std::string key() const;
+};
+
+/// Contexts of one thread that compiles, made when first needed.
+using CompileContexts = std::map<cl_device_id, cl::Context>;
+
+/// The program in request.context, from the cache or compiled. PoCL compiles one program at a time in each
+/// context: what is compiled for a CPU is compiled in a context of `contexts` and taken over as a binary.
+/// Throws Error(ExitCode::kernel_build) with the build log's first error, after saving the expanded source
+/// and the whole log to files that the message names.
+cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts);
+
+}  // namespace nearlight

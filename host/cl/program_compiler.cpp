@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/program_compiler.h"
+
+namespace nearlight {
+namespace {
+
+/// PoCL parses in as many contexts as there are, but generates code for one kernel at a time in the whole
+/// process.
+constexpr std::size_t kThreads = 2;
+
+}  // namespace
+
+ProgramCompiler::~ProgramCompiler() {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    jobs_.clear();
+    changed_.notify_all();
+}
+
+std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
+    Job job([request = std::move(request)](CompileContexts& contexts) {
+        return build_program(request, contexts);
+    });
+    std::shared_future<cl::Program> result = job.get_future();
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+    if (threads_.size() < kThreads) {
+        threads_.emplace_back([this] { work(); });
+    }
+    changed_.notify_one();
+    return result;
+}
+
+double ProgramCompiler::busy_seconds() {
+    const std::lock_guard lock(mutex_);
+    return busy_seconds_ + (running_ > 0 ? since_.seconds() : 0.0);
+}
+
+void ProgramCompiler::work() {
+    CompileContexts contexts;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        if (jobs_.empty() && !contexts.empty()) {
+            contexts.clear();  // they hold the driver's libraries
+        }
+        changed_.wait(lock, [&] { return ending_ || !jobs_.empty(); });
+        if (ending_) {
+            return;
+        }
+        Job job = std::move(jobs_.front());
+        jobs_.pop_front();
+        if (running_++ == 0) {
+            since_.lap();
+        }
+        lock.unlock();
+        job(contexts);
+        job = {};
+        lock.lock();
+        if (--running_ == 0) {
+            busy_seconds_ += since_.lap();
+        }
+    }
+}
+
+}  // namespace nearlight

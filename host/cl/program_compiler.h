@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads in which programs are compiled, so that nobody waits for one before its first launch.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "host/base/stopwatch.h"
+#include "host/cl/program_build.h"
+
+namespace nearlight {
+
+/// May be shared by several devices; what one has compiled, others of its kind find in the cache.
+class ProgramCompiler {
+  public:
+    ProgramCompiler() = default;
+    ProgramCompiler(const ProgramCompiler&) = delete;
+    ProgramCompiler& operator=(const ProgramCompiler&) = delete;
+    /// Waits for what is being compiled and drops what has not begun.
+    ~ProgramCompiler();
+
+    /// The program as build_program() makes it, errors included; in the order of requests, two at a time.
+    std::shared_future<cl::Program> start(ProgramRequest request);
+
+    /// During which something was being compiled or loaded.
+    [[nodiscard]] double busy_seconds();
+
+  private:
+    using Job = std::packaged_task<cl::Program(CompileContexts&)>;
+    void work();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<Job> jobs_;
+    int running_ = 0;
+    Stopwatch since_;  ///< when `running_` was 0 for the last time
+    double busy_seconds_ = 0;
+    bool ending_ = false;
+    std::vector<std::jthread> threads_;  // last: they use all of the above
+};
+
+}  // namespace nearlight

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/render_output.h"
+
+#include <algorithm>
+
+#include "host/base/hash.h"
+#include "host/base/log.h"
+#include "host/base/memory.h"
+#include "host/cli/picture_files.h"
+
+namespace nearlight {
+namespace {
+
+/// What `text` says of each device, without repeats.
+template <typename Text>
+std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
+    std::vector<std::string> parts;
+    for (const auto& device : devices) {
+        if (const std::string part = text(device->entry()); std::ranges::find(parts, part) == parts.end()) {
+            parts.push_back(part);
+        }
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Of all finished bands.
+double share_of(const BandShare& one, std::span<const BandShare> all) {
+    uint total = 0;
+    for (const BandShare& share : all) {
+        total += share.bands;
+    }
+    return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
+}
+
+}  // namespace
+
+Metadata render_metadata(const Scene& scene, const RenderSettings& settings, const RenderReport& report,
+                         const View& view, const std::vector<std::unique_ptr<Device>>& devices) {
+    Metadata metadata = camera_metadata(view.scene_camera);
+    metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
+    metadata["nearlight:sampler"] = to_string(settings.sampler);
+    metadata["nearlight:policy"] =
+        settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
+    metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:clampRadius"] = report.clamp_radius;
+    metadata["nearlight:range"] = report.range;
+    metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
+    metadata["nearlight:seed"] = static_cast<int>(settings.seed);
+    metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
+    metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
+    metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
+    return metadata;
+}
+
+nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
+                                   const RenderSettings& settings, const RenderReport& report,
+                                   double load_seconds) {
+    nlohmann::ordered_json json;
+    json["scene"] = scene_file;
+    json["width"] = report.width;
+    json["height"] = report.height;
+    json["sampler"] = to_string(settings.sampler);
+    json["policy"] = settings.sampler == SamplerKind::close_range
+                         ? nlohmann::ordered_json(to_string(settings.policy))
+                         : nullptr;
+    json["vpls"] = {{"requested", settings.vpl_count}, {"close", report.close_vpls},
+                    {"distant", report.distant_vpls},  {"sparse", report.sparse_vpls},
+                    {"candidates", report.candidates}, {"local_lights", report.local_lights}};
+    json["close_fraction"] = report.close_fraction;
+    json["range"] = report.range;
+    json["clamp_radius"] = report.clamp_radius;
+    json["max_depth"] = report.max_depth;
+    json["seed"] = settings.seed;
+    json["bvh"] = to_string(settings.bvh_quality);
+    json["roulette"] = settings.roulette;
+    json["device"] = nlohmann::ordered_json::array();
+    json["device_shares"] = nlohmann::ordered_json::array();
+    for (const BandShare& share : report.shares) {
+        json["device"].push_back(share.name);
+        json["device_shares"].push_back({{"device", share.name},
+                                         {"bands", share.bands},
+                                         {"share", share_of(share, report.shares)},
+                                         {"seconds", share.seconds},
+                                         {"failed", share.failed}});
+    }
+    json["seconds"] = {{"load", load_seconds},
+                       {"build_bvh", report.seconds.build_bvh},
+                       {"compile", report.seconds.compile},
+                       {"generate", report.seconds.generate},
+                       {"gather", report.seconds.gather},
+                       {"total", load_seconds + report.seconds.total}};
+    json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
+    json["outputs"] = outputs;
+    json["image_hash"] = hex_digits(report.image_hash);
+    json["interrupted"] = report.interrupted;
+    return json;
+}
+
+void tell_shares(const RenderReport& report) {
+    if (report.shares.size() < 2) {
+        return;
+    }
+    for (const BandShare& share : report.shares) {
+        spdlog::info("{:.0f} % by {}{}", 100 * share_of(share, report.shares), share.name,
+                     share.failed ? ", which failed" : "");
+    }
+}
+
+}  // namespace nearlight

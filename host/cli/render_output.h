@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `nearlight render` says of its picture: in the file, as JSON, and to the user.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "host/cl/device.h"
+#include "host/image/image_io.h"
+#include "host/render/renderer.h"
+
+namespace nearlight {
+
+/// The EXR's `nearlight:…` entries and those of its camera.
+Metadata render_metadata(const Scene& scene, const RenderSettings& settings, const RenderReport& report,
+                         const View& view, const std::vector<std::unique_ptr<Device>>& devices);
+
+/// What `render --json` prints.
+nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
+                                   const RenderSettings& settings, const RenderReport& report,
+                                   double load_seconds);
+
+/// Which device made how much of the picture, where there were several.
+void tell_shares(const RenderReport& report);
+
+}  // namespace nearlight
