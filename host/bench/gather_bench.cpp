@@ -9,6 +9,7 @@
 #include "host/base/log.h"
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
+#include "host/bvh/wide_bvh.h"
 
 namespace nearlight {
 namespace {
@@ -34,13 +35,16 @@ double median_absolute_deviation(const std::vector<double>& values) {
 struct GatherJob {
     Buffer<BvhNode> nodes;
     Buffer<BvhTriangle> triangles;
+    Buffer<WideNode> wide_nodes;
+    Buffer<TriangleBlock> blocks;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;
     float clamp_radius;
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius};
+        return {nodes,        triangles, wide_nodes,        blocks,      vpls,
+                vpls.count(), receivers, receivers.count(), clamp_radius};
     }
 };
 
@@ -125,8 +129,11 @@ GatherBenchResult bench_gather(Device& device, const Scene& scene, const Bvh& bv
     const std::vector<ReceiverPacket> receivers =
         make_camera_receivers(scene, bvh, config.width, config.height);
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, config.vpl_count);
+    const WideBvh wide = widen(bvh);
     GatherJob job{Buffer<BvhNode>(device, bvh.nodes),
                   Buffer<BvhTriangle>(device, bvh.triangles),
+                  Buffer<WideNode>(device, wide.nodes),
+                  Buffer<TriangleBlock>(device, wide.blocks),
                   Buffer<Vpl>(device, vpls),
                   Buffer<ReceiverPacket>(device, receivers),
                   Buffer<IrradiancePacket>(device, receivers.size()),

@@ -64,6 +64,8 @@ bool gather_indirect(RenderStages& stages, const Picture& picture, std::size_t p
     const bool finished = stages.samplers.gatherer.gather(
         {.nodes = picture.scene.nodes,
          .triangles = picture.scene.bvh_triangles,
+         .wide_nodes = picture.scene.wide_nodes,
+         .blocks = picture.scene.blocks,
          .vpls = picture.vpls,
          .vpl_count = picture.vpl_count,
          .receivers = buffers.receivers,

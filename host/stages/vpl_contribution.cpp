@@ -20,6 +20,8 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
     gatherer_->gather({.nodes = scene.nodes,
                        .triangles = scene.bvh_triangles,
+                       .wide_nodes = scene.wide_nodes,
+                       .blocks = scene.blocks,
                        .vpls = squared ? view.squared_importons : view.importons,
                        .vpl_count = squared ? view.squared_importon_count : view.importon_count,
                        .receivers = receivers,

@@ -11,6 +11,7 @@
 #include "host/base/random.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/segment_distance.h"
+#include "host/bvh/wide_bvh.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
 
@@ -35,6 +36,8 @@ class Uploaded {
     Uploaded(Device& device, const GatherCase& data)
         : nodes_(device, data.bvh.nodes),
           triangles_(device, data.bvh.triangles),
+          wide_nodes_(device, widen(data.bvh).nodes),
+          blocks_(device, widen(data.bvh).blocks),
           vpls_(device, data.vpls),
           receivers_(device, data.receivers),
           // Whatever the memory holds must not matter.
@@ -42,7 +45,8 @@ class Uploaded {
           clamp_radius_(data.clamp_radius) {}
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes_, triangles_, vpls_, vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
+        return {nodes_,        triangles_, wide_nodes_,        blocks_,      vpls_,
+                vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
     }
     std::vector<IrradiancePacket> gather(Gatherer& gatherer) {
         EXPECT_TRUE(gatherer.gather(input(), irradiance_));
@@ -59,6 +63,8 @@ class Uploaded {
 
     Buffer<BvhNode> nodes_;
     Buffer<BvhTriangle> triangles_;
+    Buffer<WideNode> wide_nodes_;
+    Buffer<TriangleBlock> blocks_;
     Buffer<Vpl> vpls_;
     Buffer<ReceiverPacket> receivers_;
     Buffer<IrradiancePacket> irradiance_;
