@@ -3,20 +3,25 @@
 // Asia 2010]: each packet of 64 receivers x makes lights y of its own, which supply what a wide clamp takes from VPLs.
 //
 // The irradiance that is wanted is ∫ L_o(y) G_R V dy with G_r = cosθx·cosθy / max(d², r²) (d the distance). Global VPLs
-// are gathered with a radius R_g ≥ R, and the remainder, which is 0 from R_g on, is
+// at y are gathered with a radius R_g(y) ≥ R, and the remainder, which is 0 from R_g on, is
 //
 //     ∫ L_o(y) (G_R − G_Rg) V dy  ≈  Σ_k  L_o(y_k) / p(y_k) · (G_R − G_Rg) V(x, y_k)
-//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g]   over all present receivers s of the packet.
+//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g(y)]   over all present receivers s of the packet.
 //
 // Each of them sends m cosine-distributed rays; one that meets a reflecting surface within R_g makes a light there. p
 // is the density of all these rays together (probability-density summation: the balance heuristic over the receivers),
 // so every receiver of the packet may use every light of it: the sum's expectation is the integral wherever p > 0, and
 // where (G_R − G_Rg) V > 0 for some x, p > 0 by x alone. As p ≥ m·G_0/π, no term exceeds L_o·π/m. L_o = albedo·E/π,
-// E is direct light by next-event estimation, and that of some global VPLs, bounded at R_g in their turn; what this
-// leaves out comes from the next short ray, and so on (lib/path_walk.cl), so light on its way to y is not bounded.
+// E is direct light by next-event estimation, and that of some global VPLs, bounded in their turn; what this leaves out
+// comes from the next short ray, and so on (lib/path_walk.cl), so light on its way to y is not bounded.
 //
+// R_g is a function of y (lib/path_walk.cl): where much light falls, many VPLs lie, and they need no wide bound; and a
+// small bright place, which few rays find, would make lights that are outliers.
+//
+// local_light_radii:   one work-item a VPL: R_g there.
 // local_light_rays:    one work-item a ray. Slot (packet · m + ray) · 64 + lane of `lights` gets a light with power
-//                      albedo · E, and the slot of `flags` 1, where there is one. Packets count from first_packet.
+//                      albedo · E, the slot of `light_radii` R_g there, and that of `flags` 1, where there is one.
+//                      Packets count from first_packet.
 // local_light_density: one work-item a light, listed in `indices`: divides its power by p and writes the receivers
 //                      that see it as bits.
 // local_light_gather:  one work-item a receiver: adds the lights of its packet to its irradiance.
@@ -66,10 +71,23 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
     return random_uint4((uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]), seed)).x;
 }
 
+kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count, float widest,
+                              float least, float at_unit_light, uint seed, global float* restrict radii) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= vpl_count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const GatherRadius law = {widest, least, at_unit_light, seed};
+    radii[index] = gather_radius(&scene, &law, load3(vpls[index].position), load3(vpls[index].normal));
+}
+
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                             uint slot_count, uint rays_per_receiver, float radius, const global Vpl* restrict vpls,
-                             uint vpl_count, uint connections, uint bounce_count, uint direct_samples, uint seed,
-                             global Vpl* restrict lights, global uint* restrict flags) {
+                             uint slot_count, uint rays_per_receiver, float widest, float least, float at_unit_light,
+                             const global Vpl* restrict vpls, const global float* restrict vpl_radii, uint vpl_count,
+                             uint connections, uint bounce_count, uint direct_samples, uint seed,
+                             global Vpl* restrict lights, global float* restrict light_radii,
+                             global uint* restrict flags) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= slot_count) {
         return;
@@ -85,7 +103,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     const uint key = packet_key(packet, seed);
     const uint index = slot % slots_per_packet;
     const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
-    const float reach = radius + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
+    const float reach = widest + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
     const SurfaceHit hit = trace_opaque(&scene, receiver.position, direction, reach);
     if (hit.t < 0.0f || !reflects(scene.materials + hit.material, hit.front)) {
         return;
@@ -94,11 +112,13 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
+    const GatherRadius law = {widest, least, at_unit_light, seed};
+    const float radius = gather_radius(&scene, &law, light.position, light.normal);
     if (is_black(albedo) || !(local_geometry(&scene, &receiver, &light, radius) > 0.0f)) {
         return;
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
-    const Connections to = {vpls, vpl_count, connections, radius};
+    const Connections to = {vpls, vpl_radii, vpl_count, connections, law};
     const float3 exitance =
         albedo *
         short_walk_irradiance(&scene, &to, light.position, light.normal, bounce_count, direct_samples, walk_key);
@@ -106,12 +126,14 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
         return;
     }
     lights[slot] = make_vpl(light.position, light.normal, 0, 0, exitance);
+    light_radii[slot] = radius;
     flags[slot] = 1;
 }
 
 kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                                uint rays_per_receiver, float radius, const global uint* restrict indices,
-                                uint light_count, global Vpl* restrict lights, global ulong* restrict seen_by) {
+                                uint rays_per_receiver, const global float* restrict light_radii,
+                                const global uint* restrict indices, uint light_count, global Vpl* restrict lights,
+                                global ulong* restrict seen_by) {
     const uint item = (uint)get_global_id(0);
     if (item >= light_count) {
         return;
@@ -120,6 +142,7 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
     const uint slot = indices[item];
     const global ReceiverPacket* packet = receivers + first_packet + slot / (rays_per_receiver * NEARLIGHT_PACKET_SIZE);
     const LocalPoint light = light_point(lights + slot);
+    const float radius = light_radii[slot];
     float sum = 0.0f;
     ulong mask = 0;
     for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
@@ -136,8 +159,9 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
 }
 
 kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                               uint lane_count, uint rays_per_receiver, float radius, float clamp_radius,
-                               const global Vpl* restrict lights, const global uint* restrict flags,
+                               uint lane_count, uint rays_per_receiver, float clamp_radius,
+                               const global Vpl* restrict lights, const global float* restrict light_radii,
+                               const global uint* restrict flags,
                                const global ulong* restrict seen_by, global IrradiancePacket* restrict irradiance) {
     const uint index = (uint)get_global_id(0);
     if (index >= lane_count) {
@@ -156,6 +180,7 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         const LocalPoint light = light_point(lights + slot);
         const float3 between = receiver.position - light.position;
         const float squared = dot(between, between);
+        const float radius = light_radii[slot];
         // G_R − G_Rg as parts of G_0; the distance is below R_g.
         const float bounded = clamp_radius * clamp_radius;
         const float part = (squared < bounded ? squared / bounded : 1.0f) - squared / (radius * radius);

@@ -9,18 +9,13 @@
 #include "host/base/log.h"
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
+#include "host/bench/median.h"
 #include "host/bvh/wide_bvh.h"
 
 namespace nearlight {
 namespace {
 
 constexpr float kClampRadiusShare = 0.01f;  // of the scene's extent; the work does not depend on it
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 double median_absolute_deviation(const std::vector<double>& values) {
     const double center = median(values);
@@ -142,12 +137,13 @@ GatherBenchResult bench_gather(Device& device, const Scene& scene, const Bvh& bv
     const std::vector<GatherPair> record = gatherer.gather_recorded(job.input(), job.irradiance);
     const std::span record_bytes(reinterpret_cast<const std::uint8_t*>(record.data()), record.size());
 
-    const EmbreeOcclusion embree(scene, bvh.triangle_ids);
+    const std::vector<uint> ids = distinct_triangles(bvh);
+    const EmbreeOcclusion embree(scene, ids);
     const OcclusionWork work{vpls, receivers, record_bytes};
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     const int threads = config.threads > 0 ? config.threads : cores;
     GatherBenchResult result;
-    result.triangles = bvh.triangles.size();
+    result.triangles = ids.size();
     result.device = device.name();
     result.pairs = count_present(receivers) * vpls.size();
     compare(result, record_bytes, embree.trace(work, {1, false, false}, threads, true));

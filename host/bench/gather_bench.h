@@ -26,6 +26,7 @@ struct GatherBenchConfig {
 /// counts only the time inside its calls, with rays laid out beforehand, and is that of the best mode.
 struct GatherBenchResult {
     std::size_t triangles = 0;
+    BvhQuality bvh = BvhQuality::fast;  ///< of our tree; the caller knows
     std::uint64_t pairs = 0;
     std::uint64_t rays = 0;
     double occluded_fraction = 0.0;

@@ -24,6 +24,32 @@ struct alignas(16) Box4 {
     }
 
     void extend(const Box4& b) { extend(b.low, b.high); }
+    void extend(const float* point) { extend(point, point); }  ///< four floats, aligned to 16 bytes
+    /// By the point at a + t·(b − a); each four floats, aligned to 16 bytes.
+    void extend_between(const float* a, const float* b, float t) {
+        alignas(16) float point[4];
+#ifdef __SSE__
+        const __m128 start = _mm_load_ps(a);
+        _mm_store_ps(point, _mm_add_ps(start, _mm_mul_ps(_mm_set1_ps(t), _mm_sub_ps(_mm_load_ps(b), start))));
+#else
+        for (int i = 0; i < 4; ++i) {
+            point[i] = a[i] + t * (b[i] - a[i]);
+        }
+#endif
+        extend(point, point);
+    }
+    /// To what it has in common with b.
+    void clip(const Box4& b) {
+#ifdef __SSE__
+        _mm_store_ps(low, _mm_max_ps(_mm_load_ps(b.low), _mm_load_ps(low)));
+        _mm_store_ps(high, _mm_min_ps(_mm_load_ps(b.high), _mm_load_ps(high)));
+#else
+        for (int i = 0; i < 4; ++i) {
+            low[i] = b.low[i] > low[i] ? b.low[i] : low[i];
+            high[i] = b.high[i] < high[i] ? b.high[i] : high[i];
+        }
+#endif
+    }
     /// By the middle of b; halved before the sum, which could overflow.
     void extend_by_center(const Box4& b) {
         alignas(16) float center[4];

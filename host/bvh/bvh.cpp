@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/bvh.h"
 
+#include <algorithm>
+
+#include "host/bvh/child_order.h"
 #include "host/bvh/flatten.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
 
+const char* to_string(BvhQuality quality) {
+    return quality == BvhQuality::quality ? "quality" : "fast";
+}
+
 Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config) {
     if (ids.empty()) {
         return empty_bvh();
     }
-    return flatten(build_sah_tree(scene, ids, config), scene, config);
+    Bvh bvh = flatten(build_sah_tree(scene, ids, config), scene, config);
+    if (config.quality == BvhQuality::quality) {
+        order_children(bvh, scene, ids);
+    }
+    return bvh;
+}
+
+std::vector<uint> distinct_triangles(const Bvh& bvh) {
+    std::vector<uint> ids = bvh.triangle_ids;
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
 }
 
 SceneBvhs build_scene_bvhs(const Scene& scene, const BvhConfig& config) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "host/bvh/bvh.h"
@@ -9,9 +10,22 @@
 namespace nearlight {
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr int kCoverSteps = 24;
+
 bool contains(const Aabb& outer, Vec3 p) {
     return min(outer.min, p) == outer.min && max(outer.max, p) == outer.max;
 }
+
+Aabb intersection(const Aabb& a, const Aabb& b) {
+    return {max(a.min, b.min), min(a.max, b.max)};
+}
+
+/// An entry of a cut triangle: what rays can meet of it lies in all boxes above.
+struct Part {
+    uint triangle;
+    Aabb box;
+};
 
 /// Walks the tree and gathers complaints.
 class Checker {
@@ -25,9 +39,11 @@ class Checker {
         }
         node_visits_.assign(bvh_.nodes.size(), 0);
         triangle_visits_.assign(bvh_.triangles.size(), 0);
-        visit_node(0, 0);
+        count_entries();
+        visit_node(0, 0, {Vec3{-kInfinity, -kInfinity, -kInfinity}, Vec3{kInfinity, kInfinity, kInfinity}});
         check_visits();
         check_ids(ids);
+        check_parts();
         if (deepest_ != bvh_.depth) {
             complain("depth is " + std::to_string(deepest_) + ", said to be " + std::to_string(bvh_.depth));
         }
@@ -37,23 +53,34 @@ class Checker {
   private:
     void complain(const std::string& text) { complaints_.push_back(text); }
 
-    /// Returns the box of all vertices below.
-    Aabb visit_node(uint index, int depth) {
+    void count_entries() {
+        entries_.assign(scene_.triangles.size(), 0);
+        for (const uint id : bvh_.triangle_ids) {
+            if (id < entries_.size()) {
+                ++entries_[id];
+            }
+        }
+    }
+
+    /// Returns the box of all vertices of whole triangles below. `within` is common to all boxes above.
+    Aabb visit_node(uint index, int depth, const Aabb& within) {
         ++node_visits_[index];
         const BvhNode& node = bvh_.nodes[index];
         const std::string name = "node " + std::to_string(index);
-        Aabb box = visit_child(node.left, {node.left_min, node.left_max}, depth + 1, name + " left");
+        Aabb box = visit_child(node.left, {node.left_min, node.left_max}, depth + 1, name + " left", within);
         const bool single = index == 0 && is_leaf(node.left) && node.right == node.left;
         if (!single) {
-            box.extend(visit_child(node.right, {node.right_min, node.right_max}, depth + 1, name + " right"));
+            box.extend(visit_child(node.right, {node.right_min, node.right_max}, depth + 1, name + " right",
+                                   within));
         }
         return box;
     }
 
-    Aabb visit_child(uint reference, const Aabb& box, int depth, const std::string& name) {
+    Aabb visit_child(uint reference, const Aabb& box, int depth, const std::string& name,
+                     const Aabb& within) {
         Aabb below;
         if (is_leaf(reference)) {
-            below = visit_leaf(reference, depth, name);
+            below = visit_leaf(reference, depth, name, intersection(within, box));
         } else if (reference >= bvh_.nodes.size() || node_visits_[reference] > 0) {
             complain(name + ": refers to node " + std::to_string(reference) +
                      (reference >= bvh_.nodes.size() ? ", out of range" : ", already in the tree"));
@@ -62,7 +89,7 @@ class Checker {
             complain(name + ": deeper than " + std::to_string(NEARLIGHT_MAX_BVH_DEPTH));
             return below;
         } else {
-            below = visit_node(reference, depth);
+            below = visit_node(reference, depth, intersection(within, box));
         }
         if (!below.is_empty() && !(contains(box, below.min) && contains(box, below.max))) {
             complain(name + ": box does not hold what is below");
@@ -70,7 +97,7 @@ class Checker {
         return below;
     }
 
-    Aabb visit_leaf(uint reference, int depth, const std::string& name) {
+    Aabb visit_leaf(uint reference, int depth, const std::string& name, const Aabb& within) {
         Aabb box;
         deepest_ = std::max(deepest_, depth);
         const uint first = leaf_first(reference);
@@ -82,7 +109,12 @@ class Checker {
             ++triangle_visits_[i];
             const uint id = bvh_.triangle_ids[i];
             if (id < scene_.triangles.size()) {
-                box.extend(check_triangle(i, scene_.triangles[id]));
+                const Aabb whole = check_triangle(i, scene_.triangles[id]);
+                if (entries_[id] == 1) {
+                    box.extend(whole);
+                } else {
+                    parts_.push_back({id, within});
+                }
             }
         }
         return box;
@@ -128,11 +160,40 @@ class Checker {
         if (wanted.empty()) {
             wanted = empty_bvh().triangle_ids;
         }
-        std::vector<uint> present = bvh_.triangle_ids;
         std::sort(wanted.begin(), wanted.end());
-        std::sort(present.begin(), present.end());
-        if (wanted != present) {
+        if (wanted != distinct_triangles(bvh_)) {
             complain("the tree holds other triangles than asked for");
+        }
+    }
+
+    /// Points all over a cut triangle must each lie in a box of one of its entries.
+    void check_parts() {
+        std::stable_sort(parts_.begin(), parts_.end(),
+                         [](const Part& a, const Part& b) { return a.triangle < b.triangle; });
+        for (auto first = parts_.begin(); first != parts_.end();) {
+            const auto last = std::find_if(
+                first, parts_.end(), [&](const Part& part) { return part.triangle != first->triangle; });
+            check_cover({first, last});
+            first = last;
+        }
+    }
+
+    void check_cover(std::span<const Part> parts) {
+        const Triangle& triangle = scene_.triangles[parts.front().triangle];
+        const Vec3 v0 = scene_.vertices[triangle.v0].position;
+        const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
+        const Vec3 edge2 = scene_.vertices[triangle.v2].position - v0;
+        for (int i = 0; i <= kCoverSteps; ++i) {
+            for (int j = 0; i + j <= kCoverSteps; ++j) {
+                const Vec3 p = v0 + edge1 * (static_cast<float>(i) / kCoverSteps) +
+                               edge2 * (static_cast<float>(j) / kCoverSteps);
+                if (std::none_of(parts.begin(), parts.end(),
+                                 [&](const Part& part) { return contains(part.box, p); })) {
+                    complain("scene triangle " + std::to_string(parts.front().triangle) +
+                             ": its parts leave a hole");
+                    return;
+                }
+            }
         }
     }
 
@@ -140,6 +201,8 @@ class Checker {
     const Scene& scene_;
     std::vector<int> node_visits_;
     std::vector<int> triangle_visits_;
+    std::vector<uint> entries_;  ///< of each triangle of the scene
+    std::vector<Part> parts_;
     std::vector<std::string> complaints_;
     int deepest_ = 0;
 };

@@ -13,17 +13,20 @@ constexpr float kFar = 1e30f;
 constexpr std::size_t kFetchGrain = 1u << 12u;
 constexpr Vec3 kFarPoint{kFar, kFar, kFar};
 
-/// Appends the subtree in depth-first order and returns the reference to it.
-uint append(const std::vector<BvhNode>& slots, uint reference, std::vector<BvhNode>& nodes) {
+/// Appends the subtree in depth-first order, its leaves' triangles too, and returns the reference to it.
+uint append(const SahTree& tree, uint reference, Bvh& bvh) {
     if (is_leaf(reference)) {
-        return reference;
+        const auto first = static_cast<uint>(bvh.triangle_ids.size());
+        const auto begin = tree.order.begin() + leaf_first(reference);
+        bvh.triangle_ids.insert(bvh.triangle_ids.end(), begin, begin + leaf_count(reference));
+        return leaf_reference(first, leaf_count(reference));
     }
-    const auto index = static_cast<uint>(nodes.size());
-    nodes.push_back(slots[reference]);
-    const uint left = append(slots, slots[reference].left, nodes);
-    const uint right = append(slots, slots[reference].right, nodes);
-    nodes[index].left = left;
-    nodes[index].right = right;
+    const auto index = static_cast<uint>(bvh.nodes.size());
+    bvh.nodes.push_back(tree.slots[reference]);
+    const uint left = append(tree, tree.slots[reference].left, bvh);
+    const uint right = append(tree, tree.slots[reference].right, bvh);
+    bvh.nodes[index].left = left;
+    bvh.nodes[index].right = right;
     return index;
 }
 
@@ -60,15 +63,16 @@ Bvh empty_bvh() {
 Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
     Bvh bvh;
     if (is_leaf(tree.root)) {
-        bvh.nodes = {root_of_one_leaf(tree.root_box, tree.root)};
+        bvh.nodes = {root_of_one_leaf(tree.root_box, append(tree, tree.root, bvh))};
         bvh.depth = 1;
     } else {
         bvh.nodes.reserve(tree.inner_count);
-        append(tree.slots, tree.root, bvh.nodes);
+        bvh.triangle_ids.reserve(tree.order.size());
+        append(tree, tree.root, bvh);
+        bvh.triangle_ids.shrink_to_fit();
         bvh.depth = tree.depth;
     }
-    tree.slots = {};  // before the triangles need memory
-    bvh.triangle_ids = std::move(tree.order);
+    tree = {};  // before the triangles need memory
     bvh.triangles.resize(bvh.triangle_ids.size());
     parallel_for(bvh.triangles.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {

@@ -9,12 +9,13 @@
 
 namespace nearlight {
 
-/// A tree before flattening. The inner node that parts the triangles at position p of `order` stands in slot
-/// p − 1: no two nodes part at the same place, so that threads need not agree on who gets which slot, and
-/// the tree is the same for any number of them. Slots of no node are left unused.
+/// A tree before flattening. The inner node whose right child has its room from position p of `order` on
+/// stands in slot p − 1: no two nodes part at the same place, so that threads need not agree on who gets
+/// which slot, and the tree is the same for any number of them. Slots of no node are left unused, and so are
+/// places in `order` that were kept free for cut triangles.
 struct SahTree {
     std::vector<BvhNode> slots;
-    std::vector<uint> order;  ///< indices into Scene::triangles in the order of the leaves
+    std::vector<uint> order;  ///< indices into Scene::triangles, where the leaves refer to
     uint root = 0;            ///< child reference: a slot, or the only leaf
     Aabb root_box;
     std::size_t inner_count = 0;

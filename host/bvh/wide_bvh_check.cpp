@@ -32,15 +32,14 @@ class WideChecker {
         if (wide_.nodes.empty()) {
             return {"there is no node"};
         }
+        for (const BvhTriangle& triangle : bvh_.triangles) {
+            wanted_.push_back(corners_of(triangle));
+        }
+        std::sort(wanted_.begin(), wanted_.end());
         visit_node(0);
         check_visits();
-        std::vector<Corners> wanted;
-        for (const BvhTriangle& triangle : bvh_.triangles) {
-            wanted.push_back(corners_of(triangle));
-        }
-        std::sort(wanted.begin(), wanted.end());
         std::sort(found_.begin(), found_.end());
-        if (wanted != found_) {
+        if (wanted_ != found_) {
             complain("the wide tree holds other triangles than the binary one");
         }
         return std::move(complaints_);
@@ -100,11 +99,19 @@ class WideChecker {
                     continue;  // no triangle
                 }
                 found_.push_back(corners_of({v0, edge1, edge2, {}}));
-                // The sums may be rounded away from the vertices; the middle is well inside.
-                box.extend(v0 + (edge1 + edge2) * (1.0f / 3.0f));
+                if (stands_once(found_.back())) {
+                    // The sums may be rounded away from the vertices; the middle is well inside.
+                    box.extend(v0 + (edge1 + edge2) * (1.0f / 3.0f));
+                }
             }
         }
         return box;
+    }
+
+    /// A triangle that stands in several leaves may be cut, and then a box holds but a part of it.
+    [[nodiscard]] bool stands_once(const Corners& corners) const {
+        const auto [first, last] = std::equal_range(wanted_.begin(), wanted_.end(), corners);
+        return last - first == 1;
     }
 
     void check_visits() {
@@ -124,6 +131,7 @@ class WideChecker {
     const Bvh& bvh_;
     std::vector<int> node_visits_;
     std::vector<int> block_visits_;
+    std::vector<Corners> wanted_;  ///< sorted
     std::vector<Corners> found_;
     std::vector<std::string> complaints_;
 };

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/bench_command.h"
 
+#include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "host/base/log.h"
+#include "host/bench/build_bench.h"
 #include "host/bench/gather_bench.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/cli/device_options.h"
@@ -18,9 +21,10 @@ struct BenchOptions {
     SceneOptions scene;
     DeviceChoice device;
     ImageSize size;
-    std::size_t vpls = 128;
+    std::optional<std::size_t> vpls;
     int repeats = 11;
     std::string kernel = "automatic";
+    BvhQuality bvh = BvhQuality::quality;  ///< of gather
 };
 
 constexpr std::string_view kSpheres = "spheres:";
@@ -49,6 +53,7 @@ GatherKernel kernel_of(const std::string& name) {
 nlohmann::ordered_json to_json(const Scene& scene, const GatherBenchResult& result) {
     return {{"scene", scene.name},
             {"triangles", result.triangles},
+            {"bvh", to_string(result.bvh)},
             {"pairs", result.pairs},
             {"rays", result.rays},
             {"occluded_fraction", result.occluded_fraction},
@@ -65,8 +70,8 @@ nlohmann::ordered_json to_json(const Scene& scene, const GatherBenchResult& resu
 }
 
 std::string to_text(const Scene& scene, const GatherBenchResult& result) {
-    std::string text =
-        fmt::format("{}: {} triangles, device {}\n", scene.name, result.triangles, result.device);
+    std::string text = fmt::format("{}: {} triangles in a {} tree, device {}\n", scene.name, result.triangles,
+                                   to_string(result.bvh), result.device);
     text += fmt::format("{:.1f} M pairs, {:.1f} M of them rays, {:.1f} % occluded, {} disagreements\n",
                         static_cast<double>(result.pairs) * 1e-6, static_cast<double>(result.rays) * 1e-6,
                         100.0 * result.occluded_fraction, result.disagreements);
@@ -81,17 +86,85 @@ std::string to_text(const Scene& scene, const GatherBenchResult& result) {
            "Medians of interleaved runs; Embree's time is inside its calls only, in its fastest mode.\n";
 }
 
+nlohmann::ordered_json to_json(const Scene& scene, const BuildBenchResult& result) {
+    nlohmann::ordered_json trees = nlohmann::ordered_json::array();
+    for (const BuiltTree& tree : result.trees) {
+        trees.push_back({{"name", tree.name},
+                         {"seconds", tree.seconds},
+                         {"sah_cost", tree.sah_cost},
+                         {"nodes", tree.nodes},
+                         {"duplication", tree.duplication},
+                         {"depth", tree.depth},
+                         {"nodes_per_ray", tree.steps.nodes_per_ray},
+                         {"triangles_per_ray", tree.steps.triangles_per_ray},
+                         {"nodes_per_packet", tree.steps.nodes_per_packet},
+                         {"triangles_per_packet", tree.steps.triangles_per_packet}});
+    }
+    const TreeSteps& steps = result.trees.front().steps;
+    return {{"scene", scene.name},
+            {"triangles", result.triangles},
+            {"rays", steps.rays},
+            {"packets", steps.packets},
+            {"occluded", steps.occluded},
+            {"trees", trees},
+            {"ratio_seconds", result.ratio_seconds},
+            {"ratio_ray_steps", result.ratio_ray_steps},
+            {"ratio_packet_steps", result.ratio_packet_steps}};
+}
+
+std::string to_text(const Scene& scene, const BuildBenchResult& result) {
+    const TreeSteps& steps = result.trees.front().steps;
+    std::string text = fmt::format(
+        "{}: {} triangles; steps of {:.2f} M rays, {:.0f} % occluded, in {} packets\n", scene.name,
+        result.triangles, static_cast<double>(steps.rays) * 1e-6,
+        100.0 * static_cast<double>(steps.occluded) / std::max(1.0, static_cast<double>(steps.rays)),
+        steps.packets);
+    text += fmt::format("{:<18}{:>9}{:>10}{:>10}{:>9}{:>7}{:>11}{:>11}{:>14}{:>14}\n", "tree", "seconds",
+                        "SAH cost", "nodes", "doubled", "depth", "nodes/ray", "tri./ray", "nodes/packet",
+                        "tri./packet");
+    for (const BuiltTree& tree : result.trees) {
+        text +=
+            fmt::format("{:<18}{:>9.3f}{:>10.2f}{:>10}{:>7.1f} %{:>7}{:>11.2f}{:>11.2f}{:>14.2f}{:>14.2f}\n",
+                        tree.name, tree.seconds, tree.sah_cost, tree.nodes, 100.0 * tree.duplication,
+                        tree.depth, tree.steps.nodes_per_ray, tree.steps.triangles_per_ray,
+                        tree.steps.nodes_per_packet, tree.steps.triangles_per_packet);
+    }
+    return text + fmt::format(
+                      "nearlight quality / Embree high: build {:.2f}, steps of a ray {:.3f}, of a packet "
+                      "{:.3f}\n",
+                      result.ratio_seconds, result.ratio_ray_steps, result.ratio_packet_steps);
+}
+
+ExitCode run_build_bench(const BenchOptions& options, const Scene& scene, const GlobalOptions& global) {
+    BuildBenchConfig config;
+    config.vpl_count = options.vpls.value_or(config.vpl_count);
+    config.width = options.size.width > 0 ? options.size.width : config.width;
+    config.height = options.size.height > 0 ? options.size.height : config.height;
+    config.repeats = options.repeats;
+    const BuildBenchResult result = bench_build(scene, config);
+    if (global.json) {
+        print_json(to_json(scene, result));
+    } else {
+        print(to_text(scene, result));
+    }
+    return ExitCode::done;
+}
+
 ExitCode run_bench(const BenchOptions& options, const GlobalOptions& global) {
     const Scene scene = make_scene(options.scene);
+    if (options.part == "build") {
+        return run_build_bench(options, scene, global);
+    }
     const std::unique_ptr<Device> device = open_device(options.device);
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    const SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = options.bvh});
     GatherBenchConfig config;
-    config.vpl_count = options.vpls;
+    config.vpl_count = options.vpls.value_or(config.vpl_count);
     config.width = options.size.width > 0 ? options.size.width : config.width;
     config.height = options.size.height > 0 ? options.size.height : config.height;
     config.repeats = options.repeats;
     config.gather.kernel = kernel_of(options.kernel);
-    const GatherBenchResult result = bench_gather(*device, scene, bvhs.opaque, config);
+    GatherBenchResult result = bench_gather(*device, scene, bvhs.opaque, config);
+    result.bvh = options.bvh;
     if (global.json) {
         print_json(to_json(scene, result));
     } else {
@@ -107,19 +180,24 @@ void add_bench_command(CommandLine& line) {
     CLI::App& command =
         line.add_command("bench", "Measure a part beside the best that others offer, on the same work",
                          [options](const GlobalOptions& global) { return run_bench(*options, global); });
-    command.add_option("PART", options->part, "gather: shadow rays from VPLs, against Embree")
+    command
+        .add_option("PART", options->part,
+                    "gather: shadow rays from VPLs, against Embree; build: trees, beside Embree's")
         ->required()
-        ->check(CLI::IsMember({"gather"}));
+        ->check(CLI::IsMember({"gather", "build"}));
     add_scene_options(command, options->scene);
     add_device_options(command, options->device);
     add_size_option(command, options->size);
-    command.add_option("--vpls", options->vpls, "VPLs")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    command.add_option("--vpls", options->vpls, "VPLs (default: 128 for gather, 32 for build)")
+        ->check(CLI::Range(1, 1 << 20))
+        ->type_name("N");
     command.add_option("--repeats", options->repeats, "Runs of which the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command.add_option("--kernel", options->kernel, "Gather kernel")
         ->check(CLI::IsMember({"automatic", "packets", "rays"}))
         ->capture_default_str();
+    add_bvh_option(command, options->bvh);
 }
 
 }  // namespace nearlight

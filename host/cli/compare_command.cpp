@@ -239,6 +239,7 @@ void add_compare_command(CommandLine& line) {
     command.add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
         ->required();
     add_shared_scene_options(command, options->scene);
+    add_bvh_option(command, options->settings.bvh_quality);
     command
         .add_option("-o,--output", options->settings.output,
                     "Folder for the report; what is measured is kept there")

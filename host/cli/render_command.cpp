@@ -122,6 +122,7 @@ nlohmann::ordered_json to_json(const RenderOptions& options, const RenderSetting
     json["clamp_radius"] = report.clamp_radius;
     json["max_depth"] = report.max_depth;
     json["seed"] = settings.seed;
+    json["bvh"] = to_string(settings.bvh_quality);
     json["device"] = {device.name};
     json["seconds"] = {{"load", load_seconds},
                        {"build_bvh", report.seconds.build_bvh},
@@ -237,6 +238,7 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--seed", settings.seed, "Another seed, another noise")->type_name("N")->capture_default_str();
     add_choice(command, "--gather", settings.gather_kernel, kGatherKernels, "Gather kernel: auto, packets or rays")
         ->default_str("auto");
+    add_bvh_option(command, settings.bvh_quality);
 }
 
 }  // namespace

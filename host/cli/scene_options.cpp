@@ -6,8 +6,7 @@
 namespace nearlight {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.file, "Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
-        ->required();
+    command.add_option("SCENE", options.file, "Mitsuba XML (.xml) or OBJ with its MTL (.obj)")->required();
     add_shared_scene_options(command, options);
 }
 
@@ -18,6 +17,19 @@ void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     command.add_flag("--strict", options.strict, "Fail where the scene would be approximated");
+}
+
+void add_bvh_option(CLI::App& command, BvhQuality& quality) {
+    command
+        .add_option_function<std::string>(
+            "--bvh",
+            [&quality](const std::string& name) {
+                quality = name == "fast" ? BvhQuality::fast : BvhQuality::quality;
+            },
+            "Tree that rays go through: fast (built in half the time) or quality (up to a tenth fewer steps "
+            "a ray)")
+        ->check(CLI::IsMember({"fast", "quality"}))
+        ->default_str(to_string(quality));
 }
 
 LoadOptions load_options(const SceneOptions& options) {

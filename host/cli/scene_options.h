@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/bvh/bvh.h"
 #include "host/cli/command.h"
 #include "host/scene/scene_loader.h"
 
@@ -21,6 +22,9 @@ struct SceneOptions {
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// -D and --strict alone, for commands that take several scenes.
 void add_shared_scene_options(CLI::App& command, SceneOptions& options);
+
+/// --bvh fast|quality; `quality` holds the default.
+void add_bvh_option(CLI::App& command, BvhQuality& quality);
 
 /// Throws Error(ExitCode::usage) for a definition without a name or a '='.
 LoadOptions load_options(const SceneOptions& options);

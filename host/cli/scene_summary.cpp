@@ -138,12 +138,14 @@ Json json_notes(const Scene& scene) {
 
 MemoryEstimate estimate_memory(const Scene& scene) {
     constexpr std::uint64_t kTrianglesPerLeaf = 2;
+    constexpr std::uint64_t kTrianglesPerCut = 20;  // that stand in one leaf more
     const std::uint64_t triangles = scene.triangles.size();
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
     const std::uint64_t geometry = scene.vertices.size() * sizeof(Vertex) + triangles * sizeof(Triangle);
+    const std::uint64_t entries = triangles + triangles / kTrianglesPerCut;
     const std::uint64_t trees =
-        triangles * (sizeof(BvhTriangle) + sizeof(uint)) + triangles / kTrianglesPerLeaf * sizeof(BvhNode);
+        entries * (sizeof(BvhTriangle) + sizeof(uint)) + entries / kTrianglesPerLeaf * sizeof(BvhNode);
     const std::uint64_t textures = texel_count(scene) * sizeof(std::uint32_t);
     const std::uint64_t environment = scene.environment.radiance.size();
     constexpr std::uint64_t kReceiverBytes =

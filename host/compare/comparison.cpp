@@ -24,7 +24,8 @@ std::string conditions_of(const Device& device, const SceneFacts& facts, const R
            std::to_string(settings.height) + "|" + std::to_string(settings.samples_per_pixel) + "|" +
            exact_text(facts.range) + "|" + exact_text(facts.clamp_radius) + "|" +
            std::to_string(facts.max_depth) + "|" + hex_digits(identity(reference)) + "|" +
-           device.entry().name + "|" + device.entry().driver + "|" + settings.program_version;
+           device.entry().name + "|" + device.entry().driver + "|" + settings.program_version + "|" +
+           to_string(settings.bvh_quality);
 }
 
 /// The file that shows this scene, if any does.

@@ -14,6 +14,8 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// How far beyond what was measured the fits are trusted.
 constexpr double kTrustedFactor = 2.0;
+/// How far beyond it they still say something.
+constexpr double kHopelessFactor = 100.0;
 
 struct Fits {
     std::optional<PowerLaw> rmse;
@@ -41,7 +43,8 @@ EqualRmseRow needed(const Curve& curve, const Fits& fits, std::size_t index, dou
     }
     const double vpls = fits.rmse->inverse(rmse);
     const bool beyond = vpls > kTrustedFactor * curve.points.back().vpls;
-    if (!std::isfinite(vpls) || (beyond && curve.biased)) {
+    const bool hopeless = !(vpls <= kHopelessFactor * curve.points.back().vpls);
+    if (hopeless || (beyond && curve.biased)) {
         return never(index);
     }
     const bool before = vpls * kTrustedFactor < curve.points.front().vpls;

@@ -120,7 +120,8 @@ void write_meanings(HtmlWriter& html) {
     write_pair(html, "how known",
                "Measured; fitted within twice the measured range; extrapolated beyond it (an order of "
                "magnitude); never: "
-               "the method's error does not fall, or has a floor above this RMSE because light is lost.");
+               "the method's error does not fall, or not within a hundred times the measured range, or has a "
+               "floor above this RMSE because light is lost.");
     html.close();
 }
 

@@ -100,6 +100,7 @@ std::string comparison_json(const Comparison& comparison, const CompareSettings&
                     {"device", {comparison.device}},
                     {"driver", comparison.driver},
                     {"version", settings.program_version},
+                    {"bvh", to_string(settings.bvh_quality)},
                     {"cells", {{"measured", comparison.measured_cells}, {"reused", comparison.reused_cells}}},
                     {"report", (settings.output / "report.html").string()}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace);

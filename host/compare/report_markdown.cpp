@@ -61,11 +61,11 @@ std::string equal_vpls_table(const SceneComparison& scene) {
     std::string text = header({"equal VPLs", "asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
                                "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
     for (const EqualVplsRow& entry : scene.equal_vpls) {
-        text += row({to_string(entry.method), std::to_string(entry.vpls), fixed(entry.gathered_vpls, 0),
-                     fixed(entry.sparse_vpls, 0), interval(entry.rmse.value, entry.rmse.half_width, 3),
-                     fixed(entry.rmse_ratio, 2), interval(entry.mean_ratio.mean, entry.mean_ratio.half_width, 4),
-                     number(entry.flip.mean, 2), fixed(entry.generate_seconds, 2),
-                     fixed(entry.gather_seconds, 2)});
+        text += row(
+            {to_string(entry.method), std::to_string(entry.vpls), fixed(entry.gathered_vpls, 0),
+             fixed(entry.sparse_vpls, 0), interval(entry.rmse.value, entry.rmse.half_width, 3),
+             fixed(entry.rmse_ratio, 2), interval(entry.mean_ratio.mean, entry.mean_ratio.half_width, 4),
+             number(entry.flip.mean, 2), fixed(entry.generate_seconds, 2), fixed(entry.gather_seconds, 2)});
     }
     return text;
 }
@@ -74,7 +74,8 @@ std::string equal_rmse_table(const SceneComparison& scene, const CompareSettings
     if (scene.equal_rmse.empty()) {
         return {};
     }
-    std::string text = header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "known"});
+    std::string text =
+        header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "known"});
     for (const EqualRmse& group : scene.equal_rmse) {
         for (const EqualRmseRow& entry : group.rows) {
             text += row({to_string(settings.methods[entry.curve]), number(group.rmse), fixed(entry.vpls, 0),

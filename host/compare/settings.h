@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/bvh/bvh.h"
 #include "host/compare/method.h"
 
 namespace nearlight {
@@ -41,6 +42,7 @@ struct CompareSettings {
     std::size_t reference_vpls = 0;       ///< where not 0: instant radiosity of so many VPLs is the reference
     std::vector<std::filesystem::path>
         reference_files;          ///< made by `nearlight reference`; each for the scene it fits
+    BvhQuality bvh_quality = BvhQuality::quality;
     std::vector<Crop> crops;      ///< empty: chosen where the picture is hardest
     std::string program_version;  ///< cells of other versions are measured anew
 

@@ -5,9 +5,9 @@
 
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
+#include "host/render/local_gather.h"
 #include "host/render/plan.h"
 #include "host/stages/film.h"
-#include "host/stages/local_lights.h"
 
 namespace nearlight {
 namespace {
@@ -20,7 +20,7 @@ struct RenderStages {
     CameraPass camera_pass;
     SamplerStages samplers;
     Film film;
-    std::optional<LocalLights> local_lights{};  ///< compiled when first wanted
+    std::optional<LocalGather> local_gather{};  ///< compiled when first wanted
 };
 
 /// Device memory that all batches of a picture use in turn.
@@ -50,38 +50,35 @@ struct Picture {
     const Buffer<CloseRange>& close_range;
     const Buffer<Vpl>& vpls;
     std::size_t vpl_count;
-    const std::optional<LocalLightPlan>& local;
+    LocalGather* local;  ///< null: VPLs are all there is
 };
 
 uint direct_samples_per_sample(const RenderSettings& settings) {
     return std::max(1u, (settings.direct_samples_per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
 }
 
-/// Indirect light of a batch's receivers, from VPLs and from local lights. False if cancelled.
+/// Indirect light of a batch's receivers. False if cancelled.
 bool gather_indirect(RenderStages& stages, const Picture& picture, std::size_t packets, BatchBuffers& buffers,
-                     const GatherProgress& progress, RenderReport& report) {
-    const float clamp_radius = picture.view.clamp_radius;
-    const bool finished = stages.samplers.gatherer.gather(
-        {.nodes = picture.scene.nodes,
-         .triangles = picture.scene.bvh_triangles,
-         .wide_nodes = picture.scene.wide_nodes,
-         .blocks = picture.scene.blocks,
-         .vpls = picture.vpls,
-         .vpl_count = picture.vpl_count,
-         .receivers = buffers.receivers,
-         .packet_count = packets,
-         .clamp_radius = picture.local ? picture.local->gather_radius : clamp_radius},
-        buffers.indirect, progress);
-    if (finished && picture.local) {
-        report.local_lights += stages.local_lights->add(picture.scene, picture.vpls, picture.vpl_count, buffers.receivers, packets, clamp_radius,
-                                                        *picture.local, buffers.indirect);
+                     const GatherProgress& progress) {
+    Gatherer& gatherer = stages.samplers.gatherer;
+    if (picture.local != nullptr) {
+        return picture.local->run(gatherer, picture.scene, buffers.receivers, packets, buffers.indirect, progress);
     }
-    return finished;
+    return gatherer.gather({.nodes = picture.scene.nodes,
+                            .triangles = picture.scene.bvh_triangles,
+                            .wide_nodes = picture.scene.wide_nodes,
+                            .blocks = picture.scene.blocks,
+                            .vpls = picture.vpls,
+                            .vpl_count = picture.vpl_count,
+                            .receivers = buffers.receivers,
+                            .packet_count = packets,
+                            .clamp_radius = picture.view.clamp_radius},
+                           buffers.indirect, progress);
 }
 
 /// One batch: receivers, direct light, indirect light, film. False if cancelled.
 bool render_batch(RenderStages& stages, const Picture& picture, const CameraBand& band, uint row_count,
-                  BatchBuffers& buffers, const GatherProgress& progress, RenderReport& report) {
+                  BatchBuffers& buffers, const GatherProgress& progress) {
     const uint width = picture.view.camera.width;
     const std::size_t packets = packet_count(band, width);
     stages.camera_pass.run(picture.scene, picture.camera, width, picture.close_range, band, picture.settings.seed,
@@ -92,7 +89,7 @@ bool render_batch(RenderStages& stages, const Picture& picture, const CameraBand
         stages.samplers.direct_light.run(picture.scene, buffers.receivers, packets, direct_samples_per_sample(picture.settings),
                                          picture.settings.seed, buffers.direct);
     }
-    const bool finished = gather_indirect(stages, picture, packets, buffers, progress, report);
+    const bool finished = gather_indirect(stages, picture, packets, buffers, progress);
     if (finished) {
         stages.film.add(buffers.receivers, buffers.vertices, buffers.direct, buffers.indirect, band, width, row_count,
                         buffers.sums);
@@ -130,7 +127,7 @@ void render_bands(Device& device, RenderStages& stages, const Picture& picture, 
                 const double before = band * static_cast<double>(batches.size()) + static_cast<double>(i);
                 return progress("gathering", (before + within) / batch_total);
             };
-            if (!render_batch(stages, picture, batches[i], row_count, buffers, batch_progress, report)) {
+            if (!render_batch(stages, picture, batches[i], row_count, buffers, batch_progress)) {
                 report.interrupted = true;
                 return;
             }
@@ -180,12 +177,13 @@ struct Renderer::State {
     DeviceScene device_scene;
 
     /// Kernels compile while the tree is built: one waits for the driver, the other for memory.
-    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel) {
+    static std::unique_ptr<State> make(Device& device, const Scene& scene, GatherKernel gather_kernel,
+                                       BvhQuality bvh_quality) {
         const Stopwatch total;
         RenderSeconds seconds;
         auto building = std::async(std::launch::async, [&] {
             Stopwatch watch;
-            SceneBvhs bvhs = build_scene_bvhs(scene);
+            SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = bvh_quality});
             seconds.build_bvh = watch.seconds();
             return bvhs;
         });
@@ -202,8 +200,8 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel)
-    : state_(State::make(device, scene, gather_kernel)) {}
+Renderer::Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel, BvhQuality bvh_quality)
+    : state_(State::make(device, scene, gather_kernel, bvh_quality)) {}
 Renderer::~Renderer() = default;
 
 RenderReport Renderer::render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
@@ -214,10 +212,13 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
     const Stopwatch total;
     const View view = choose_view(device, stages.camera_pass, device_scene, scene, settings);
     const VplSet vpls = sample_vpls(stages.samplers, sampling_task(device_scene, view, settings));
-    if (vpls.local && !stages.local_lights) {
-        stages.local_lights.emplace(device);
-    }
     const Buffer<Vpl> vpl_buffer = stages.samplers.vpl_order.upload_sorted(vpls.vpls);
+    if (vpls.local) {
+        if (!stages.local_gather) {
+            stages.local_gather.emplace(device);
+        }
+        stages.local_gather->set_vpls(device_scene, vpl_buffer.download(), *vpls.local);
+    }
     report.seconds.generate += watch.lap();
 
     fill_report(view, vpls, report);
@@ -233,9 +234,10 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
                   .close_range = close_range,
                   .vpls = vpl_buffer,
                   .vpl_count = vpls.vpls.size(),
-                  .local = vpls.local},
+                  .local = vpls.local ? &*stages.local_gather : nullptr},
                  sink, progress, report);
     report.seconds.gather = watch.lap();
+    report.local_lights = vpls.local ? stages.local_gather->light_count() : 0;
     report.seconds.total += total.seconds();
     report.device_bytes = device.peak_bytes();
     return report;
@@ -243,7 +245,7 @@ RenderReport Renderer::render(const RenderSettings& settings, const RenderStart&
 
 RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress) {
-    return Renderer(device, scene, settings.gather_kernel).render(settings, start, sink, progress);
+    return Renderer(device, scene, settings.gather_kernel, settings.bvh_quality).render(settings, start, sink, progress);
 }
 
 }  // namespace nearlight

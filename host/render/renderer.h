@@ -54,7 +54,8 @@ using RenderStart = std::function<void(const RenderReport&, const View&, const V
 class Renderer {
   public:
     /// Refers to `device` and `scene`, which must outlive it.
-    Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel = GatherKernel::automatic);
+    Renderer(Device& device, const Scene& scene, GatherKernel gather_kernel = GatherKernel::automatic,
+             BvhQuality bvh_quality = BvhQuality::quality);
     ~Renderer();
 
     /// A picture. The report's seconds of building and compiling are the constructor's, once; so its total is what a

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "host/bvh/bvh.h"
 #include "host/samplers/sampler.h"
 #include "host/stages/gatherer.h"
 
@@ -24,6 +25,7 @@ struct RenderSettings {
     bool indirect_only = false;  ///< leave out direct light (its layer is emission only); for comparisons
     uint seed = 0;
     GatherKernel gather_kernel = GatherKernel::automatic;
+    BvhQuality bvh_quality = BvhQuality::quality;
 };
 
 }  // namespace nearlight

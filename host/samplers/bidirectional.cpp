@@ -47,10 +47,10 @@ uint multiple_of_budget(double factor, const SamplingTask& task) {
 
 /// The points that send reverse rays: an even part of the importons, from a random one on.
 CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& task, uint wanted_rays) {
-    const std::vector<Vpl> importons = task.view.importons.download();
+    const std::vector<Vpl> importons = task.view.importons.vpls.download();
     const std::size_t count =
-        std::min({task.view.importon_count, kMostCameraPoints, std::size_t{wanted_rays}});
-    const double step = static_cast<double>(task.view.importon_count) / static_cast<double>(count);
+        std::min({task.view.importons.count, kMostCameraPoints, std::size_t{wanted_rays}});
+    const double step = static_cast<double>(task.view.importons.count) / static_cast<double>(count);
     const double shift = Pcg32(task.seed, kPointStream).uniform();
     std::vector<Vpl> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -136,7 +136,7 @@ std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
 }  // namespace
 
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
-    if (task.view.importon_count == 0) {
+    if (task.view.importons.count == 0) {
         return sample_instant_radiosity(stages, task);  // nothing to go backwards from
     }
     const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));

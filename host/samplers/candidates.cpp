@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/candidates.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "host/base/math.h"
 
 namespace nearlight {
@@ -8,6 +11,8 @@ namespace {
 
 /// Of the choice, that follows power alone.
 constexpr double kBlindPart = 0.1;
+/// Candidates on the device at a time, so that device memory stays small.
+constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
 
 /// Adds to `weights`, which sum up to something else than 0 unless the view sees none of the candidates.
 void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
@@ -29,11 +34,18 @@ void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
 
 std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& task,
                                   std::span<const Vpl> candidates, ContributionNorm norm) {
-    const Buffer<Vpl> vpls(stages.device, candidates);
-    Buffer<float> contribution(stages.device, candidates.size());
-    stages.vpl_contribution.run(task.scene, vpls, candidates.size(), task.view, task.clamp_radius,
-                                contribution, norm);
-    std::vector<float> weights = contribution.download();
+    std::vector<float> weights;
+    weights.reserve(candidates.size());
+    const std::size_t chunk =
+        std::min(kMostInChunk, stages.device.entry().max_allocation_bytes / (2 * sizeof(Vpl)));
+    for (std::size_t first = 0; first < candidates.size(); first += chunk) {
+        const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
+        const Buffer<Vpl> vpls(stages.device, part);
+        Buffer<float> contribution(stages.device, part.size());
+        stages.vpl_contribution.run(task.scene, vpls, part.size(), task.view, task.clamp_radius, contribution,
+                                    norm);
+        std::ranges::copy(contribution.download(), std::back_inserter(weights));
+    }
     add_blind_part(candidates, weights);
     return weights;
 }

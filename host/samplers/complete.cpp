@@ -2,7 +2,10 @@
 // The policy `complete` of close-range sampling, which goes beyond the paper:
 //
 // Candidates, several times as many as are wanted, are points spread evenly over the close range [paper §3],
-// whether light reaches them or not, and deposits of light walks over the whole scene.
+// whether light reaches them or not, and deposits of light walks over the whole scene. What the deposits
+// leave of noise stays in the picture however well one chooses among them, and they cost little beside the
+// rays that weigh them. So there are hundreds for each VPL, and a few importons screen them first: those that
+// pass are drawn like the VPLs below, each divided by its probability.
 //
 // Shares. Two of a kind must not both answer for the close range. A point there is the end of a patch with
 // density p_patch = points / area, and of a walk with density p_walk ≈ E(y) · walks / Φ, as each walk carries
@@ -26,6 +29,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/base/math.h"
 #include "host/base/message.h"
@@ -38,11 +42,12 @@
 namespace nearlight {
 namespace {
 
-// Found on desk and showcase; bench/RESULTS.md has what was tried.
-constexpr uint kPointsPerVpl = 4;     ///< candidates on the close range; each has two sides
-constexpr uint kDepositsPerVpl = 48;  ///< candidates from walks
-/// Of each kind; where more VPLs are wanted, there is less choice.
-constexpr uint kMostCandidates = 1u << 22u;
+// bench/RESULTS.md has what was tried, and on which views.
+constexpr uint kPointsPerVpl = 4;  ///< candidates on the close range; each has two sides
+constexpr uint kDepositsPerVpl = 256;
+constexpr uint kScreenedPerVpl = 16;  ///< candidates that remain of them
+/// Deposits; where more VPLs are wanted, there is less choice.
+constexpr uint kMostDeposits = 1u << 22u;
 constexpr uint kRoughSparseVpls = 256;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
@@ -53,36 +58,72 @@ constexpr float kAmbientShare = 0.3f;
 constexpr double kNeighbourhoodFloor = 0.1;
 constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kResamplingStream = 0x5e1ec7u;
+constexpr uint kScreeningStream = 0x5c4ee7u;
 
 bool is_close(const Vpl& vpl) {
     return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
 }
 
 struct Candidates {
-    std::vector<Vpl> vpls;  ///< patches, without light yet, then deposits
+    std::vector<Vpl> vpls;  ///< patches, without light yet, then screened deposits
     std::size_t patch_count = 0;
-    double patch_density = 0;  ///< points / m²
-    double walks_per_watt = 0;
+    double patch_density = 0;   ///< points / m²
+    double walks_per_watt = 0;  ///< before the screening
 };
 
-/// `per_vpl` for each VPL, bounded, but never fewer than VPLs.
-uint candidate_count(const SamplingTask& task, uint per_vpl) {
-    return std::max(task.vpl_count, std::min(kMostCandidates / per_vpl, task.vpl_count) * per_vpl);
+/// What a close VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square: of
+/// `importon_count` importons in a picture (about a steradian) those within the clamp radius, each by the
+/// bounded term.
+double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t importon_count) {
+    const double radius = std::max<double>(task.clamp_radius, 1e-3 * task.close_range.range);
+    const double distance = length(position - task.close_range.origin);
+    const double seen = std::min(1.0, M_PI * radius * radius / (distance * distance));
+    return std::sqrt(seen * static_cast<double>(importon_count)) / (M_PI * M_PI * radius * radius);
+}
+
+/// To choose `lit` VPLs by: the error that each would leave in the picture.
+std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& task,
+                                     std::span<const Vpl> lit, ContributionNorm norm) {
+    std::vector<float> weights = choice_weights(stages, task, lit, norm);
+    const std::size_t importon_count = task.view.importons_of(norm).count;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        if (is_close(lit[i])) {
+            const double error = neighbourhood_error(task, lit[i].position, importon_count);
+            weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));
+        }
+    }
+    return weights;
+}
+
+/// That are traced: bounded, but never fewer than VPLs.
+uint deposit_count(const SamplingTask& task) {
+    const uint ample = std::min(kMostDeposits / kDepositsPerVpl, task.vpl_count) * kDepositsPerVpl;
+    return std::max(task.vpl_count, ample);
+}
+
+/// Deposits of walks over the whole scene, those that pass the screening, along the Morton curve.
+std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
+                                   std::span<const Vpl> deposits) {
+    const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
+    const std::vector<float> weights =
+        selection_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
+    Pcg32 random(task.seed, kScreeningStream);
+    return take(resample(weights, std::size_t{task.vpl_count} * kScreenedPerVpl, random.uniform()), sorted);
 }
 
 Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
     Candidates candidates;
     if (!surface.empty()) {
-        const std::size_t points = candidate_count(task, kPointsPerVpl);
+        const std::size_t points = std::size_t{task.vpl_count} * kPointsPerVpl;
         candidates.vpls = surface.place(points, task.seed);
         candidates.patch_density = static_cast<double>(points) / surface.area();
     }
     candidates.patch_count = candidates.vpls.size();
-    const Deposits deposits = trace_about(stages, task, surface.region(), KeepDeposits::all,
-                                          candidate_count(task, kDepositsPerVpl));
+    const Deposits deposits =
+        trace_about(stages, task, surface.region(), KeepDeposits::all, deposit_count(task));
     candidates.walks_per_watt = deposits.walk_count / static_cast<double>(task.scene.total_power);
-    const std::vector<Vpl> sorted = stages.vpl_order.upload_sorted(deposits.vpls).download();
-    candidates.vpls.insert(candidates.vpls.end(), sorted.begin(), sorted.end());
+    const std::vector<Vpl> screened = screened_deposits(stages, task, deposits.vpls);
+    candidates.vpls.insert(candidates.vpls.end(), screened.begin(), screened.end());
     return candidates;
 }
 
@@ -100,29 +141,6 @@ std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> ro
         }
     }
     return result;
-}
-
-/// What a close VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square:
-/// importons within the clamp radius, of which a picture (about a steradian) has so many, each by the bounded
-/// term.
-double neighbourhood_error(const SamplingTask& task, Vec3 position) {
-    const double radius = std::max<double>(task.clamp_radius, 1e-3 * task.close_range.range);
-    const double distance = length(position - task.close_range.origin);
-    const double seen = std::min(1.0, M_PI * radius * radius / (distance * distance));
-    return std::sqrt(seen * static_cast<double>(task.view.squared_importon_count)) /
-           (M_PI * M_PI * radius * radius);
-}
-
-std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& task,
-                                     std::span<const Vpl> lit) {
-    std::vector<float> weights = choice_weights(stages, task, lit, ContributionNorm::mean_square);
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        if (is_close(lit[i])) {
-            const double error = neighbourhood_error(task, lit[i].position) * luminance(lit[i].power);
-            weights[i] += static_cast<float>(kNeighbourhoodFloor * error);
-        }
-    }
-    return weights;
 }
 
 /// Draws task.vpl_count candidates; close and distant ones apart where the user gave the split.
@@ -168,14 +186,20 @@ std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float
     return vpls;
 }
 
-/// What arrives at each candidate, roughly, and never nothing.
+/// What arrives at each candidate of the close range, roughly, and never nothing. Elsewhere nobody asks: 0.
 std::vector<Vec3> rough_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
-                              const Candidates& candidates) {
-    std::vector<Vec3> light =
-        incident_light_at(stages, task, sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
+                              std::span<const Vpl> candidates) {
+    std::vector<Vpl> close;
+    std::ranges::copy_if(candidates, std::back_inserter(close), is_close);
+    const std::vector<Vec3> arriving =
+        incident_light_at(stages, task, sparse, close, kRough, task.seed ^ kRoughSeed);
     const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
-    for (Vec3& irradiance : light) {
-        irradiance += Vec3{ambient, ambient, ambient};
+    std::vector<Vec3> light(candidates.size());
+    auto next = arriving.begin();
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (is_close(candidates[i])) {
+            light[i] = *next++ + Vec3{ambient, ambient, ambient};
+        }
     }
     return light;
 }
@@ -199,10 +223,11 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     }
     const Candidates candidates = make_candidates(stages, task, surface);
     const SparseSet rough_sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed);
-    const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates);
+    const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates.vpls);
     const std::vector<float> share = shares(candidates, rough);
     const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
-    const Choice choice = choose(task, lit, selection_weights(stages, task, lit));
+    const Choice choice =
+        choose(task, lit, selection_weights(stages, task, lit, ContributionNorm::mean_square));
 
     VplSet set;
     set.vpls = chosen_vpls(candidates, share, choice);

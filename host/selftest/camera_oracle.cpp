@@ -4,6 +4,7 @@
 #include "host/bvh/segment_distance.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/selftest/close_range_oracle.h"
 #include "host/selftest/ray_comparison.h"
 
 namespace nearlight {
@@ -21,21 +22,6 @@ struct Found {
 
 bool is_absent(const Found& found) {
     return is_zero(found.normal) && is_zero(found.vertex.throughput) && found.vertex.flags == 0;
-}
-
-/// Whether a point lies in the close range, or so near its border that rounding decides.
-bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack) {
-    bool surely_inside = true;
-    bool surely_outside = false;
-    for (const auto& plane : region.planes) {
-        const float height = plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3];
-        surely_inside = surely_inside && height > slack;
-        surely_outside = surely_outside || height < -slack;
-    }
-    const float distance = length(p - region.origin);
-    surely_inside = surely_inside && distance < region.range - slack;
-    surely_outside = surely_outside || distance > region.range + slack;
-    return flag ? !surely_outside : !surely_inside;
 }
 
 bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,

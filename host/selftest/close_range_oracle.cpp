@@ -88,4 +88,18 @@ double nearest_squared_distance(const TriangleCorners& t, const CloseRange& regi
     return best;
 }
 
+bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack) {
+    bool surely_inside = true;
+    bool surely_outside = false;
+    for (const auto& plane : region.planes) {
+        const float height = plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3];
+        surely_inside = surely_inside && height > slack;
+        surely_outside = surely_outside || height < -slack;
+    }
+    const float distance = length(p - region.origin);
+    surely_inside = surely_inside && distance < region.range - slack;
+    surely_outside = surely_outside || distance > region.range + slack;
+    return flag ? !surely_outside : !surely_inside;
+}
+
 }  // namespace nearlight

@@ -15,6 +15,7 @@
 #include "host/scene/pinhole_camera.h"
 #include "host/selftest/camera_oracle.h"
 #include "host/selftest/edge_excuse.h"
+#include "host/selftest/test_rooms.h"
 #include "host/stages/close_range.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
@@ -24,34 +25,6 @@ namespace nearlight {
 namespace {
 
 constexpr std::size_t kTriangles = 3000;
-
-/// A closed room of one albedo: no light is lost but what the albedo takes.
-Scene make_even_room(Vec3 albedo) {
-    Scene scene = make_sphere_room(kTriangles);
-    for (Material& material : scene.materials) {
-        material.base = albedo;
-    }
-    return scene;
-}
-
-/// The room without its lamp, under point and spot lights.
-Scene make_delta_lit_room() {
-    Scene scene = make_sphere_room(kTriangles);
-    for (Material& material : scene.materials) {
-        material.emission = {0, 0, 0};
-    }
-    for (const float x : {-2.5f, -0.5f, 1.5f, 3.0f}) {
-        Emitter light{};
-        light.type = x < 0 ? NEARLIGHT_EMITTER_POINT : NEARLIGHT_EMITTER_SPOT;
-        light.position = {x, 3.5f, 0.5f * x};
-        light.radiance = {1, 2, 3};
-        light.direction = normalize(Vec3{0.2f, -1, 0.1f});
-        light.beam_angle = degrees_to_radians(25);
-        light.cutoff_angle = degrees_to_radians(60);
-        scene.delta_emitters.push_back(light);
-    }
-    return scene;
-}
 
 /// Whether a shadow ray of the receiver passes an edge.
 bool is_excused(EdgeExcuse& edges, const Scene& scene, const ReceiverPacket& packet, std::size_t lane) {
@@ -123,7 +96,7 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
     const Scene scene = make_even_room({kAlbedo, kAlbedo, kAlbedo});
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
     PilotView blind;
-    blind.importons = Buffer<Vpl>(device, 0);
+    blind.importons.vpls = Buffer<Vpl>(device, 0);
     Gatherer gatherer(device);
     VplContribution contribution(device, gatherer);
     MetropolisChains metropolis(device, contribution);

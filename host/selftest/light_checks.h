@@ -12,8 +12,8 @@ namespace nearlight {
 void check_direct_light(Device& device, CheckResult& result);
 /// A case is a colour channel at a depth: in a closed room of albedo ρ walks deposit Φ·ρ^depth.
 void check_light_tracing(Device& device, CheckResult& result);
-/// A case is a depth: chains that follow power alone must come to have depths in proportion to the power there,
-/// whatever the depths of their seeds.
+/// A case is a depth: chains that follow power alone must come to have depths in proportion to the power
+/// there, whatever the depths of their seeds.
 void check_metropolis_chains(Device& device, CheckResult& result);
 /// A case is a receiver, or a lane that must be absent.
 void check_camera_pass(Device& device, CheckResult& result);

@@ -3,9 +3,11 @@
 
 #include "host/selftest/gather_checks.h"
 #include "host/selftest/light_checks.h"
+#include "host/selftest/path_checks.h"
 #include "host/selftest/placement_checks.h"
 #include "host/selftest/primitive_checks.h"
 #include "host/selftest/ray_checks.h"
+#include "host/selftest/vpl_checks.h"
 
 namespace nearlight {
 namespace {
@@ -23,13 +25,19 @@ std::vector<NamedCheck> all_checks() {
             {"morton", check_morton},
             {"classify", check_classifier},
             {"placement", check_placement},
+            {"patch VPLs", check_patch_vpls},
+            {"VPL light", check_vpl_light},
             {"closest hit", check_closest_hit},
             {"any hit", check_any_hit},
             {"gather packets", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::packets, r); }},
             {"gather rays", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::rays, r); }},
             {"direct light", check_direct_light},
+            {"bounce tracing", check_bounce_tracer},
             {"light tracing", check_light_tracing},
+            {"VPL contribution", check_vpl_contribution},
+            {"reverse VPLs", check_reverse_vpls},
             {"metropolis chains", check_metropolis_chains},
+            {"local lights", check_local_lights},
             {"camera pass", check_camera_pass}};
 }
 

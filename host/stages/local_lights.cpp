@@ -2,6 +2,8 @@
 #include "host/stages/local_lights.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 namespace nearlight {
 namespace {
@@ -17,30 +19,52 @@ std::size_t slots_at_a_time(const Device& device) {
 LocalLights::LocalLights(Device& device)
     : device_(&device),
       program_(device, "local_lights.cl"),
+      radii_(program_, "local_light_radii"),
       rays_(program_, "local_light_rays"),
       density_(program_, "local_light_density"),
       gather_(program_, "local_light_gather"),
       compaction_(device) {}
 
-std::size_t LocalLights::make(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+LocalVpls LocalLights::group(const DeviceScene& scene, std::span<const Vpl> vpls,
+                             const LocalLightPlan& plan) {
+    LocalVpls result(*device_);
+    result.count = vpls.size();
+    result.vpls = Buffer<Vpl>(*device_, vpls);
+    result.radii = Buffer<float>(*device_, vpls.size());
+    radii_.launch_items(vpls.size(), scene, result.vpls, static_cast<uint>(vpls.size()), plan.widest_radius,
+                        plan.clamp_radius, plan.radius_at_unit_light, plan.seed, result.radii);
+    const std::vector<float> radii = result.radii.download();
+    std::map<float, std::vector<Vpl>, std::greater<>> by_radius;
+    for (std::size_t i = 0; i < vpls.size(); ++i) {
+        by_radius[radii[i]].push_back(vpls[i]);
+    }
+    for (const auto& [radius, members] : by_radius) {
+        result.groups.push_back({.radius = radius,
+                                 .vpls = Buffer<Vpl>(*device_, std::span<const Vpl>(members)),
+                                 .count = members.size()});
+    }
+    return result;
+}
+
+std::size_t LocalLights::make(const DeviceScene& scene, const LocalVpls& vpls,
                               const Buffer<ReceiverPacket>& receivers, std::size_t first_packet,
                               std::size_t packet_count, const LocalLightPlan& plan, LocalLightSlots& slots) {
     const std::size_t slot_count = packet_count * NEARLIGHT_PACKET_SIZE * plan.rays_per_receiver;
     const uint first = static_cast<uint>(first_packet);
     rays_.launch_items(slot_count, scene, receivers, first, static_cast<uint>(slot_count),
-                       plan.rays_per_receiver, plan.gather_radius, vpls, static_cast<uint>(vpl_count),
+                       plan.rays_per_receiver, plan.widest_radius, plan.clamp_radius,
+                       plan.radius_at_unit_light, vpls.vpls, vpls.radii, static_cast<uint>(vpls.count),
                        plan.connections, plan.bounce_count, plan.direct_samples, plan.seed, slots.lights,
-                       slots.flags);
+                       slots.radii, slots.flags);
     const std::size_t light_count = compaction_.list_set(slots.flags, slot_count, slots.indices);
-    density_.launch_items(light_count, scene, receivers, first, plan.rays_per_receiver, plan.gather_radius,
+    density_.launch_items(light_count, scene, receivers, first, plan.rays_per_receiver, slots.radii,
                           slots.indices, static_cast<uint>(light_count), slots.lights, slots.seen_by);
     return light_count;
 }
 
-std::size_t LocalLights::add(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+std::size_t LocalLights::add(const DeviceScene& scene, const LocalVpls& vpls,
                              const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-                             float clamp_radius, const LocalLightPlan& plan,
-                             Buffer<IrradiancePacket>& irradiance) {
+                             const LocalLightPlan& plan, Buffer<IrradiancePacket>& irradiance) {
     const std::size_t slots_per_packet = std::size_t{NEARLIGHT_PACKET_SIZE} * plan.rays_per_receiver;
     const std::size_t packets_at_a_time = std::clamp<std::size_t>(
         slots_at_a_time(*device_) / slots_per_packet, 1, std::max<std::size_t>(packet_count, 1));
@@ -48,10 +72,10 @@ std::size_t LocalLights::add(const DeviceScene& scene, const Buffer<Vpl>& vpls, 
     std::size_t light_count = 0;
     for (std::size_t first = 0; first < packet_count; first += packets_at_a_time) {
         const std::size_t packets = std::min(packets_at_a_time, packet_count - first);
-        light_count += make(scene, vpls, vpl_count, receivers, first, packets, plan, slots);
+        light_count += make(scene, vpls, receivers, first, packets, plan, slots);
         gather_.launch_items(packets * NEARLIGHT_PACKET_SIZE, scene, receivers, static_cast<uint>(first),
                              static_cast<uint>(packets * NEARLIGHT_PACKET_SIZE), plan.rays_per_receiver,
-                             plan.gather_radius, clamp_radius, slots.lights, slots.flags, slots.seen_by,
+                             plan.clamp_radius, slots.lights, slots.radii, slots.flags, slots.seen_by,
                              irradiance);
     }
     device_->finish();  // the slots must outlive the kernels

@@ -10,7 +10,9 @@ namespace nearlight {
 namespace {
 
 constexpr double kPixelCount = 1024;
+/// They only steer a choice, and are asked by many candidates.
 constexpr std::size_t kSquaredImportons = 512;
+constexpr std::size_t kFewSquaredImportons = 32;
 
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
     std::vector<float> distances;
@@ -27,17 +29,17 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
     return distances;
 }
 
-/// Fewer of them: they only steer a choice, and are asked by many candidates.
-std::vector<Vpl> squared_importons(std::span<const Vpl> importons) {
-    const std::size_t count = std::min(importons.size(), kSquaredImportons);
-    std::vector<Vpl> result;
+/// `wanted` of them, evenly spread, squared.
+Importons squared_importons(Device& device, std::span<const Vpl> importons, std::size_t wanted) {
+    const std::size_t count = std::min(importons.size(), wanted);
+    std::vector<Vpl> squared;
     for (std::size_t i = 0; i < count; ++i) {
         Vpl importon = importons[i * importons.size() / count];
         importon.power = importon.power * importon.power * (1.0f / kPi);
         importon.flags = NEARLIGHT_VPL_SQUARED;
-        result.push_back(importon);
+        squared.push_back(importon);
     }
-    return result;
+    return {.vpls = Buffer<Vpl>(device, std::span<const Vpl>(squared)), .count = count};
 }
 
 }  // namespace
@@ -63,11 +65,21 @@ std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
 }
 
 void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons) {
-    view.importons = Buffer<Vpl>(device, importons);
-    view.importon_count = importons.size();
-    const std::vector<Vpl> squared = squared_importons(importons);
-    view.squared_importons = Buffer<Vpl>(device, std::span(squared));
-    view.squared_importon_count = squared.size();
+    view.importons = {.vpls = Buffer<Vpl>(device, importons), .count = importons.size()};
+    view.squared_importons = squared_importons(device, importons, kSquaredImportons);
+    view.few_squared_importons = squared_importons(device, importons, kFewSquaredImportons);
+}
+
+const Importons& PilotView::importons_of(ContributionNorm norm) const {
+    switch (norm) {
+        case ContributionNorm::mean:
+            return importons;
+        case ContributionNorm::mean_square:
+            return squared_importons;
+        case ContributionNorm::rough_mean_square:
+            return few_squared_importons;
+    }
+    return importons;
 }
 
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,

@@ -10,26 +10,38 @@
 
 namespace nearlight {
 
+/// What is asked of importons; kernels/vpl_contribution.cl has the formulas.
+enum class ContributionNorm {
+    mean,               ///< what a VPL brings: luminance
+    mean_square,        ///< what it would add to the error of the picture, if it was chosen by chance
+    rough_mean_square,  ///< the same by few importons, to screen many VPLs
+};
+
+/// Receivers as senders of importance: power is the response of the camera to what they reflect (the albedo
+/// times the weight of the camera path), so that a gather from them tells what a VPL would bring to the
+/// camera. For mean squares, powers are squares, and they are marked for squared geometry terms.
+struct Importons {
+    Buffer<Vpl> vpls;
+    std::size_t count = 0;
+};
+
 struct PilotView {
     Buffer<ReceiverPacket> receivers;
     Buffer<CameraVertex> vertices;
     uint packet_count = 0;
-    /// The receivers as senders of importance: power is the response of the camera to what they reflect (the
-    /// albedo times the weight of the camera path), so that a gather from them tells what a VPL would bring
-    /// to the camera.
-    Buffer<Vpl> importons;
-    /// Some of them, with squared responses and marked for squared geometry terms.
-    Buffer<Vpl> squared_importons;
-    std::size_t squared_importon_count = 0;
-    std::size_t importon_count = 0;
+    Importons importons;
+    Importons squared_importons;      ///< some of them
+    Importons few_squared_importons;  ///< still fewer, evenly spread too
     std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
+
+    [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;
 };
 
 /// What the camera sees of light, one importon for each receiver that reflects any of it.
 std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
                                 const std::vector<CameraVertex>& vertices);
 
-/// Uploads them, and their squares.
+/// Uploads them, and the squares of some.
 void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons);
 
 /// About a thousand receivers, evenly spread over the view.

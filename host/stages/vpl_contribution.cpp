@@ -13,7 +13,8 @@ VplContribution::VplContribution(Device& device, Gatherer& gatherer)
 void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                           const PilotView& view, float clamp_radius, Buffer<float>& contribution,
                           ContributionNorm norm) {
-    const bool squared = norm == ContributionNorm::mean_square;
+    const bool squared = norm != ContributionNorm::mean;
+    const Importons& importons = view.importons_of(norm);
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
     Buffer<IrradiancePacket> importance(*device_, packets);
@@ -22,8 +23,8 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
                        .triangles = scene.bvh_triangles,
                        .wide_nodes = scene.wide_nodes,
                        .blocks = scene.blocks,
-                       .vpls = squared ? view.squared_importons : view.importons,
-                       .vpl_count = squared ? view.squared_importon_count : view.importon_count,
+                       .vpls = importons.vpls,
+                       .vpl_count = importons.count,
                        .receivers = receivers,
                        .packet_count = packets,
                        .clamp_radius = clamp_radius},

@@ -10,12 +10,6 @@
 
 namespace nearlight {
 
-/// What is summed over the importons; kernels/vpl_contribution.cl has the formulas.
-enum class ContributionNorm {
-    mean,         ///< what a VPL brings: luminance
-    mean_square,  ///< what it would add to the error of the picture, if it was chosen by chance
-};
-
 class VplContribution {
   public:
     /// Gathers with `gatherer`, which must outlive it.

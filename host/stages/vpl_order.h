@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// VPLs in an order in which neighbours are neighbours in space, so that the gather finds its nodes in the cache.
+// VPLs in an order in which neighbours are neighbours in space, so that the gather finds its nodes in the
+// cache.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <span>
+#include <vector>
 
 #include "host/stages/compaction.h"
 #include "host/stages/morton_sort.h"
@@ -22,6 +26,21 @@ class VplOrder {
         compaction_.gather(unsorted, order, vpls.size(), sorted);
         device_->finish();  // `unsorted` must outlive the kernel
         return sorted;
+    }
+
+    /// The same order on the host: only positions are on the device meanwhile, so many more of them fit.
+    std::vector<Vpl> sorted(std::span<const Vpl> vpls) {
+        std::vector<Vec3> positions;
+        positions.reserve(vpls.size());
+        std::ranges::transform(vpls, std::back_inserter(positions), &Vpl::position);
+        Buffer<uint> order(*device_, vpls.size());
+        morton_sort_.order(Buffer<Vec3>(*device_, std::span<const Vec3>(positions)), vpls.size(), order);
+        std::vector<Vpl> result;
+        result.reserve(vpls.size());
+        for (const uint index : order.download()) {
+            result.push_back(vpls[index]);
+        }
+        return result;
     }
 
   private:

@@ -32,6 +32,13 @@ TEST(WideBvh, HoldsFlatBoxesAndFullLeaves) {
     EXPECT_THAT(check_wide_bvh(widen(full), full), IsEmpty());
 }
 
+TEST(WideBvh, HoldsCutTriangles) {
+    const Bvh bvh =
+        test::build_all(test::diagonals(2000, 7), {.quality = BvhQuality::quality, .max_duplication = 1.0f});
+    ASSERT_GT(bvh.triangles.size(), 2000u);
+    EXPECT_THAT(check_wide_bvh(widen(bvh), bvh), IsEmpty());
+}
+
 TEST(WideBvh, SceneWithoutTriangles) {
     const Bvh bvh = build_bvh(test::scene_of_one_material(), {});
     EXPECT_THAT(check_wide_bvh(widen(bvh), bvh), IsEmpty());

@@ -27,10 +27,13 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
             EXPECT_EQ(check["mismatches"], 0) << check;
             EXPECT_EQ(check["pass"], true) << check;
         }
-        EXPECT_EQ(names, (std::vector<std::string>{"layout", "scan", "compaction", "sort", "morton",
-                                                   "classify", "placement", "closest hit", "any hit",
-                                                   "gather packets", "gather rays", "direct light",
-                                                   "light tracing", "metropolis chains", "camera pass"}));
+        EXPECT_EQ(names, (std::vector<std::string>{
+                             "layout",           "scan",         "compaction",        "sort",
+                             "morton",           "classify",     "placement",         "patch VPLs",
+                             "VPL light",        "closest hit",  "any hit",           "gather packets",
+                             "gather rays",      "direct light", "bounce tracing",    "light tracing",
+                             "VPL contribution", "reverse VPLs", "metropolis chains", "local lights",
+                             "camera pass"}));
     }
 }
 

@@ -61,6 +61,14 @@ TEST(EqualRmse, WhatDoesNotImproveNeverArrives) {
     }
 }
 
+TEST(EqualRmse, AHundredTimesWhatWasMeasuredIsOutOfReach) {
+    const Curve near_enough = half_power(9.9);  // 98 times 1600
+    const Curve hopeless = half_power(10.1);
+    const auto groups = equal_rmse(std::vector{half_power(1.0), near_enough, hopeless}, 0);
+    EXPECT_EQ(groups[2].rows[1].reach, Reach::extrapolated);
+    EXPECT_EQ(groups[2].rows[2].reach, Reach::never);
+}
+
 TEST(EqualRmse, AFloorIsNeverPassed) {
     Curve curve = half_power(1.0);
     curve.floor = 0.04;

@@ -55,7 +55,7 @@ void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count,
 TEST_P(ImportanceSamplerTest, KeepsTheLightOfEachDepth) {
     on_each_device([](Device& device) {
         SamplingBench bench(device, divided_room());
-        ASSERT_GT(bench.view().importon_count, 500u);
+        ASSERT_GT(bench.view().importons.count, 500u);
         expect_all_light(bench, GetParam(), 900, 50, 0.03);
     });
 }
@@ -133,7 +133,7 @@ TEST_P(ImportanceSamplerTest, SeesNothingAndStillKeepsTheLight) {
     set_camera(scene, {0, 0, 10}, {0, 0, 20}, 40);
     on_each_device([&](Device& device) {
         SamplingBench bench(device, scene);
-        ASSERT_EQ(bench.view().importon_count, 0u);
+        ASSERT_EQ(bench.view().importons.count, 0u);
         expect_all_light(bench, GetParam(), 300, 10, 0.05);
     });
 }
@@ -144,7 +144,7 @@ TEST_P(ImportanceSamplerTest, WhatNoLightReachesIsNoTrouble) {
     add_quad(scene, {0.4f, -1, 0}, {0, 2, 0}, {0.6f, 0, 0}, 0);  // closes the gap
     on_each_device([&](Device& device) {
         SamplingBench bench(device, scene);
-        ASSERT_GT(bench.view().importon_count, 500u);
+        ASSERT_GT(bench.view().importons.count, 500u);
         expect_all_light(bench, GetParam(), 900, 4, 0.05);
     });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/local_lights.h"
 
+#include <functional>
+
 #include "host/base/random.h"
 #include "host/scene/ray_epsilon.h"
 #include "tests/support/device_fixture.h"
@@ -95,7 +97,8 @@ Vec3 exitance(const Bvh& bvh, const Vpl& light) {
 
 constexpr float kRadius = 0.5f;
 LocalLightPlan plan_of(uint bounce_count) {
-    return {.gather_radius = kRadius,
+    return {.clamp_radius = 0.01f,
+            .widest_radius = kRadius,
             .rays_per_receiver = kRays,
             .direct_samples = 1,
             .bounce_count = bounce_count,
@@ -109,8 +112,8 @@ TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
         const std::size_t count = LocalLights(device).make(
-            on_device.buffers, Buffer<Vpl>(device, 0), 0,
-            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(1), slots);
+            on_device.buffers, LocalVpls(device), Buffer<ReceiverPacket>(device, std::span(receivers)), 0,
+            receivers.size(), plan_of(1), slots);
         const std::vector<Vpl> lights = slots.lights.download();
         const std::vector<uint> flags = slots.flags.download();
         EXPECT_EQ(count, static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1u)));
@@ -138,8 +141,8 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
         const std::size_t count = LocalLights(device).make(
-            on_device.buffers, Buffer<Vpl>(device, 0), 0,
-            Buffer<ReceiverPacket>(device, std::span(receivers)), 0, receivers.size(), plan_of(3), slots);
+            on_device.buffers, LocalVpls(device), Buffer<ReceiverPacket>(device, std::span(receivers)), 0,
+            receivers.size(), plan_of(3), slots);
         std::vector<uint> indices = slots.indices.download();
         indices.resize(count);
         const std::vector<Vpl> lights = slots.lights.download();
@@ -166,14 +169,14 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
 std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
                                 const std::vector<ReceiverPacket>& receivers, float clamp_radius,
                                 LocalLightPlan plan, int runs) {
+    plan.clamp_radius = clamp_radius;
     LocalLights stage(device);
     const Buffer<ReceiverPacket> input(device, std::span(receivers));
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     irradiance.fill_zero();
     for (int run = 0; run < runs; ++run) {
         plan.seed = 100 + static_cast<uint>(run);
-        stage.add(scene.buffers, Buffer<Vpl>(device, 0), 0, input, receivers.size(), clamp_radius, plan,
-                  irradiance);
+        stage.add(scene.buffers, LocalVpls(device), input, receivers.size(), plan, irradiance);
     }
     const std::vector<IrradiancePacket> sums = irradiance.download();
     std::vector<Vec3> means;
@@ -183,9 +186,9 @@ std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
     return means;
 }
 
-/// ∫ (G_R − G_Rg) over the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2, from a point of the floor, by the midpoint
-/// rule.
-double wall_remainder(Vec3 x, double clamp_radius, double gather_radius) {
+/// ∫ L_o (G_R − G_Rg) over the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2, from a point of the floor, by the midpoint
+/// rule. `irradiance` of a point of the wall is L_o·π, and R_g follows from it as the plan says.
+double wall_remainder(Vec3 x, const LocalLightPlan& plan, const std::function<double(Vec3)>& irradiance) {
     constexpr int kSteps = 1000;
     const double step = 2.0 / kSteps;
     const double depth = 1.0 - x.z;
@@ -195,37 +198,106 @@ double wall_remainder(Vec3 x, double clamp_radius, double gather_radius) {
             const double dx = -1 + (i + 0.5) * step - x.x;
             const double dy = (j + 0.5) * step - x.y;
             const double squared = dx * dx + dy * dy + depth * depth;
-            if (squared < gather_radius * gather_radius && dy > 0) {
-                sum += depth * dy / squared *
-                       (1 / std::max(squared, clamp_radius * clamp_radius) -
-                        1 / (gather_radius * gather_radius));
+            if (squared > plan.widest_radius * plan.widest_radius || dy < 0) {
+                continue;
             }
+            const double e = irradiance({float(dx) + x.x, float(dy) + x.y, 1});
+            double radius = plan.widest_radius;
+            for (int level = 1; level < 4 && radius * std::sqrt(e) > plan.radius_at_unit_light; ++level) {
+                radius /= 2;
+            }
+            const auto bounded = [&](double r) { return 1 / std::max(squared, r * r); };
+            sum += e / M_PI * depth * dy / squared * (bounded(plan.clamp_radius) - bounded(radius));
         }
     }
     return sum * step * step;
 }
 
-/// A white wall on a black floor. The lamp is so far away that the wall's irradiance is even, I/d² = π, and
-/// the radiance that it reflects 1.
-TEST_F(LocalLightsTest, AddTheRemainderOfAWall) {
-    Scene scene;
-    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0, 0, 0})));
-    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
-    add_point_light(scene, {0, 1, -1000}, {1e6f * kPi, 1e6f * kPi, 1e6f * kPi});
+/// On the floor, near the wall.
+std::vector<ReceiverPoint> points_before_wall() {
     std::vector<ReceiverPoint> points;
     Pcg32 random(8);
     for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
         const float x = 0.2f * random.uniform();
         points.push_back({{x, 1e-4f, 0.55f + 0.4f * random.uniform()}, {0, 1, 0}});
     }
-    on_each_device([&](Device& device) {
-        const SceneOnDevice on_device(device, scene);
-        const std::vector<Vec3> found =
-            mean_addition(device, on_device, test::pack_receivers(points), 0.1f, plan_of(1), 400);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double expected = wall_remainder(points[i].position, 0.1, kRadius);
-            EXPECT_NEAR(found[i].y, expected, 0.02 * expected + 0.002) << "receiver " << i;
+    return points;
+}
+
+/// A white wall on a black floor, under a lamp.
+Scene wall_under(Vec3 lamp, float intensity) {
+    Scene scene;
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0, 0, 0})));
+    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_point_light(scene, lamp, {intensity, intensity, intensity});
+    return scene;
+}
+
+void expect_remainder_of_wall(Device& device, Vec3 lamp, float intensity, LocalLightPlan plan) {
+    plan.clamp_radius = 0.1f;
+    const auto irradiance = [&](Vec3 y) {
+        const Vec3 to_lamp = lamp - y;
+        return -double(intensity) * to_lamp.z / std::pow(double(length(to_lamp)), 3);
+    };
+    const std::vector<ReceiverPoint> points = points_before_wall();
+    const SceneOnDevice scene(device, wall_under(lamp, intensity));
+    const std::vector<Vec3> found =
+        mean_addition(device, scene, test::pack_receivers(points), plan.clamp_radius, plan, 4000);
+    double expected_sum = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double expected = wall_remainder(points[i].position, plan, irradiance);
+        EXPECT_NEAR(found[i].y, expected, 0.1 * expected + 0.003) << "receiver " << i;
+        expected_sum += expected;
+        sum += found[i].y;
+    }
+    EXPECT_NEAR(sum, expected_sum, 0.015 * expected_sum);
+}
+
+/// The lamp is so far away that the wall's irradiance is even, I/d² = π.
+TEST_F(LocalLightsTest, AddTheRemainderOfAWall) {
+    on_each_device([](Device& device) {
+        expect_remainder_of_wall(device, {0, 1, -1000}, 1e6f * kPi, plan_of(1));
+    });
+}
+
+/// Near the lamp R_g is an eighth of the widest, in the corners all of it.
+TEST_F(LocalLightsTest, AddTheRemainderWhereTheRadiusFollowsTheLight) {
+    on_each_device([](Device& device) {
+        LocalLightPlan plan = plan_of(1);
+        plan.radius_at_unit_light = 0.2f;
+        expect_remainder_of_wall(device, {0.1f, 0.3f, 0.6f}, 0.5f, plan);
+    });
+}
+
+/// VPLs of one radius are gathered together, and none is lost.
+TEST_F(LocalLightsTest, VplsAreGroupedByTheLightWhereTheyLie) {
+    on_each_device([](Device& device) {
+        const Vec3 lamp{0.1f, 0.3f, 0.6f};
+        const SceneOnDevice scene(device, wall_under(lamp, 0.5f));
+        std::vector<Vpl> vpls(300);
+        Pcg32 random(3);
+        for (Vpl& vpl : vpls) {
+            const float x = 2 * random.uniform() - 1;
+            vpl.position = {x, 2 * random.uniform(), 1 - 1e-4f};
+            vpl.normal = {0, 0, -1};
         }
+        LocalLightPlan plan = plan_of(1);
+        plan.radius_at_unit_light = 0.2f;
+        const LocalVpls found = LocalLights(device).group(scene.buffers, vpls, plan);
+        ASSERT_EQ(found.groups.size(), 4u);
+        std::size_t count = 0;
+        for (const LocalVpls::Group& group : found.groups) {
+            count += group.count;
+            for (const Vpl& vpl : group.vpls.download()) {
+                const double distance = length(lamp - vpl.position);
+                const double wanted =
+                    plan.radius_at_unit_light / std::sqrt(0.5 * 0.4 / std::pow(distance, 3));
+                EXPECT_TRUE(group.radius <= wanted * 1.001 || group.radius == kRadius / 8);
+                EXPECT_TRUE(2 * group.radius > wanted * 0.999 || group.radius == kRadius);
+            }
+        }
+        EXPECT_EQ(count, vpls.size());
     });
 }
 

@@ -29,7 +29,7 @@ struct Furnace {
           chains(device, contribution),
           states(device, kStates, kDepths),
           proposed(device, kStates, kDepths) {
-        view.importons = Buffer<Vpl>(device, 0);
+        view.importons.vpls = Buffer<Vpl>(device, 0);
     }
     static Scene make_scene() {
         Scene scene;
@@ -157,8 +157,8 @@ TEST_F(MetropolisChainsTest, TargetsAreContributionsOfTheirOwnStates) {
                                  .power = {1, 1, 1},
                                  .pad0 = 0});
         }
-        furnace.view.importons = Buffer<Vpl>(device, std::span<const Vpl>(importons));
-        furnace.view.importon_count = importons.size();
+        furnace.view.importons.vpls = Buffer<Vpl>(device, std::span<const Vpl>(importons));
+        furnace.view.importons.count = importons.size();
         const PathSpace space = furnace.space(device);
         furnace.seed(device, space, 100);
         Buffer<float> contribution(device, kStates);

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bvh/child_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/base/random.h"
+#include "host/bvh/ray_tests.h"
+#include "host/bvh/sah_builder.h"
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight {
+namespace {
+
+constexpr int kSegments = 4000;
+constexpr int kTries = 4 * kSegments;  // of pairs of points, of which many face away from each other
+constexpr std::uint64_t kSeed = 7;
+/// What areas say counts as much as this many segments.
+constexpr double kPrior = 8.0;
+
+/// What a segment that meets a box does below it.
+struct Passage {
+    bool hit = false;
+    float cost = 0.0f;  ///< nodes and triangles
+};
+
+/// Sums over segments that met one child.
+struct Record {
+    float visits = 0.0f;
+    float hits = 0.0f;
+    float cost = 0.0f;
+
+    void add(const Passage& passage) {
+        visits += 1.0f;
+        hits += passage.hit ? 1.0f : 0.0f;
+        cost += passage.cost;
+    }
+};
+struct Records {
+    Record left;
+    Record right;
+};
+
+/// A segment that visits everything on its way, hits or not: every box it meets counts.
+class Survey {
+  public:
+    explicit Survey(const Bvh& bvh) : bvh_(bvh), records_(bvh.nodes.size()) {}
+
+    void trace(const TestRay& ray) { visit(0, ray); }
+    [[nodiscard]] const std::vector<Records>& records() const { return records_; }
+
+  private:
+    Passage visit(uint reference, const TestRay& ray) {
+        if (is_leaf(reference)) {
+            return visit_leaf(reference, ray);
+        }
+        const BvhNode& node = bvh_.nodes[reference];
+        Passage sum{false, 1.0f};
+        const auto visit_child = [&](uint child, Vec3 low, Vec3 high, Record& record) {
+            if (std::isinf(enter_box(ray, 1.0f, low, high))) {
+                return;
+            }
+            const Passage passage = visit(child, ray);
+            record.add(passage);
+            sum.cost += sum.hit ? 0.0f : passage.cost;
+            sum.hit = sum.hit || passage.hit;
+        };
+        visit_child(node.left, node.left_min, node.left_max, records_[reference].left);
+        visit_child(node.right, node.right_min, node.right_max, records_[reference].right);
+        return sum;
+    }
+
+    [[nodiscard]] Passage visit_leaf(uint leaf, const TestRay& ray) const {
+        Passage sum;
+        for (uint i = leaf_first(leaf); i < leaf_first(leaf) + leaf_count(leaf) && !sum.hit; ++i) {
+            BvhHit hit;
+            hit.t = NEARLIGHT_SEGMENT_T_MAX;
+            sum.cost += 1.0f;
+            sum.hit = intersect(bvh_.triangles[i], ray, hit);
+        }
+        return sum;
+    }
+
+    const Bvh& bvh_;
+    std::vector<Records> records_;
+};
+
+struct SurfacePoint {
+    Vec3 position;  ///< stands off
+    Vec3 normal;
+};
+
+/// Points on the fronts of triangles, evenly by area.
+class Surfaces {
+  public:
+    Surfaces(const Scene& scene, std::span<const uint> ids)
+        : scene_(scene), ids_(ids), extent_(max_component(bounds(scene).size())) {
+        cumulative_.reserve(ids.size());
+        double area = 0.0;
+        for (const uint id : ids) {
+            cumulative_.push_back(area += triangle_area(scene, scene.triangles[id]));
+        }
+    }
+    [[nodiscard]] bool usable() const {
+        return !cumulative_.empty() && cumulative_.back() > 0.0 && std::isfinite(cumulative_.back());
+    }
+    [[nodiscard]] SurfacePoint pick(Pcg32& random) const {
+        const double wanted = random.uniform() * cumulative_.back();
+        const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, wanted);
+        const Triangle& triangle = scene_.triangles[ids_[static_cast<std::size_t>(at - cumulative_.begin())]];
+        const Vec3 v0 = scene_.vertices[triangle.v0].position;
+        const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
+        const Vec3 edge2 = scene_.vertices[triangle.v2].position - v0;
+        const float root = std::sqrt(random.uniform());
+        const float v = root * random.uniform();
+        const Vec3 normal = normalize(cross(edge1, edge2));
+        return {stand_off(v0 + edge1 * (1.0f - root) + edge2 * v, normal, extent_), normal};
+    }
+
+  private:
+    const Scene& scene_;
+    std::span<const uint> ids_;
+    std::vector<double> cumulative_;
+    float extent_;
+};
+
+std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
+    Survey result(bvh);
+    const Surfaces surfaces(scene, ids);
+    Pcg32 random(kSeed);
+    int traced = 0;
+    for (int i = 0; surfaces.usable() && i < kTries && traced < kSegments; ++i) {
+        const SurfacePoint from = surfaces.pick(random);
+        const SurfacePoint to = surfaces.pick(random);
+        const Vec3 direction = to.position - from.position;
+        if (dot(direction, from.normal) > 0.0f && dot(direction, to.normal) < 0.0f) {
+            result.trace(make_test_ray(from.position, direction, NEARLIGHT_SEGMENT_T_MIN));
+            ++traced;
+        }
+    }
+    return result.records();
+}
+
+/// Of a ray that meets a box.
+struct Expectation {
+    double chance = 0.0;  ///< that it hits something in it
+    double cost = 0.0;
+};
+
+class Orderer {
+  public:
+    Orderer(Bvh& bvh, std::span<const Records> records) : bvh_(bvh), records_(records) {}
+
+    Expectation order(uint reference, double area) {
+        if (is_leaf(reference)) {
+            return expect_leaf(reference, area);
+        }
+        BvhNode& node = bvh_.nodes[reference];
+        const double left_area = Aabb{node.left_min, node.left_max}.half_area();
+        const double right_area = Aabb{node.right_min, node.right_max}.half_area();
+        Expectation first = blend(order(node.left, left_area), records_[reference].left);
+        Expectation second = blend(order(node.right, right_area), records_[reference].right);
+        double meets_first = share(left_area, area);
+        double meets_second = share(right_area, area);
+        if (second.chance * first.cost > first.chance * second.cost) {
+            std::swap(node.left, node.right);
+            std::swap(node.left_min, node.right_min);
+            std::swap(node.left_max, node.right_max);
+            std::swap(first, second);
+            std::swap(meets_first, meets_second);
+        }
+        const double misses_first = 1.0 - meets_first * first.chance;
+        return {1.0 - misses_first * (1.0 - meets_second * second.chance),
+                1.0 + meets_first * first.cost + misses_first * meets_second * second.cost};
+    }
+
+  private:
+    static double share(double part, double whole) { return part < whole ? part / whole : 1.0; }
+    static Expectation blend(const Expectation& by_area, const Record& counted) {
+        const double weight = kPrior + counted.visits;
+        return {(kPrior * by_area.chance + counted.hits) / weight,
+                (kPrior * by_area.cost + counted.cost) / weight};
+    }
+    /// A random line that meets a box meets a triangle in it with chance area ÷ half area of the box.
+    [[nodiscard]] Expectation expect_leaf(uint leaf, double area) const {
+        double covered = 0.0;
+        for (uint i = leaf_first(leaf); i < leaf_first(leaf) + leaf_count(leaf); ++i) {
+            covered += 0.5 * length(bvh_.triangles[i].normal);
+        }
+        return {share(covered, area), static_cast<double>(leaf_count(leaf))};
+    }
+
+    Bvh& bvh_;
+    std::span<const Records> records_;
+};
+
+/// Appends the subtree of `index` in depth-first order.
+uint append(const std::vector<BvhNode>& nodes, uint index, std::vector<BvhNode>& ordered) {
+    if (is_leaf(index)) {
+        return index;
+    }
+    const auto place = static_cast<uint>(ordered.size());
+    ordered.push_back(nodes[index]);
+    const uint left = append(nodes, nodes[index].left, ordered);
+    const uint right = append(nodes, nodes[index].right, ordered);
+    ordered[place].left = left;
+    ordered[place].right = right;
+    return place;
+}
+
+}  // namespace
+
+void order_children(Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
+    const BvhNode& root = bvh.nodes.front();
+    if (root.left == root.right) {
+        return;
+    }
+    Aabb box{root.left_min, root.left_max};
+    box.extend({root.right_min, root.right_max});
+    const std::vector<Records> records = survey(bvh, scene, ids);
+    Orderer(bvh, records).order(0, box.half_area());
+    std::vector<BvhNode> ordered;
+    ordered.reserve(bvh.nodes.size());
+    append(bvh.nodes, 0, ordered);
+    bvh.nodes = std::move(ordered);
+}
+
+}  // namespace nearlight

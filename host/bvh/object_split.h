@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where to part references into two sets: binned surface area heuristic [Wald, On fast Construction of
+// SAH-based Bounding Volume Hierarchies, 2007].
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "host/bvh/reference.h"
+
+namespace nearlight {
+
+constexpr int kMinBins = 8;
+constexpr int kMaxBins = 64;
+
+/// Maps centres of boxes to bins.
+class BinMapping {
+  public:
+    BinMapping(const Box4& centers, int bin_count);
+    [[nodiscard]] int operator()(const float* center, int axis) const {
+        const float x = (center[axis] - low_[axis]) * scale_[axis];
+        return x > 0.0f ? static_cast<int>(x < last_ ? x : last_) : 0;  // not-a-number goes to 0 as well
+    }
+
+  private:
+    float low_[3];
+    float scale_[3];
+    float last_;
+};
+
+/// A plane between bins of one axis.
+struct ObjectSplit {
+    float cost = std::numeric_limits<float>::infinity();  ///< Σ half area · references of both sides
+    int axis = -1;                                        ///< −1: no plane parts the centres
+    int last_left_bin = 0;
+    Box4 left = Box4::empty();
+    Box4 right = Box4::empty();
+};
+
+/// The cheapest one. `bin_count` lies in [kMinBins, kMaxBins].
+ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping, int bin_count);
+
+/// Moves those left of the plane to the front, and returns how many they are.
+std::size_t partition(std::span<Reference> range, const BinMapping& mapping, const ObjectSplit& split);
+
+/// Puts the lower half along the longest axis of the centres first: (size + 1) / 2 references.
+void split_in_halves(std::span<Reference> range, const RangeBounds& bounds);
+
+}  // namespace nearlight

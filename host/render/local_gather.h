@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gather of the sampler `local`: VPLs under wide bounds, and local lights for what those take away.
+#pragma once
+
+#include "host/stages/gatherer.h"
+#include "host/stages/local_lights.h"
+#include "host/stages/vpl_light.h"
+
+namespace nearlight {
+
+class LocalGather {
+  public:
+    /// Compiles the kernels.
+    explicit LocalGather(Device& device)
+        : device_(&device), lights_(device), vpl_light_(device), vpls_(device) {}
+
+    /// For one picture. `sorted_vpls` are of all depths, in Morton order.
+    void set_vpls(const DeviceScene& scene, std::span<const Vpl> sorted_vpls, const LocalLightPlan& plan);
+
+    /// Irradiance of the receivers in the first packet_count packets. False if cancelled.
+    bool run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+             std::size_t packet_count, Buffer<IrradiancePacket>& irradiance, const GatherProgress& progress);
+
+    /// That were made since set_vpls().
+    [[nodiscard]] std::size_t light_count() const { return light_count_; }
+
+  private:
+    Device* device_;
+    LocalLights lights_;
+    VplLight vpl_light_;
+    LocalVpls vpls_;
+    LocalLightPlan plan_;
+    std::size_t light_count_ = 0;
+};
+
+}  // namespace nearlight

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/vpl_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "host/base/random.h"
+#include "host/bench/gather_workload.h"
+#include "host/reference/embree_scene.h"
+#include "host/reference/reference_gather.h"
+#include "host/reference/surface.h"
+#include "host/scene/material_model.h"
+#include "host/scene/pinhole_camera.h"
+#include "host/scene/ray_epsilon.h"
+#include "host/selftest/close_range_oracle.h"
+#include "host/selftest/edge_excuse.h"
+#include "host/selftest/test_rays.h"
+#include "host/selftest/test_rooms.h"
+#include "host/stages/close_range.h"
+#include "host/stages/patch_vpls.h"
+#include "host/stages/pilot_view.h"
+#include "host/stages/reverse_vpls.h"
+#include "host/stages/vpl_contribution.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kClampRadius = 0.05f;
+
+Vec3 random_vector(Pcg32& random) {
+    const float x = random.uniform();
+    const float y = random.uniform();
+    return {x, y, random.uniform()};
+}
+
+std::vector<Vpl> random_vpls(std::size_t count) {
+    Pcg32 random(8);
+    std::vector<Vpl> vpls(count);
+    for (Vpl& vpl : vpls) {
+        vpl.position = random_vector(random);
+        vpl.normal = random_vector(random);
+        vpl.power = random_vector(random);
+    }
+    return vpls;
+}
+
+/// Irradiance of lane i is (i, 2i, 1): exact in single precision, and so are its multiples by two.
+std::vector<IrradiancePacket> ramp(std::size_t packets) {
+    std::vector<IrradiancePacket> light(packets);
+    for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
+        const auto value = static_cast<float>(i);
+        light[i / NEARLIGHT_PACKET_SIZE].r[i % NEARLIGHT_PACKET_SIZE] = value;
+        light[i / NEARLIGHT_PACKET_SIZE].g[i % NEARLIGHT_PACKET_SIZE] = 2 * value;
+        light[i / NEARLIGHT_PACKET_SIZE].b[i % NEARLIGHT_PACKET_SIZE] = 1;
+    }
+    return light;
+}
+
+/// On triangles of random ones of which each second is two-sided.
+std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count) {
+    Pcg32 random(12);
+    std::vector<SurfaceSample> samples;
+    while (samples.size() < count) {
+        const auto id = static_cast<uint>(random.next() % scene.triangles.size());
+        const Triangle& t = scene.triangles[id];
+        const Vec3 a = scene.vertices[t.v0].position;
+        const Vec3 b = scene.vertices[t.v1].position - a;
+        const Vec3 c = scene.vertices[t.v2].position - a;
+        const Vec3 normal = normalize(cross(b, c));
+        if (is_zero(normal)) {
+            continue;
+        }
+        const float u = random.uniform();
+        const float v = (1 - u) * random.uniform();
+        SurfaceSample& sample = samples.emplace_back();
+        sample.position = a + b * u + c * v;
+        sample.triangle = id;
+        sample.normal = normal;
+    }
+    return samples;
+}
+
+/// The column sum over receivers, or the root of the sum of squares; `response` is the camera's.
+double column_norm(const EmbreeScene& embree, const Vpl& vpl, std::span<const ReceiverPacket> receivers,
+                   std::span<const CameraVertex> response, ContributionNorm norm) {
+    std::vector<IrradiancePacket> irradiance(receivers.size());
+    gather_reference(embree, std::span(&vpl, 1), kClampRadius, receivers, irradiance);
+    double sum = 0;
+    for (std::size_t i = 0; i < response.size(); ++i) {
+        const Vec3 seen =
+            response[i].throughput * response[i].albedo * irradiance_at(irradiance, i) * (1 / kPi);
+        sum += norm == ContributionNorm::mean ? luminance(seen) : dot(seen, seen);
+    }
+    return norm == ContributionNorm::mean ? sum : std::sqrt(sum);
+}
+
+bool any_excused(EdgeExcuse& edges, const Vpl& vpl, std::span<const ReceiverPacket> receivers) {
+    for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        const RoomPoint x = receiver_at(receivers, i);
+        if (!is_zero(x.normal) && edges.excuses(vpl.position, x.position)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether `vpl` is what Embree's ray from `point` through it meets.
+bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, const Vpl& point,
+                  const Vpl& vpl) {
+    const Vec3 on_surface = vpl.position - vpl.normal * ray_epsilon(vpl.position, extent);
+    const Vec3 direction = normalize(on_surface - point.position);
+    const BvhHit hit =
+        embree.closest_hit(point.position, direction, 0.0f, std::numeric_limits<float>::infinity());
+    if (hit.triangle == ~0u) {
+        return false;
+    }
+    const Surface surface = surface_at(scene, hit, direction);
+    const float slack = 2e-5f * extent / std::max(-dot(surface.geometric_normal, direction), 1e-3f);
+    return length(surface.position - on_surface) <= slack &&
+           length(surface.geometric_normal - vpl.normal) <= 1e-4f &&
+           length(light_albedo(scene, *surface.material, surface.u, surface.v) - vpl.power) <= 1e-5f &&
+           vpl.depth == 0;
+}
+
+}  // namespace
+
+void check_vpl_light(Device& device, CheckResult& result) {
+    constexpr std::size_t kCount = 1000;
+    const std::size_t packets = receiver_packet_count(kCount);
+    const std::vector<Vpl> vpls = random_vpls(kCount);
+    const Buffer<IrradiancePacket> light(device, ramp(packets));
+    VplLight stage(device);
+    Buffer<Vpl> lit(device, vpls);
+    Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<IrradiancePacket> sum(device, ramp(packets));
+    stage.make_receivers(lit, kCount, receivers);
+    stage.apply(light, kCount, lit);
+    stage.add(light, packets, sum);
+    const std::vector<Vpl> found = lit.download();
+    const std::vector<ReceiverPacket> points = receivers.download();
+    const std::vector<IrradiancePacket> sums = sum.download();
+    for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
+        const RoomPoint point = receiver_at(points, i);
+        const Vec3 irradiance{static_cast<float>(i), 2 * static_cast<float>(i), 1};
+        result.expect(irradiance_at(sums, i) == irradiance * 2.0f);
+        result.expect(point.position == (i < kCount ? vpls[i].position : Vec3{}) &&
+                      point.normal == (i < kCount ? vpls[i].normal : Vec3{}));
+        if (i < kCount) {
+            result.expect(found[i].power == vpls[i].power * irradiance);
+        }
+    }
+}
+
+void check_patch_vpls(Device& device, CheckResult& result) {
+    constexpr std::size_t kSamples = 4000;
+    constexpr float kArea = 0.25f;  // m² a sample
+    Scene scene = make_triangle_soup(1000, 23);
+    scene.materials = {diffuse_material({0.5f, 0.25f, 0.125f}), diffuse_material({0.2f, 0.4f, 0.8f})};
+    scene.materials[1].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        scene.triangles[i].material = i % 2;
+    }
+    scene.camera.to_world = look_at({0.3, -0.2, -1.5}, {-0.1, 0.1, 1.0}, {0.3, 1, 0.2});
+    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 320, 200), 1.5f);
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const float extent = on_device.host_info.extent;
+    const std::vector<SurfaceSample> samples = random_samples(scene, kSamples);
+    CloseRegion region;
+    region.range = Buffer<CloseRange>(device, std::span(&range, 1));
+    Buffer<Vpl> vpls(device, 2 * kSamples);
+    Buffer<uint> flags(device, 2 * kSamples);
+    PatchVpls(device).run(on_device, Buffer<SurfaceSample>(device, samples), kSamples, region, kArea, vpls,
+                          flags);
+    const std::vector<Vpl> found = vpls.download();
+    const std::vector<uint> present = flags.download();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const SurfaceSample& sample = samples[i / 2];
+        const Material& material = scene.materials[scene.triangles[sample.triangle].material];
+        const bool reflects = i % 2 == 0 || material.flags != 0;
+        const bool right_flag =
+            reflects ? close_flag_fits(range, sample.position, present[i] != 0, 1e-5f) : present[i] == 0;
+        const Vec3 side = i % 2 == 0 ? sample.normal : -sample.normal;
+        result.expect(right_flag &&
+                      (present[i] == 0 ||
+                       (found[i].normal == side && found[i].power == material.base * kArea &&
+                        found[i].flags == NEARLIGHT_VPL_CLOSE &&
+                        length(found[i].position - stand_off(sample.position, side, extent)) < 1e-6f)));
+    }
+}
+
+void check_vpl_contribution(Device& device, CheckResult& result) {
+    const Scene scene = make_even_room({0.5f, 0.5f, 0.5f});
+    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 16, 16);
+    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvhs.opaque, 150);
+    Pcg32 random(1);
+    std::vector<CameraVertex> response(receivers.size() * NEARLIGHT_PACKET_SIZE);
+    for (CameraVertex& vertex : response) {
+        vertex.throughput = random_vector(random);
+        vertex.albedo = random_vector(random);
+    }
+    PilotView view;
+    set_importons(device, view, make_importons(receivers, response));
+    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const EmbreeScene embree(scene);
+    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    Gatherer gatherer(device);
+    VplContribution contribution(device, gatherer);
+    for (const ContributionNorm norm : {ContributionNorm::mean, ContributionNorm::mean_square}) {
+        Buffer<float> brought(device, vpls.size());
+        contribution.run(on_device, Buffer<Vpl>(device, vpls), vpls.size(), view, kClampRadius, brought,
+                         norm);
+        const std::vector<float> found = brought.download();
+        for (std::size_t i = 0; i < vpls.size(); ++i) {
+            const double want = column_norm(embree, vpls[i], receivers, response, norm);
+            result.expect(std::abs(found[i] - want) <= 2e-4 * want + 1e-9 ||
+                          any_excused(edges, vpls[i], receivers));
+        }
+    }
+}
+
+void check_reverse_vpls(Device& device, CheckResult& result) {
+    constexpr uint kRaysPerPoint = 40;
+    const Scene scene = make_even_room({0.8f, 0.5f, 0.3f});
+    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const float extent = on_device.host_info.extent;
+    std::vector<Vpl> importons;
+    for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
+        const RoomPoint x = receiver_at(std::span(&packet, 1), 0);  // one of each tile
+        Vpl& importon = importons.emplace_back();
+        importon.position = x.position;
+        importon.normal = x.normal;
+    }
+    const CameraPoints points = make_camera_points(device, importons, kRaysPerPoint);
+    Gatherer gatherer(device);
+    ReverseVpls stage(device, gatherer);
+    const std::vector<Vpl> found = stage.trace(on_device, points, 17);
+    // The room is closed and all of it reflects: ray after ray leaves a VPL.
+    result.expect(found.size() == importons.size() * kRaysPerPoint);
+    if (result.mismatches > 0) {
+        return;
+    }
+    const EmbreeScene embree(scene);
+    EdgeExcuse edges(bvhs.opaque.triangles, extent);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Vpl& point = importons[i / kRaysPerPoint];
+        result.expect(landed_right(scene, embree, extent, point, found[i]) ||
+                      edges.excuses(point.position, found[i].position));
+    }
+    const std::size_t packets = receiver_packet_count(found.size());
+    Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<IrradiancePacket> density(device, packets);
+    VplLight(device).make_receivers(Buffer<Vpl>(device, found), found.size(), receivers);
+    stage.measure_density(on_device, points, receivers, packets, density);
+    std::vector<IrradiancePacket> expected(packets);
+    const std::vector<ReceiverPacket> places = receivers.download();
+    gather_reference(embree, points.points.download(), 0.0f, places, expected);
+    const std::vector<IrradiancePacket> densities = density.download();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const float want = irradiance_at(expected, i).y;
+        const RoomPoint y = receiver_at(places, i);
+        const bool right = std::abs(irradiance_at(densities, i).y - want) <= 2e-4f * want;
+        result.expect(right || std::ranges::any_of(importons, [&](const Vpl& point) {
+                          return edges.excuses(point.position, y.position);
+                      }));
+    }
+}
+
+}  // namespace nearlight
