@@ -13,6 +13,11 @@ kernel void layout_probe(global uint* out) {
     OFFSET(BvhNode, right_max);
     SIZE(BvhTriangle);
     OFFSET(BvhTriangle, normal);
+    SIZE(WideNode);
+    OFFSET(WideNode, high);
+    OFFSET(WideNode, child);
+    SIZE(TriangleBlock);
+    OFFSET(TriangleBlock, edge2);
     SIZE(RayQuery);
     OFFSET(RayQuery, t_max);
     SIZE(RayHit);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/bench/embree_occlusion.h"
+#include "host/bvh/wide_bvh.h"
 
 namespace nearlight {
 namespace {
@@ -23,20 +24,25 @@ struct Tracer {
 
 /// The set on the device, for all our kernels in turn.
 struct DeviceSegments {
-    DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh)
+    DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh, const WideBvh& wide)
         : nodes(device, bvh.nodes),
           triangles(device, bvh.triangles),
+          wide_nodes(device, wide.nodes),
+          blocks(device, wide.blocks),
           vpls(device, segments.vpls),
           receivers(device, segments.receivers),
           irradiance(device, segments.receivers.size()),
           clamp_radius(segments.clamp_radius) {}
 
     [[nodiscard]] GatherInput input(float roulette) const {
-        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
+        return {nodes,        triangles, wide_nodes,        blocks,       vpls,
+                vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
     }
 
     Buffer<BvhNode> nodes;
     Buffer<BvhTriangle> triangles;
+    Buffer<WideNode> wide_nodes;
+    Buffer<TriangleBlock> blocks;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;
@@ -95,7 +101,7 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
             }
         }
     }
-    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh);
+    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh, widen(bvh));
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
         if (config.kernel == GatherKernel::automatic || config.kernel == kernel) {
             tracers.push_back(make_own_tracer(device, job, kernel, 0.0f));
@@ -169,7 +175,6 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
 
 GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config) {
-    const std::vector<Tracer> tracers = make_tracers(device, segments, bvh, config);
     GatherBenchResult result;
     result.triangles = segments.geometry.triangles.size();
     result.device = device.name();

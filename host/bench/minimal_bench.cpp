@@ -17,6 +17,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
+#include "host/bvh/wide_bvh.h"
 #include "host/render/renderer.h"
 #include "host/stages/gatherer.h"
 
@@ -38,6 +39,7 @@ struct Options {
 struct Workload {
     Scene scene;
     SceneBvhs bvhs;
+    WideBvh wide;
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
 };
@@ -62,6 +64,7 @@ Workload make_workload(const Options& options) {
     Workload work;
     work.scene = make_sphere_room(options.triangles);
     work.bvhs = build_scene_bvhs(work.scene);
+    work.wide = widen(work.bvhs.opaque);
     work.vpls = make_traced_vpls(work.scene, work.bvhs.opaque, options.vpls);
     const int side = static_cast<int>(options.side);
     work.receivers = make_camera_receivers(work.scene, work.bvhs.opaque, side, side);
@@ -73,16 +76,21 @@ struct GatherJob {
     GatherJob(Device& device, const Workload& work, std::size_t vpl_count)
         : nodes(device, work.bvhs.opaque.nodes),
           triangles(device, work.bvhs.opaque.triangles),
+          wide_nodes(device, work.wide.nodes),
+          blocks(device, work.wide.blocks),
           vpls(device, std::span(work.vpls).first(std::min(vpl_count, work.vpls.size()))),
           receivers(device, work.receivers),
           irradiance(device, work.receivers.size()) {}
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes, triangles, vpls, vpls.count(), receivers, receivers.count(), kClampRadius};
+        return {nodes,        triangles, wide_nodes,        blocks,      vpls,
+                vpls.count(), receivers, receivers.count(), kClampRadius};
     }
 
     Buffer<BvhNode> nodes;
     Buffer<BvhTriangle> triangles;
+    Buffer<WideNode> wide_nodes;
+    Buffer<TriangleBlock> blocks;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;

@@ -49,6 +49,8 @@ bool BandRenderer::gather_indirect(std::size_t packets, const GatherProgress& pr
     }
     return stages_.gatherer.gather({.nodes = scene_.nodes,
                                     .triangles = scene_.bvh_triangles,
+                                    .wide_nodes = scene_.wide_nodes,
+                                    .blocks = scene_.blocks,
                                     .vpls = vpls_,
                                     .vpl_count = picture_.vpls.size(),
                                     .receivers = buffers_.receivers,

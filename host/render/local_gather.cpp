@@ -20,6 +20,8 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
     for (const LocalVpls::Group& group : vpls_.groups) {
         const bool finished = gatherer.gather({.nodes = scene.nodes,
                                                .triangles = scene.bvh_triangles,
+                                               .wide_nodes = scene.wide_nodes,
+                                               .blocks = scene.blocks,
                                                .vpls = group.vpls,
                                                .vpl_count = group.count,
                                                .receivers = receivers,

@@ -35,23 +35,28 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
 }
 
 std::size_t RenderPlan::max_packets(uint width) const {
-    return packet_count({.tile_row_count = tile_rows_per_band, .sample_count = samples_per_batch, .branch_count = branch_count},
+    return packet_count({.tile_row_count = tile_rows_per_band,
+                         .sample_count = samples_per_batch,
+                         .branch_count = branch_count},
                         width);
 }
 
-RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel, uint branch_count) {
+RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
+                     uint branch_count) {
     std::size_t budget = std::numeric_limits<std::size_t>::max();
     for (const Device* device : devices) {
         budget = std::min(budget, receivers_per_batch(*device));
     }
-    const std::size_t per_row_sample = static_cast<std::size_t>((width + 7) / 8) * NEARLIGHT_PACKET_SIZE * branch_count;
+    const std::size_t per_row_sample =
+        static_cast<std::size_t>((width + 7) / 8) * NEARLIGHT_PACKET_SIZE * branch_count;
     RenderPlan plan;
     plan.tile_row_count = (height + 7) / 8;
     plan.samples_per_pixel = samples_per_pixel;
     plan.branch_count = branch_count;
-    plan.samples_per_batch = static_cast<uint>(std::clamp<std::size_t>(budget / per_row_sample, 1, samples_per_pixel));
-    plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(budget / (per_row_sample * plan.samples_per_batch), 1,
-                                                      std::max(plan.tile_row_count, 1u)));
+    plan.samples_per_batch =
+        static_cast<uint>(std::clamp<std::size_t>(budget / per_row_sample, 1, samples_per_pixel));
+    plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(
+        budget / (per_row_sample * plan.samples_per_batch), 1, std::max(plan.tile_row_count, 1u)));
     if (devices.size() > 1) {
         const auto wanted_bands = static_cast<uint>(kBandsPerDevice * devices.size());
         plan.tile_rows_per_band = std::clamp(plan.tile_row_count / wanted_bands, 1u, plan.tile_rows_per_band);

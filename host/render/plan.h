@@ -11,8 +11,8 @@
 
 namespace nearlight {
 
-/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. No cut changes any bit
-/// of the picture.
+/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. No cut changes any
+/// bit of the picture.
 struct RenderPlan {
     uint tile_rows_per_band = 1;
     uint tile_row_count = 0;
@@ -20,7 +20,9 @@ struct RenderPlan {
     uint samples_per_pixel = 1;
     uint branch_count = 1;
 
-    [[nodiscard]] uint band_count() const { return (tile_row_count + tile_rows_per_band - 1) / tile_rows_per_band; }
+    [[nodiscard]] uint band_count() const {
+        return (tile_row_count + tile_rows_per_band - 1) / tile_rows_per_band;
+    }
     /// The batches of band `index`, in order.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
     /// Most packets that any batch has.
@@ -32,6 +34,7 @@ inline constexpr std::size_t kBytesPerReceiver =
     (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
 
 /// One plan for all of the devices: what fits each, and bands enough for the faster ones to take more.
-RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel, uint branch_count);
+RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
+                     uint branch_count);
 
 }  // namespace nearlight

@@ -24,8 +24,8 @@ struct RenderSettings {
     uint direct_samples_per_pixel = 64;  ///< for area and environment lights
     bool indirect_only = false;  ///< leave out direct light (its layer is emission only); for comparisons
     uint seed = 0;
-    /// Russian roulette of the gather: VPLs that could bring less than this many times the mean are asked about by
-    /// chance (host/stages/roulette.h); 0: all pairs are resolved.
+    /// Russian roulette of the gather: VPLs that could bring less than this many times the mean are asked
+    /// about by chance (host/stages/roulette.h); 0: all pairs are resolved.
     float roulette = 0.0f;
     GatherKernel gather_kernel = GatherKernel::automatic;
     BvhQuality bvh_quality = BvhQuality::quality;

@@ -13,8 +13,8 @@ namespace {
 constexpr uint kDefaultMaxDepth = 8;
 constexpr float kClampRadiusToRange = 0.05f;
 
-/// The distance within which nine tenths of the visible surface lie, with a little room; the scene's extent where
-/// nothing is in view.
+/// The distance within which nine tenths of the visible surface lie, with a little room; the scene's extent
+/// where nothing is in view.
 float automatic_range(const PilotView& pilot, float extent) {
     if (pilot.distances.empty()) {
         say_warning("the camera sees no diffuse surface; is it inside an object, or looking away?");
@@ -33,13 +33,15 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
     view.scene_camera.width = settings.width.value_or(scene.camera.width);
     view.scene_camera.height = settings.height.value_or(scene.camera.height);
     view.camera = make_pinhole_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
-    view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth) : kDefaultMaxDepth);
+    view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
+                                                                     : kDefaultMaxDepth);
     view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, settings.seed);
-    const float range = settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
+    const float range =
+        settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
     view.close_range = make_close_range(view.camera, range);
     view.clamp_radius = settings.clamp_radius.value_or(kClampRadiusToRange * range);
-    say_debug("range " + std::to_string(range) + ", clamp radius " + std::to_string(view.clamp_radius) + ", max depth " +
-              std::to_string(view.max_depth));
+    say_debug("range " + std::to_string(range) + ", clamp radius " + std::to_string(view.clamp_radius) +
+              ", max depth " + std::to_string(view.max_depth));
     return view;
 }
 

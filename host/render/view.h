@@ -18,8 +18,8 @@ struct View {
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 
-/// Decides what the settings leave open: size and depth from the scene; the range so that it holds nine tenths of
-/// what the camera sees; the clamp radius as a twentieth of the range.
+/// Decides what the settings leave open: size and depth from the scene; the range so that it holds nine
+/// tenths of what the camera sees; the clamp radius as a twentieth of the range.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const RenderSettings& settings);
 

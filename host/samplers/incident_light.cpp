@@ -42,6 +42,8 @@ void gather_incident_light(SamplerStages& stages, const SamplingTask& task, cons
         Buffer<IrradiancePacket> gathered(stages.device, packet_count);
         stages.gatherer.gather({.nodes = task.scene.nodes,
                                 .triangles = task.scene.bvh_triangles,
+                                .wide_nodes = task.scene.wide_nodes,
+                                .blocks = task.scene.blocks,
                                 .vpls = sparse.vpls,
                                 .vpl_count = sparse.count,
                                 .receivers = receivers,

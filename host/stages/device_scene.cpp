@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/bvh/wide_bvh.h"
 #include "host/scene/emitters.h"
 
 namespace nearlight {
@@ -88,6 +89,9 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     on_device.nodes = put(bvhs.opaque.nodes);
     on_device.bvh_triangles = put(bvhs.opaque.triangles);
     on_device.triangle_ids = put(bvhs.opaque.triangle_ids);
+    const WideBvh wide = widen(bvhs.opaque);
+    on_device.wide_nodes = put(wide.nodes);
+    on_device.blocks = put(wide.blocks);
     on_device.glass_nodes = put(bvhs.glass.nodes);
     on_device.glass_triangles = put(bvhs.glass.triangles);
     on_device.glass_ids = put(bvhs.glass.triangle_ids);

@@ -12,6 +12,8 @@ struct DeviceScene {
     Buffer<BvhNode> nodes;
     Buffer<BvhTriangle> bvh_triangles;
     Buffer<uint> triangle_ids;
+    Buffer<WideNode> wide_nodes;   ///< the opaque tree again, for gathers
+    Buffer<TriangleBlock> blocks;
     Buffer<BvhNode> glass_nodes;
     Buffer<BvhTriangle> glass_triangles;
     Buffer<uint> glass_ids;
@@ -34,7 +36,7 @@ struct DeviceScene {
     float total_power = 0.0f;   ///< luminance of all emitted flux, W
     double total_area = 0.0;    ///< of all triangles, m²
 
-    /// In the order of SCENE_PARAMETERS.
+    /// In the order of SCENE_PARAMETERS, which leave the wide tree out.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
         visit(nodes), visit(bvh_triangles), visit(triangle_ids);

@@ -97,11 +97,18 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
                       Buffer<IrradiancePacket>& irradiance, const More&... more) {
     const bool rays = config_.kernel == GatherKernel::rays;
     const std::size_t items_per_packet = NEARLIGHT_PACKET_SIZE / (rays ? 1 : config_.packet_width);
-    kernel.launch((part.end_packet - part.first_packet) * items_per_packet, rays ? device_->local_size() : 1,
-                  input.nodes, input.triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
-                  static_cast<cl_uint>(part.end_vpl), input.receivers,
-                  static_cast<cl_uint>(part.first_packet), static_cast<cl_uint>(part.end_packet),
-                  input.clamp_radius * input.clamp_radius, irradiance, more...);
+    const std::size_t items = (part.end_packet - part.first_packet) * items_per_packet;
+    const auto launch_on = [&](std::size_t local_size, const auto& nodes, const auto& triangles) {
+        kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
+                      static_cast<cl_uint>(part.end_vpl), input.receivers,
+                      static_cast<cl_uint>(part.first_packet), static_cast<cl_uint>(part.end_packet),
+                      input.clamp_radius * input.clamp_radius, irradiance, more...);
+    };
+    if (rays) {
+        launch_on(device_->local_size(), input.nodes, input.triangles);
+    } else {
+        launch_on(1, input.wide_nodes, input.blocks);
+    }
 }
 
 /// Packets [first_packet, end_packet), launch by launch. False if cancelled.

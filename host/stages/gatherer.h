@@ -31,10 +31,12 @@ struct GatherConfig {
     double launch_seconds = 0.2;  ///< how long a launch should take
 };
 
-/// What is gathered. The tree is the one of opaque surfaces. Counts may be smaller than the buffers'.
+/// What is gathered. The trees hold the opaque surfaces. Counts may be smaller than the buffers'.
 struct GatherInput {
-    const Buffer<BvhNode>& nodes;
+    const Buffer<BvhNode>& nodes;  ///< of the binary tree, which `rays` goes through
     const Buffer<BvhTriangle>& triangles;
+    const Buffer<WideNode>& wide_nodes;  ///< of the same tree widened, which `packets` goes through
+    const Buffer<TriangleBlock>& blocks;
     const Buffer<Vpl>& vpls;
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;

@@ -42,6 +42,8 @@ void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& 
                                   Buffer<IrradiancePacket>& density) {
     gatherer_->gather({.nodes = scene.nodes,
                        .triangles = scene.bvh_triangles,
+                       .wide_nodes = scene.wide_nodes,
+                       .blocks = scene.blocks,
                        .vpls = points.points,
                        .vpl_count = points.count,
                        .receivers = receivers,

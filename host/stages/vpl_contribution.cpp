@@ -21,6 +21,8 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
     gatherer_->gather({.nodes = scene.nodes,
                        .triangles = scene.bvh_triangles,
+                       .wide_nodes = scene.wide_nodes,
+                       .blocks = scene.blocks,
                        .vpls = importons.vpls,
                        .vpl_count = importons.count,
                        .receivers = receivers,

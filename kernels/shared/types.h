@@ -50,6 +50,25 @@ typedef struct BvhTriangle {
     Vec3 normal;
 } BvhTriangle;
 
+/// A node of the wide tree, which packets of rays go through: the boxes of eight children, plane by plane (x, y,
+/// z), so that a vector register holds one plane of all. Node 0 is the root. A child reference is that of a
+/// BvhNode, but a leaf counts and names TriangleBlocks. Where there is no child, low is +∞ and high −∞.
+#define NEARLIGHT_WIDE_CHILDREN 8
+typedef struct WideNode {
+    float low[3][NEARLIGHT_WIDE_CHILDREN];
+    float high[3][NEARLIGHT_WIDE_CHILDREN];
+    uint child[NEARLIGHT_WIDE_CHILDREN];
+} WideNode;
+
+/// Up to four triangles of a leaf, component by component; those that are missing are all zero, which nothing
+/// hits.
+#define NEARLIGHT_BLOCK_TRIANGLES 4
+typedef struct TriangleBlock {
+    float v0[3][NEARLIGHT_BLOCK_TRIANGLES];
+    float edge1[3][NEARLIGHT_BLOCK_TRIANGLES];  // v1 − v0
+    float edge2[3][NEARLIGHT_BLOCK_TRIANGLES];  // v2 − v0
+} TriangleBlock;
+
 /// A ray to be cast: hits count with t strictly inside (t_min, t_max), in units of the direction's length.
 typedef struct RayQuery {
     Vec3 origin;
@@ -254,6 +273,8 @@ typedef struct SceneInfo {
 static_assert(sizeof(Vec3) == 12);
 NEARLIGHT_CHECK_SHARED(BvhNode, 64);
 NEARLIGHT_CHECK_SHARED(BvhTriangle, 48);
+NEARLIGHT_CHECK_SHARED(WideNode, 224);
+NEARLIGHT_CHECK_SHARED(TriangleBlock, 144);
 NEARLIGHT_CHECK_SHARED(RayQuery, 32);
 NEARLIGHT_CHECK_SHARED(RayHit, 16);
 NEARLIGHT_CHECK_SHARED(Vertex, 32);

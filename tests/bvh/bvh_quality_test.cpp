@@ -35,18 +35,6 @@ void expect_sound(const Scene& scene, const BvhConfig& config = kQuality) {
               1.0f + static_cast<float>(scene.triangles.size()) * (1.0f + config.max_duplication));
 }
 
-/// Long thin triangles from one side of a cube to the other, whose boxes fill much of it.
-Scene diagonals(int count, std::uint64_t seed) {
-    Pcg32 random(seed);
-    Scene scene = test::scene_of_one_material();
-    for (int i = 0; i < count; ++i) {
-        const Vec3 offset = random_point(random, 4.0f);
-        const Vec3 end = offset + (i % 2 == 0 ? Vec3{5, 5, 5} : Vec3{5, -5, 5});
-        add_triangle(scene, offset, end, end + random_point(random, 0.1f));
-    }
-    return scene;
-}
-
 /// Two triangles that fill a wall, slanting, before a crowd of specks.
 Scene huge_and_tiny() {
     Scene scene = random_soup(3000, 0.02f, 31);
@@ -71,7 +59,7 @@ TEST(BvhQuality, SoupsAndLeafSizes) {
 }
 
 TEST(BvhQuality, AnyAllowanceForCutTriangles) {
-    const Scene scene = diagonals(500, 5);
+    const Scene scene = test::diagonals(500, 5);
     for (const float duplication : {-1.0f, 0.0f, 0.01f, 0.5f, 2.0f}) {
         SCOPED_TRACE(duplication);
         const Bvh bvh = build_all(scene, {.quality = BvhQuality::quality, .max_duplication = duplication});
@@ -98,7 +86,7 @@ TEST(BvhQuality, DegenerateHugeAndCoincidentTriangles) {
 }
 
 TEST(BvhQuality, CutsPayForLongDiagonals) {
-    const Scene scene = diagonals(2000, 7);
+    const Scene scene = test::diagonals(2000, 7);
     const Bvh fast = build_all(scene);
     const Bvh quality = build_all(scene, {.quality = BvhQuality::quality, .max_duplication = 1.0f});
     EXPECT_GT(quality.triangles.size(), scene.triangles.size());
@@ -138,7 +126,7 @@ void expect_same_hits(const Scene& scene, std::uint64_t seed) {
 }
 
 TEST(BvhQuality, HitsAreThoseOfTheFastTree) {
-    expect_same_hits(diagonals(1000, 8), 41);
+    expect_same_hits(test::diagonals(1000, 8), 41);
     expect_same_hits(random_soup(1000, 3.0f, 9), 42);
     expect_same_hits(huge_and_tiny(), 43);
     expect_same_hits(test::aligned_squares(6), 44);
@@ -168,7 +156,7 @@ TEST(BvhQuality, ThreadsDoNotChangeTheResult) {
 }
 
 TEST(BvhQuality, CheckSeesALostPart) {
-    const Scene scene = diagonals(200, 11);
+    const Scene scene = test::diagonals(200, 11);
     Bvh bvh = build_all(scene, {.quality = BvhQuality::quality, .max_duplication = 4.0f});
     const std::vector<uint> ids = distinct_triangles(bvh);
     EXPECT_EQ(ids, all_ids(scene));

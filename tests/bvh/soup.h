@@ -46,6 +46,18 @@ inline Scene random_soup(int count, float size, std::uint64_t seed) {
     return scene;
 }
 
+/// Long thin triangles from one side of a cube to the other, whose boxes fill much of it.
+inline Scene diagonals(int count, std::uint64_t seed) {
+    Pcg32 random(seed);
+    Scene scene = scene_of_one_material();
+    for (int i = 0; i < count; ++i) {
+        const Vec3 offset = random_point(random, 4.0f);
+        const Vec3 end = offset + (i % 2 == 0 ? Vec3{5, 5, 5} : Vec3{5, -5, 5});
+        add_triangle(scene, offset, end, end + random_point(random, 0.1f));
+    }
+    return scene;
+}
+
 /// An n × n × n block of axis-aligned unit squares at whole coordinates, two triangles each.
 inline Scene aligned_squares(int n) {
     Scene scene = scene_of_one_material();

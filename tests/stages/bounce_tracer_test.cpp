@@ -79,6 +79,8 @@ struct CornerLight {
         Buffer<IrradiancePacket> irradiance(device, 1);
         Gatherer(device).gather({.nodes = on_gpu.buffers.nodes,
                                  .triangles = on_gpu.buffers.bvh_triangles,
+                                 .wide_nodes = on_gpu.buffers.wide_nodes,
+                                 .blocks = on_gpu.buffers.blocks,
                                  .vpls = Buffer<Vpl>(device, std::span(vpls)),
                                  .vpl_count = vpls.size(),
                                  .receivers = receivers,

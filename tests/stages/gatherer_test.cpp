@@ -10,6 +10,7 @@
 #include "host/base/random.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/segment_distance.h"
+#include "host/bvh/wide_bvh.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
 #include "tests/support/uploaded_gather.h"

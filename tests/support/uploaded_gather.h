@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "host/bvh/wide_bvh.h"
 #include "host/stages/gatherer.h"
 #include "tests/support/gather_scenes.h"
 
@@ -20,6 +21,8 @@ class Uploaded {
     Uploaded(Device& device, const GatherCase& data)
         : nodes_(device, data.bvh.nodes),
           triangles_(device, data.bvh.triangles),
+          wide_nodes_(device, widen(data.bvh).nodes),
+          blocks_(device, widen(data.bvh).blocks),
           vpls_(device, data.vpls),
           receivers_(device, data.receivers),
           // Whatever the memory holds must not matter.
@@ -27,7 +30,8 @@ class Uploaded {
           clamp_radius_(data.clamp_radius) {}
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes_, triangles_, vpls_, vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
+        return {nodes_,        triangles_, wide_nodes_,        blocks_,      vpls_,
+                vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
     }
     std::vector<IrradiancePacket> gather(Gatherer& gatherer, float roulette = 0.0f, uint seed = 0) {
         GatherInput task = input();
@@ -47,6 +51,8 @@ class Uploaded {
 
     Buffer<BvhNode> nodes_;
     Buffer<BvhTriangle> triangles_;
+    Buffer<WideNode> wide_nodes_;
+    Buffer<TriangleBlock> blocks_;
     Buffer<Vpl> vpls_;
     Buffer<ReceiverPacket> receivers_;
     Buffer<IrradiancePacket> irradiance_;

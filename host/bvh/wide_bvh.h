@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tree for packets of rays: eight children a node, triangles in blocks of four.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/bvh/bvh.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+struct WideBvh {
+    std::vector<WideNode> nodes;  ///< at least one; node 0 is the root
+    std::vector<TriangleBlock> blocks;
+};
+
+/// Collapses a binary tree: a node takes over its child of the largest surface, until it has eight [Wald et
+/// al., Getting Rid of Packets, 2008]; what holds no more than a block of triangles becomes a leaf. Children
+/// stand by growing surface, so that a stack yields the largest first, which is likeliest to occlude. Boxes
+/// and triangles are those of `bvh`, bit by bit. Needs 100 bytes a triangle.
+WideBvh widen(const Bvh& bvh);
+
+/// Checks that the wide tree holds the same triangles as `bvh`, each in boxes that hold it, and that
+/// references are in range and reached once. Returns what is wrong, one line each; empty if sound.
+std::vector<std::string> check_wide_bvh(const WideBvh& wide, const Bvh& bvh);
+
+}  // namespace nearlight
