@@ -197,9 +197,12 @@ inline uint groups_in_child(const Segments* s, const global WideNode* node, uint
 }
 
 /// For each triangle of a block, which are turned towards the origin so that the sign of t is the same for
-/// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, u·d + v·d ≤ n·d and t_min·(n·d) < t < t_max·(n·d).
+/// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
+/// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its own:
+/// a sliver would reach far beyond its short edge.
 typedef struct BlockAxes {
-    float u[3][NEARLIGHT_BLOCK_TRIANGLES], v[3][NEARLIGHT_BLOCK_TRIANGLES], n[3][NEARLIGHT_BLOCK_TRIANGLES];
+    float u[3][NEARLIGHT_BLOCK_TRIANGLES], v[3][NEARLIGHT_BLOCK_TRIANGLES], w[3][NEARLIGHT_BLOCK_TRIANGLES];
+    float n[3][NEARLIGHT_BLOCK_TRIANGLES];
     float t[NEARLIGHT_BLOCK_TRIANGLES];
 } BlockAxes;
 
@@ -218,6 +221,10 @@ inline void store_axis(Axis4 axis, float (*rows)[NEARLIGHT_BLOCK_TRIANGLES]) {
 }
 inline Axis4 cross4(Axis4 a, Axis4 b) {
     const Axis4 axis = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return axis;
+}
+inline Axis4 minus4(Axis4 a, Axis4 b) {
+    const Axis4 axis = {a.x - b.x, a.y - b.y, a.z - b.z};
     return axis;
 }
 inline Axis4 scale4(Axis4 a, float4 by) {
@@ -242,13 +249,13 @@ inline uint prepare_block(const Segments* s, const global TriangleBlock* block, 
     const Axis4 n = scale4(normal, -side);
     const Axis4 u = scale4(cross4(edge2, to_origin), side);
     const Axis4 v = scale4(cross4(to_origin, edge1), side);
+    const Axis4 w = scale4(cross4(minus4(edge1, edge2), minus4(to_origin, edge1)), side);
     const float4 t = fabs(distance);
     store_axis(u, axes->u);
     store_axis(v, axes->v);
+    store_axis(w, axes->w);
     store_axis(n, axes->n);
     vstore4(t, 0, axes->t);
-    const Axis4 w = {n.x - u.x - v.x, n.y - u.y - v.y, n.z - u.z - v.z};
-    // Segments compare u·d + v·d with n·d, which are rounded one by one.
     const float4 slack = GATHER_SLACK * ((fabs(u.x) + fabs(v.x) + fabs(n.x)) * s->shaft.reach.x +
                                          (fabs(u.y) + fabs(v.y) + fabs(n.y)) * s->shaft.reach.y +
                                          (fabs(u.z) + fabs(v.z) + fabs(n.z)) * s->shaft.reach.z);
@@ -269,7 +276,8 @@ inline int16 intersect_triangle(Segments* s, const BlockAxes* axes, uint i, uint
         const float16 det = axes->n[0][i] * dx + axes->n[1][i] * dy + axes->n[2][i] * dz;
         const float16 u = axes->u[0][i] * dx + axes->u[1][i] * dy + axes->u[2][i] * dz;
         const float16 v = axes->v[0][i] * dx + axes->v[1][i] * dy + axes->v[2][i] * dz;
-        const int16 hit = (u >= 0.0f) & (v >= 0.0f) & (u + v <= det) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
+        const float16 w = axes->w[0][i] * dx + axes->w[1][i] * dy + axes->w[2][i] * dz;
+        const int16 hit = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
                           (t < s->t_max[group] * det);
         s->t_max[group] = hit ? (float16)-1.0f : s->t_max[group];
         any_hit |= hit;

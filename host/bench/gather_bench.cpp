@@ -175,6 +175,7 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
 
 GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config) {
+    const std::vector<Tracer> tracers = make_tracers(device, segments, bvh, config);
     GatherBenchResult result;
     result.triangles = segments.geometry.triangles.size();
     result.device = device.name();
