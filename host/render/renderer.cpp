@@ -158,7 +158,7 @@ Preparation Renderer::State::prepare_on_leader(const RenderSettings& settings) {
     Preparation prepared;
     prepared.view = choose_view(leader(), device.stages.camera_pass, device.scene, scene, settings);
     prepared.vpls = sample_vpls(*samplers, sampling_task(device.scene, prepared.view, settings));
-    prepared.gathered = samplers->vpl_order.upload_sorted(prepared.vpls.vpls).download();
+    prepared.gathered = samplers->vpl_order.sorted(prepared.vpls.vpls);
     return prepared;
 }
 
