@@ -133,7 +133,7 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
 }
 
 TEST_F(Reference, AnInterruptedOneGoesOn) {
-    const std::string line = std::string("timeout --preserve-status --signal=INT 1.5 ") + NEARLIGHT_PROGRAM +
+    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 1.5 ") + NEARLIGHT_PROGRAM +
                              " reference --quiet --spp 16777216 " + files();
     ASSERT_EQ(WEXITSTATUS(std::system(line.c_str())), 130);
     Metadata metadata = read_metadata(output_);
@@ -159,7 +159,7 @@ TEST_F(Reference, AnUnwritableOutputFailsBeforeTheWork) {
 }
 
 TEST_F(Reference, CtrlCSavesWhatIsThere) {
-    const std::string line = std::string("timeout --preserve-status --signal=INT 1 ") + NEARLIGHT_PROGRAM +
+    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 1 ") + NEARLIGHT_PROGRAM +
                              " reference --quiet --spp 16777216 " + files();
     const int status = std::system(line.c_str());
     ASSERT_TRUE(WIFEXITED(status));
