@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums a VPL set over receivers, for CPUs: irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²) · V.
 //
-// One work-item takes one packet of receivers against a run of VPLs. The compiler does not turn a divergent
-// traversal loop into vector code, so the vectors are written out: a packet is GATHER_GROUPS groups of 16
+// One work-item takes one packet of GATHER_PACKET_WIDTH receivers against a run of VPLs. The compiler does not
+// turn a divergent traversal loop into vector code, so the vectors are written out: a packet is groups of 16
 // lanes that go through the wide tree together. What makes this fast:
 // - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle test is
-//   three dot products a lane with constants of the (VPL, triangle) pair, without a division.
-// - A node tests its eight children at once against the shaft from the VPL to the box of the receivers. Only
-//   what meets the shaft is tested lane by lane, when its turn comes.
-// - An inner node is entered as soon as one group meets its box, and remembers that group: the groups before it
-//   need not be looked at again below [Overbeck et al., Large Ray Packets for Real-time Whitted Ray Tracing,
-//   2008]. A leaf notes which groups meet it.
-// - A block's four triangles are tested at once against the shaft before any lane is.
-// - A lane that is culled or occluded has t_max = −1, which no box and no triangle passes: no other mask is kept.
+//   four dot products a lane with constants of the (VPL, triangle) pair, without a division.
+// - Receivers are put in order once, so that 16 runs of them are clusters with small boxes
+//   (lib/packet_receivers.cl).
+// - A node tests its eight children at once against the shaft from the VPL to the box of all receivers, and each
+//   that meets it against the shafts to the boxes of the 16 clusters at once (lib/shaft.cl). Only where a cluster
+//   meets a box are its lanes tested with it.
+// - Nodes and leaves are taken several at a time, almost without branches that depend on tests
+//   (lib/wide_traverse.cl).
+// - A leaf is tested with the lanes that meet its box: where these are few, four of them with four triangles in
+//   one vector (lib/packet_blocks.cl).
+// - A lane that is culled or occluded has t_max = −1, which no box passes: no other mask of lanes is kept.
+// A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other lanes,
+// and all tests before them are conservative: what shares a packet does not change a bit of the result.
 //
 // gather_rays.cl computes the same on GPUs. host/stages/gatherer.h is the interface of both.
-
-#include "lib/bvh_traverse.cl"
 
 #include "lib/gather.cl"
 #include "lib/wide_traverse.cl"
@@ -24,23 +27,6 @@
 typedef struct Accumulator {
     float16 r[GATHER_GROUPS], g[GATHER_GROUPS], b[GATHER_GROUPS];
 } Accumulator;
-
-
-#ifdef GATHER_RECORD
-inline void record_open(const Segments* s, global uchar* record) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const int16 open = s->t_max[group] > 0.0f;
-        vstore16(convert_uchar16(open & (int)GATHER_RECORD_VISIBLE), group, record);
-    }
-}
-inline void record_occluded(const Segments* s, global uchar* record) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const uchar16 traced = vload16(group, record);
-        const uchar16 occluded = convert_uchar16((s->t_max[group] < 0.0f) & (int)GATHER_RECORD_OCCLUDED);
-        vstore16(traced != (uchar16)0 ? max(traced, occluded) : traced, group, record);
-    }
-}
-#endif
 
 inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
     for (uint group = 0; group < GATHER_GROUPS; ++group) {
@@ -58,35 +44,56 @@ inline void clear(Accumulator* sum) {
     }
 }
 
-/// irradiance (+)= sum, where `replace` says not to add.
-inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first_lane, const Accumulator* sum,
-                              bool replace) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const uint at = first_lane / 16 + group;
-        const float16 none = (float16)0.0f;
-        vstore16(sum->r[group] + (replace ? none : vload16(at, irradiance->r)), at, irradiance->r);
-        vstore16(sum->g[group] + (replace ? none : vload16(at, irradiance->g)), at, irradiance->g);
-        vstore16(sum->b[group] + (replace ? none : vload16(at, irradiance->b)), at, irradiance->b);
+/// irradiance (+)= sum, where `replace` says not to add. Lane i has receiver first + order[i].
+inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first, uint end_packet,
+                              const uchar* order, const Accumulator* sum, bool replace) {
+    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+        const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
+        const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
+        if (packet < end_packet) {
+            global IrradiancePacket* to = irradiance + packet;
+            to->r[lane] = ((const float*)sum->r)[i] + (replace ? 0.0f : to->r[lane]);
+            to->g[lane] = ((const float*)sum->g)[i] + (replace ? 0.0f : to->g[lane]);
+            to->b[lane] = ((const float*)sum->b)[i] + (replace ? 0.0f : to->b[lane]);
+        }
     }
 }
+
+#ifdef GATHER_RECORD
+/// Notes which segments are open: `before` tracing, and then which of those are not any more.
+inline void record_open(global uchar* record, uint vpl, uint vpl_count, uint first, uint end_packet,
+                        const uchar* order, const Segments* s, bool before) {
+    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+        const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
+        const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
+        const bool open = ((const float*)s->t_max)[i] > 0.0f;
+        if (packet < end_packet) {
+            global uchar* pair = record + gather_record_index(packet, vpl, vpl_count, lane);
+            *pair = before ? (open ? GATHER_RECORD_VISIBLE : 0)
+                           : (*pair != 0 && !open ? GATHER_RECORD_OCCLUDED : *pair);
+        }
+    }
+}
+#endif
 
 /// One work-item for each GATHER_PACKET_WIDTH receivers of the packets [first_packet, end_packet), over the
 /// VPLs [first_vpl, end_vpl). Each GATHER_CHUNK of VPLs, counted from VPL 0, is summed by itself and then
 /// added to the irradiance, so that the result does not depend on how launches divide the work; first_vpl
 /// must be a multiple of GATHER_CHUNK. Launches over the VPLs of one packet must follow one another in order,
-/// from 0.
+/// from 0. With roulette, GATHER_PACKET_WIDTH is at most NEARLIGHT_PACKET_SIZE, because each packet has a list.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-    float clamp_radius_squared, global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS
-        GATHER_RECORD_PARAMETERS) {
-    const uint item = (uint)get_global_id(0);
-    const uint packet = first_packet + item / (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH);
-    const uint first_lane = item % (NEARLIGHT_PACKET_SIZE / GATHER_PACKET_WIDTH) * GATHER_PACKET_WIDTH;
+    uint end_vpl, const global ReceiverPacket* packets, uint first_packet, uint end_packet,
+    float clamp_radius_squared,
+    global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
+    const uint first = first_packet * NEARLIGHT_PACKET_SIZE + (uint)get_global_id(0) * GATHER_PACKET_WIDTH;
+    const uint packet = first / NEARLIGHT_PACKET_SIZE;
     if (packet >= end_packet) {
         return;
     }
-    const PacketBounds bounds = bounds_of(receivers + packet, first_lane);
+    Receivers receivers;
+    PacketBounds bounds;
+    gather_receivers(&receivers, &bounds, packets, first, end_packet);
     Segments segments;
     Accumulator sum;
     const uint end = GATHER_END(packet, end_vpl);
@@ -94,18 +101,17 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
         clear(&sum);
         for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
             const uint i = GATHER_VPL(packet, k);
-            connect(&segments, vpls + i, receivers + packet, first_lane, clamp_radius_squared);
+            connect(&segments, vpls + i, &receivers, clamp_radius_squared);
 #ifdef GATHER_RECORD
-            global uchar* pairs = record + gather_record_index(packet, i, record_vpl_count, first_lane);
-            record_open(&segments, pairs);
+            record_open(record, i, record_vpl_count, first, end_packet, receivers.order, &segments, true);
 #endif
-            test_visibility(&segments, &bounds, nodes, blocks);
+            trace_segments(&segments, &bounds, nodes, blocks);
 #ifdef GATHER_RECORD
-            record_occluded(&segments, pairs);
+            record_open(record, i, record_vpl_count, first, end_packet, receivers.order, &segments, false);
 #endif
             add_visible(&sum, &segments, gather_scale(vpls + i) * GATHER_WEIGHT(packet, k),
                         gather_squared(vpls + i));
         }
-        add_to_irradiance(irradiance + packet, first_lane, &sum, chunk == 0);
+        add_to_irradiance(irradiance, first, end_packet, receivers.order, &sum, chunk == 0);
     }
 }

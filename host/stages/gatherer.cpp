@@ -2,6 +2,7 @@
 #include "host/stages/gatherer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -26,9 +27,9 @@ GatherConfig resolved(GatherConfig config, const Device& device) {
     if (config.kernel == GatherKernel::automatic) {
         config.kernel = device.is_cpu() ? GatherKernel::packets : GatherKernel::rays;
     }
-    if (config.packet_width != 16 && config.packet_width != 32 && config.packet_width != 64) {
-        throw Error(ExitCode::usage,
-                    "a gather packet has 16, 32 or 64 lanes, not " + std::to_string(config.packet_width));
+    if (config.packet_width < 16 || config.packet_width > 256 || !std::has_single_bit(config.packet_width)) {
+        throw Error(ExitCode::usage, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
+                                         std::to_string(config.packet_width));
     }
     return config;
 }
@@ -69,20 +70,30 @@ Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
     if (config_.kernel == GatherKernel::rays) {
         return {Program(*device_, "gather_rays.cl", defines), "gather_rays"};
     }
-    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(config_.packet_width));
+    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(item_width(roulette)));
     return {Program(*device_, "gather_packets.cl", defines), "gather_packets"};
 }
 
+/// Receivers of a work-item. With roulette each packet of 64 asks about VPLs of its own.
+uint Gatherer::item_width(bool roulette) const {
+    if (config_.kernel == GatherKernel::rays) {
+        return 1;
+    }
+    return roulette ? std::min<uint>(config_.packet_width, NEARLIGHT_PACKET_SIZE) : config_.packet_width;
+}
+
 /// The part after `done`: the same packets against further VPLs, or, when those are through, further packets.
-Gatherer::Part Gatherer::next_part(std::size_t vpl_count, const Part& done, std::size_t end_packet,
-                                   std::uint64_t pair_budget) const {
+Gatherer::Part Gatherer::next_part(std::size_t vpl_count, bool roulette, const Part& done,
+                                   std::size_t end_packet, std::uint64_t pair_budget) const {
     constexpr std::uint64_t kChunkPairs = std::uint64_t{kChunk} * NEARLIGHT_PACKET_SIZE;
     Part part = done;
     if (done.end_vpl >= vpl_count) {
         const std::size_t most = device_->is_cpu() ? kCpuPackets : kGpuPackets;
         const std::size_t packets = std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, most);
         part.first_packet = done.end_packet;
-        part.end_packet = std::min(end_packet, part.first_packet + packets);
+        // Whole work-items, so that the next begins where it would without a division into launches.
+        const std::size_t whole = std::max<std::size_t>(1, item_width(roulette) / NEARLIGHT_PACKET_SIZE);
+        part.end_packet = std::min(end_packet, part.first_packet + (packets + whole - 1) / whole * whole);
         part.end_vpl = 0;
     }
     const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_packet - part.first_packet));
@@ -96,8 +107,9 @@ template <typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part,
                       Buffer<IrradiancePacket>& irradiance, const More&... more) {
     const bool rays = config_.kernel == GatherKernel::rays;
-    const std::size_t items_per_packet = NEARLIGHT_PACKET_SIZE / (rays ? 1 : config_.packet_width);
-    const std::size_t items = (part.end_packet - part.first_packet) * items_per_packet;
+    const std::size_t width = item_width(input.roulette > 0.0f);
+    const std::size_t lanes = (part.end_packet - part.first_packet) * NEARLIGHT_PACKET_SIZE;
+    const std::size_t items = (lanes + width - 1) / width;
     const auto launch_on = [&](std::size_t local_size, const auto& nodes, const auto& triangles) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
                       static_cast<cl_uint>(part.end_vpl), input.receivers,
@@ -120,7 +132,8 @@ bool Gatherer::gather_packets(Kernel& kernel, const GatherInput& input, std::siz
     part.end_packet = first_packet;
     part.end_vpl = input.vpl_count;
     while (part.end_packet < end_packet || part.end_vpl < input.vpl_count) {
-        part = next_part(input.vpl_count, part, end_packet, static_cast<std::uint64_t>(course.budget));
+        part = next_part(input.vpl_count, input.roulette > 0.0f, part, end_packet,
+                         static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
         launch(kernel, input, part, irradiance, more...);
         device_->finish();

@@ -18,13 +18,15 @@ namespace nearlight {
 /// a triangle within rounding.
 enum class GatherKernel {
     automatic,  ///< packets on CPUs, rays elsewhere
-    packets,    ///< gather_packets.cl: one work-item, 64 receivers in vector registers
+    packets,    ///< gather_packets.cl: one work-item, up to 256 receivers in vector registers
     rays,       ///< gather_rays.cl: one work-item, one receiver
 };
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
-    uint packet_width = NEARLIGHT_PACKET_SIZE;  ///< of `packets`: 16, 32 or 64 receivers a tree traversal
+    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal; with roulette at most 64. The result
+    /// does not depend on it.
+    uint packet_width = 4 * NEARLIGHT_PACKET_SIZE;
     /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
     /// time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
@@ -83,8 +85,9 @@ class Gatherer {
     struct Part;
     struct Course;
     [[nodiscard]] Kernel make_kernel(bool roulette, bool recording) const;
-    [[nodiscard]] Part next_part(std::size_t vpl_count, const Part& done, std::size_t end_packet,
-                                 std::uint64_t pair_budget) const;
+    [[nodiscard]] uint item_width(bool roulette) const;
+    [[nodiscard]] Part next_part(std::size_t vpl_count, bool roulette, const Part& done,
+                                 std::size_t end_packet, std::uint64_t pair_budget) const;
     template <typename... More>
     void launch(Kernel& kernel, const GatherInput& input, const Part& part,
                 Buffer<IrradiancePacket>& irradiance, const More&... more);

@@ -11,56 +11,70 @@
 #define LANES_PREFETCH
 #endif
 #endif
+// x86 with mask registers: a comparison's result is a number already.
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define LANES_MASK_REGISTERS
+typedef int LanesInt8 __attribute__((__vector_size__(32)));
+typedef int LanesInt16 __attribute__((__vector_size__(64)));
+#endif
+
+/// For what inner loops call: left to itself the compiler makes calls of large functions, and every call spills.
+#define LANES_INLINE inline __attribute__((always_inline))
 
 // The spelled-out comparisons compile to one instruction each; fmin() and fmax() have to look after NaN.
-inline float16 min16(float16 a, float16 b) {
+LANES_INLINE float16 min16(float16 a, float16 b) {
     return a < b ? a : b;
 }
-inline float16 max16(float16 a, float16 b) {
+LANES_INLINE float16 max16(float16 a, float16 b) {
     return a > b ? a : b;
 }
-inline float8 min8(float8 a, float8 b) {
+LANES_INLINE float8 min8(float8 a, float8 b) {
     return a < b ? a : b;
 }
-inline float8 max8(float8 a, float8 b) {
+LANES_INLINE float8 max8(float8 a, float8 b) {
     return a > b ? a : b;
-}
-
-/// True if any lane is −1. Some drivers compile any() to a branch a lane pair.
-inline bool any_lane(int16 mask) {
-#ifdef LANES_REDUCE_OR
-    return __builtin_reduce_or(mask) != 0;
-#else
-    const int8 a = mask.lo | mask.hi;
-    const int4 b = a.lo | a.hi;
-    const int2 c = b.lo | b.hi;
-    return (c.x | c.y) != 0;
-#endif
 }
 
 /// A number with bit i set where lane i is −1.
-inline uint lane_bits(int8 mask) {
+LANES_INLINE uint lane_bits8(int8 mask) {
+#if defined(LANES_MASK_REGISTERS)
+    return (uint)__builtin_ia32_cvtd2mask256((LanesInt8)mask) & 0xffu;
+#else
     const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-#ifdef LANES_REDUCE_OR
+#if defined(LANES_REDUCE_OR)
     return (uint)__builtin_reduce_or(bits);
 #else
     const int4 a = bits.lo | bits.hi;
     const int2 b = a.lo | a.hi;
     return (uint)(b.x | b.y);
 #endif
+#endif
+}
+LANES_INLINE uint lane_bits16(int16 mask) {
+#if defined(LANES_MASK_REGISTERS)
+    return (uint)__builtin_ia32_cvtd2mask512((LanesInt16)mask) & 0xffffu;
+#else
+    return lane_bits8(mask.lo) | lane_bits8(mask.hi) << 8;
+#endif
 }
 
-inline uint lowest_bit(uint bits) {
+/// −1 in the lanes whose bits are set.
+LANES_INLINE int16 lanes_of(uint bits) {
+    const int16 lane = (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+    return ((int16)(int)bits & lane) != 0;
+}
+
+LANES_INLINE uint lowest_bit(uint bits) {
     return 31 - clz(bits & -bits);
 }
 
-inline float16 reciprocal16(float16 d) {
+LANES_INLINE float16 reciprocal16(float16 d) {
     const float16 tiny = (float16)1e-20f;
     return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
 }
 
 /// Asks for the first three cache lines of what lies at `at`.
-inline void prefetch_lines(const global void* at) {
+LANES_INLINE void prefetch_lines(const global void* at) {
 #ifdef LANES_PREFETCH
     __builtin_prefetch(at);
     __builtin_prefetch((const global char*)at + 64);

@@ -1,111 +1,180 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of four triangles against a packet of segments: all four against the shaft, then one by one against lanes.
+// Blocks of four triangles against segments that meet their box: for groups of which many lanes do, triangle by
+// triangle, if the shaft may hit it; for others, up to four lanes with all four triangles in one vector.
 #ifndef NEARLIGHT_LIB_PACKET_BLOCKS
 #define NEARLIGHT_LIB_PACKET_BLOCKS
 
 #include "lib/segments.cl"
+
+typedef struct Axis4 {
+    float4 x, y, z;
+} Axis4;
 
 /// For each triangle of a block, which are turned towards the origin so that the sign of t is the same for
 /// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
 /// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its own:
 /// a sliver would reach far beyond its short edge.
 typedef struct BlockAxes {
-    float u[3][NEARLIGHT_BLOCK_TRIANGLES], v[3][NEARLIGHT_BLOCK_TRIANGLES], w[3][NEARLIGHT_BLOCK_TRIANGLES];
-    float n[3][NEARLIGHT_BLOCK_TRIANGLES];
-    float t[NEARLIGHT_BLOCK_TRIANGLES];
+    Axis4 u, v, w, n;
+    float4 t;
 } BlockAxes;
 
-typedef struct Axis4 {
-    float4 x, y, z;
-} Axis4;
+/// A leaf, a group, and which of its lanes meet the box of the leaf.
+typedef struct LeafVisit {
+    uint leaf, group, lanes;
+} LeafVisit;
 
-inline Axis4 load_axis(const global float* rows) {
+// Lanes of a group, at most, that are tested with all four triangles at once.
+#define FEW_LANES 4
+
+LANES_INLINE Axis4 load_axis(const global float* rows) {
     const Axis4 axis = {vload4(0, rows), vload4(1, rows), vload4(2, rows)};
     return axis;
 }
-inline void store_axis(Axis4 axis, float (*rows)[NEARLIGHT_BLOCK_TRIANGLES]) {
-    vstore4(axis.x, 0, rows[0]);
-    vstore4(axis.y, 0, rows[1]);
-    vstore4(axis.z, 0, rows[2]);
-}
-inline Axis4 cross4(Axis4 a, Axis4 b) {
+LANES_INLINE Axis4 cross4(Axis4 a, Axis4 b) {
     const Axis4 axis = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     return axis;
 }
-inline Axis4 minus4(Axis4 a, Axis4 b) {
+LANES_INLINE Axis4 minus4(Axis4 a, Axis4 b) {
     const Axis4 axis = {a.x - b.x, a.y - b.y, a.z - b.z};
     return axis;
 }
-inline Axis4 scale4(Axis4 a, float4 by) {
+LANES_INLINE Axis4 scale4(Axis4 a, float4 by) {
     const Axis4 axis = {a.x * by, a.y * by, a.z * by};
     return axis;
 }
 /// The greatest axis · d of all directions in the shaft.
-inline float4 greatest_in_shaft(Axis4 axis, const Shaft* shaft) {
+LANES_INLINE float4 greatest_in_shaft(Axis4 axis, const Shaft* shaft) {
     return axis.x * shaft->center.x + axis.y * shaft->center.y + axis.z * shaft->center.z +
            (fabs(axis.x) * shaft->extent.x + fabs(axis.y) * shaft->extent.y + fabs(axis.z) * shaft->extent.z);
 }
 
-/// Prepares a block's triangles. Returns one bit for each that the shaft may hit.
-inline uint prepare_block(const Segments* s, const global TriangleBlock* block, BlockAxes* axes) {
+/// Prepares a block's triangles.
+LANES_INLINE void prepare_block(BlockAxes* axes, float3 origin, const global TriangleBlock* block) {
     const Axis4 edge1 = load_axis(block->edge1[0]);
     const Axis4 edge2 = load_axis(block->edge2[0]);
     const Axis4 v0 = load_axis(block->v0[0]);
-    const Axis4 to_origin = {s->origin.x - v0.x, s->origin.y - v0.y, s->origin.z - v0.z};
+    const Axis4 to_origin = {origin.x - v0.x, origin.y - v0.y, origin.z - v0.z};
     const Axis4 normal = cross4(edge1, edge2);
     const float4 distance = to_origin.x * normal.x + to_origin.y * normal.y + to_origin.z * normal.z;
     const float4 side = distance < 0.0f ? (float4)-1.0f : (float4)1.0f;
-    const Axis4 n = scale4(normal, -side);
-    const Axis4 u = scale4(cross4(edge2, to_origin), side);
-    const Axis4 v = scale4(cross4(to_origin, edge1), side);
-    const Axis4 w = scale4(cross4(minus4(edge1, edge2), minus4(to_origin, edge1)), side);
-    const float4 t = fabs(distance);
-    store_axis(u, axes->u);
-    store_axis(v, axes->v);
-    store_axis(w, axes->w);
-    store_axis(n, axes->n);
-    vstore4(t, 0, axes->t);
-    const float4 slack = SHAFT_SLACK * ((fabs(u.x) + fabs(v.x) + fabs(n.x)) * s->shaft.reach.x +
-                                         (fabs(u.y) + fabs(v.y) + fabs(n.y)) * s->shaft.reach.y +
-                                         (fabs(u.z) + fabs(v.z) + fabs(n.z)) * s->shaft.reach.z);
-    const int4 may = (greatest_in_shaft(u, &s->shaft) >= -slack) &
-                     (greatest_in_shaft(v, &s->shaft) >= -slack) &
-                     (greatest_in_shaft(w, &s->shaft) >= -slack) &
-                     (t * (1.0f - SHAFT_SLACK) < greatest_in_shaft(n, &s->shaft) + slack);
-    return lane_bits((int8)(may, (int4)0));
+    axes->n = scale4(normal, -side);
+    axes->u = scale4(cross4(edge2, to_origin), side);
+    axes->v = scale4(cross4(to_origin, edge1), side);
+    axes->w = scale4(cross4(minus4(edge1, edge2), minus4(to_origin, edge1)), side);
+    axes->t = fabs(distance);
 }
 
-/// Ends the segments of some groups that meet triangle i of a prepared block. Returns −1 where one ended.
-inline int16 intersect_triangle(Segments* s, const BlockAxes* axes, uint i, uint groups) {
-    const float16 t = (float16)axes->t[i];
-    int16 any_hit = (int16)0;
-    for (; groups != 0; groups &= groups - 1) {
-        const uint group = lowest_bit(groups);
-        const float16 dx = s->dx[group], dy = s->dy[group], dz = s->dz[group];
-        const float16 det = axes->n[0][i] * dx + axes->n[1][i] * dy + axes->n[2][i] * dz;
-        const float16 u = axes->u[0][i] * dx + axes->u[1][i] * dy + axes->u[2][i] * dz;
-        const float16 v = axes->v[0][i] * dx + axes->v[1][i] * dy + axes->v[2][i] * dz;
-        const float16 w = axes->w[0][i] * dx + axes->w[1][i] * dy + axes->w[2][i] * dz;
-        const int16 hit = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
-                          (t < s->t_max[group] * det);
-        s->t_max[group] = hit ? (float16)-1.0f : s->t_max[group];
-        any_hit |= hit;
+/// One bit for each triangle that the shaft may hit.
+LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) {
+    const Axis4 u = axes->u, v = axes->v, w = axes->w, n = axes->n;
+    const float4 slack = SHAFT_SLACK * ((fabs(u.x) + fabs(v.x) + fabs(n.x)) * shaft->reach.x +
+                                        (fabs(u.y) + fabs(v.y) + fabs(n.y)) * shaft->reach.y +
+                                        (fabs(u.z) + fabs(v.z) + fabs(n.z)) * shaft->reach.z);
+    const int4 may = (greatest_in_shaft(u, shaft) >= -slack) & (greatest_in_shaft(v, shaft) >= -slack) &
+                     (greatest_in_shaft(w, shaft) >= -slack) &
+                     (axes->t * (1.0f - SHAFT_SLACK) < greatest_in_shaft(n, shaft) + slack);
+    return lane_bits8((int8)(may, (int4)0));
+}
+
+// Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the compiler
+// is left to choose.
+#ifdef FP_FAST_FMAF
+#define FUSED(a, b, c) fma(a, b, c)
+#else
+#define FUSED(a, b, c) ((a) * (b) + (c))
+#endif
+LANES_INLINE float16 dot16(float16 x, float16 y, float16 z, float16 dx, float16 dy, float16 dz) {
+    return FUSED(z, dz, FUSED(x, dx, y * dy));
+}
+
+/// −1 where a segment hits, of axes and directions lane by lane.
+LANES_INLINE int16 hits(float16 det, float16 u, float16 v, float16 w, float16 t) {
+    return (min16(min16(u, v), w) >= 0.0f) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
+           (t < NEARLIGHT_SEGMENT_T_MAX * det);
+}
+
+/// Ends the segments of a visit that hit triangle i of a block.
+LANES_INLINE void intersect_triangle(Segments* s, const BlockAxes* axes, uint i, const LeafVisit* visit) {
+    const float* u = (const float*)&axes->u + i;
+    const float* v = (const float*)&axes->v + i;
+    const float* w = (const float*)&axes->w + i;
+    const float* n = (const float*)&axes->n + i;
+    const float* t = (const float*)&axes->t + i;
+    const float16 dx = s->dx[visit->group], dy = s->dy[visit->group], dz = s->dz[visit->group];
+    const float16 det = dot16((float16)n[0], (float16)n[4], (float16)n[8], dx, dy, dz);
+    const int16 hit = hits(det, dot16((float16)u[0], (float16)u[4], (float16)u[8], dx, dy, dz),
+                           dot16((float16)v[0], (float16)v[4], (float16)v[8], dx, dy, dz),
+                           dot16((float16)w[0], (float16)w[4], (float16)w[8], dx, dy, dz), (float16)*t);
+    const uint hit_lanes = lane_bits16(hit) & visit->lanes;
+    if (hit_lanes != 0) {
+        set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);
     }
-    return any_hit;
 }
 
-/// Ends the segments of some groups that meet a triangle of the leaf. Returns true if any segment ended.
-inline bool intersect_leaf(Segments* s, const global TriangleBlock* blocks, uint leaf, uint groups) {
-    const uint first = leaf & NEARLIGHT_LEAF_FIRST_MASK;
-    const uint last = first + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-    int16 any_hit = (int16)0;
+/// The places of up to four bits; the last again where there are fewer.
+LANES_INLINE uint4 four_bits(uint bits) {
+    const uint after0 = bits & (bits - 1), from1 = after0 != 0 ? after0 : bits;
+    const uint after1 = from1 & (from1 - 1), from2 = after1 != 0 ? after1 : from1;
+    const uint after2 = from2 & (from2 - 1), from3 = after2 != 0 ? after2 : from2;
+    return (uint4)(lowest_bit(bits), lowest_bit(from1), lowest_bit(from2), lowest_bit(from3));
+}
+
+LANES_INLINE float16 each_four_times(const float16* from, uint4 lanes) {
+    const float* lane = (const float*)from;
+    return (float16)((float4)lane[lanes.x], (float4)lane[lanes.y], (float4)lane[lanes.z],
+                     (float4)lane[lanes.w]);
+}
+LANES_INLINE float16 repeat4(float4 v) {
+    return (float16)(v, v, v, v);
+}
+LANES_INLINE float16 dot_repeated(Axis4 axis, float16 dx, float16 dy, float16 dz) {
+    return dot16(repeat4(axis.x), repeat4(axis.y), repeat4(axis.z), dx, dy, dz);
+}
+
+/// Ends the segments of a visit of few lanes that hit any triangle of a block.
+LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVisit* visit) {
+    const uint4 lanes = four_bits(visit->lanes);
+    const float16 dx = each_four_times(s->dx + visit->group, lanes);
+    const float16 dy = each_four_times(s->dy + visit->group, lanes);
+    const float16 dz = each_four_times(s->dz + visit->group, lanes);
+    const uint bits = lane_bits16(hits(dot_repeated(axes->n, dx, dy, dz), dot_repeated(axes->u, dx, dy, dz),
+                                       dot_repeated(axes->v, dx, dy, dz), dot_repeated(axes->w, dx, dy, dz),
+                                       repeat4(axes->t)));
+    if (bits != 0) {
+        const uint hit_lanes =
+            ((bits & 0xfu) != 0 ? 1u << lanes.x : 0) | ((bits & 0xf0u) != 0 ? 1u << lanes.y : 0) |
+            ((bits & 0xf00u) != 0 ? 1u << lanes.z : 0) | ((bits & 0xf000u) != 0 ? 1u << lanes.w : 0);
+        set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);
+    }
+}
+
+/// Ends the segments of some visits to one leaf that hit a triangle of it.
+LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks, const LeafVisit* visits,
+                                 uint count) {
+    LeafVisit dense[GATHER_GROUPS + 1];
+    const uint first = visits->leaf & NEARLIGHT_LEAF_FIRST_MASK;
+    const uint last = first + ((visits->leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
     for (uint block = first; block <= last; ++block) {
         BlockAxes axes;
-        for (uint may = prepare_block(s, blocks + block, &axes); may != 0; may &= may - 1) {
-            any_hit |= intersect_triangle(s, &axes, lowest_bit(may), groups);
+        prepare_block(&axes, s->origin, blocks + block);
+        uint dense_count = 0;
+        for (uint i = 0; i < count; ++i) {
+            if (popcount(visits[i].lanes) > FEW_LANES) {
+                dense[dense_count++] = visits[i];
+            } else {
+                intersect_few(s, &axes, visits + i);
+            }
+        }
+        if (dense_count == 0) {
+            continue;
+        }
+        for (uint may = triangles_in_shaft(&s->shaft, &axes); may != 0; may &= may - 1) {
+            for (uint i = 0; i < dense_count; ++i) {
+                intersect_triangle(s, &axes, lowest_bit(may), dense + i);
+            }
         }
     }
-    return any_lane(any_hit);
 }
 
 #endif

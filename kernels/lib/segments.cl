@@ -1,47 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-// A packet of shadow rays from one VPL: groups of 16 lanes that go through the tree together.
+// A packet of shadow rays from one VPL.
 #ifndef NEARLIGHT_LIB_SEGMENTS
 #define NEARLIGHT_LIB_SEGMENTS
 
 #include "lib/shaft.cl"
 
-#ifndef GATHER_PACKET_WIDTH
-#define GATHER_PACKET_WIDTH \
-    NEARLIGHT_PACKET_SIZE  // receivers that go through the tree together: 16, 32 or 64
-#endif
-#define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
-
-/// Segments from one VPL to the receivers of a packet; the points on them are origin + t·(dx, dy, dz).
+/// Segments from one VPL to receivers; the points on them are origin + t·(dx, dy, dz).
 typedef struct Segments {
     float16 dx[GATHER_GROUPS], dy[GATHER_GROUPS], dz[GATHER_GROUPS];
     float16 reciprocal_x[GATHER_GROUPS], reciprocal_y[GATHER_GROUPS], reciprocal_z[GATHER_GROUPS];
     float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
     float16 weight[GATHER_GROUPS];
     float3 origin;
+    uint open;  // one bit for each cluster that has a lane neither culled nor occluded
     Shaft shaft;
+    ClusterShafts clusters;
 } Segments;
 
-inline bool all_done(const Segments* s) {
-    int16 open = (int16)0;
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        open |= s->t_max[group] > 0.0f;
+/// The group that the first of some clusters belongs to, and all clusters of a group.
+LANES_INLINE uint first_group(uint clusters) {
+    return lowest_bit(clusters) / GROUP_CLUSTERS;
+}
+LANES_INLINE uint clusters_of_group(uint group) {
+    return ((1u << GROUP_CLUSTERS) - 1) << GROUP_CLUSTERS * group;
+}
+
+/// The clusters that some lanes of a group belong to.
+LANES_INLINE uint clusters_of_lanes(uint group, uint lanes) {
+    uint clusters = 0;
+    for (uint i = 0; i < GROUP_CLUSTERS; ++i) {
+        const uint of_cluster = lanes >> CLUSTER_SIZE * i & ((1u << CLUSTER_SIZE) - 1);
+        clusters |= (of_cluster != 0 ? 1u : 0u) << i;
     }
-    return !any_lane(open);
+    return clusters << GROUP_CLUSTERS * group;
+}
+
+/// Sets what is left of a group's segments.
+LANES_INLINE void set_t_max(Segments* s, uint group, float16 t_max) {
+    s->t_max[group] = t_max;
+    const uint open = clusters_of_lanes(group, lane_bits16(t_max > 0.0f));
+    s->open = (s->open & ~clusters_of_group(group)) | open;
 }
 
 /// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry term.
-inline void connect(Segments* s, const global Vpl* vpl, const global ReceiverPacket* packet, uint first_lane,
+inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receivers,
                     float clamp_radius_squared) {
     s->origin = load3(vpl->position);
+    s->open = 0;
     const float3 vpl_normal = load3(vpl->normal);
     for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const uint at = first_lane / 16 + group;
-        const float16 dx = vload16(at, packet->px) - s->origin.x;
-        const float16 dy = vload16(at, packet->py) - s->origin.y;
-        const float16 dz = vload16(at, packet->pz) - s->origin.z;
+        const float16 dx = receivers->x[group] - s->origin.x;
+        const float16 dy = receivers->y[group] - s->origin.y;
+        const float16 dz = receivers->z[group] - s->origin.z;
         const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
         const float16 cos_receiver =
-            -(vload16(at, packet->nx) * dx + vload16(at, packet->ny) * dy + vload16(at, packet->nz) * dz);
+            -(receivers->nx[group] * dx + receivers->ny[group] * dy + receivers->nz[group] * dz);
         const float16 r2 = dx * dx + dy * dy + dz * dz;
         // Both cosines still carry a factor r.
         const float16 weight = cos_vpl * cos_receiver / (r2 * max16(r2, (float16)clamp_radius_squared));
@@ -53,22 +66,24 @@ inline void connect(Segments* s, const global Vpl* vpl, const global ReceiverPac
         s->reciprocal_y[group] = reciprocal16(dy);
         s->reciprocal_z[group] = reciprocal16(dz);
         s->weight[group] = weight;
-        s->t_max[group] = open ? (float16)NEARLIGHT_SEGMENT_T_MAX : (float16)-1.0f;
+        set_t_max(s, group, open ? (float16)NEARLIGHT_SEGMENT_T_MAX : (float16)-1.0f);
     }
 }
 
-inline PacketBounds bounds_of(const global ReceiverPacket* packet, uint first_lane) {
-    PacketBounds bounds = {(float3)INFINITY, (float3)-INFINITY};
-    for (uint i = first_lane; i < first_lane + GATHER_PACKET_WIDTH; ++i) {
-        const float3 position = (float3)(packet->px[i], packet->py[i], packet->pz[i]);
-        const bool present = packet->nx[i] != 0.0f || packet->ny[i] != 0.0f || packet->nz[i] != 0.0f;
-        // What is not finite is culled, and must not widen the shaft of the others.
-        if (present && isfinite(position.x + position.y + position.z)) {
-            bounds.low = fmin(bounds.low, position);
-            bounds.high = fmax(bounds.high, position);
-        }
+/// One bit for each lane of a group whose segment meets the box. Whoever meets a box meets all that hold it,
+/// bit by bit: rounding keeps the order of numbers.
+LANES_INLINE uint lanes_in_box(const Segments* s, uint group, const Planes* p) {
+    const float16 x0 = p->x0 * s->reciprocal_x[group], x1 = p->x1 * s->reciprocal_x[group];
+    const float16 y0 = p->y0 * s->reciprocal_y[group], y1 = p->y1 * s->reciprocal_y[group];
+    const float16 z0 = p->z0 * s->reciprocal_z[group], z1 = p->z1 * s->reciprocal_z[group];
+    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN, t_max = s->t_max[group];
+    if (!s->shaft.straddles) {
+        const float16 enter = max16(max16(x0, y0), max16(z0, t_min));
+        return lane_bits16(enter <= min16(min16(x1, y1), min16(z1, t_max)));
     }
-    return bounds;
+    const float16 enter = max16(max16(min16(x0, x1), min16(y0, y1)), max16(min16(z0, z1), t_min));
+    const float16 leave = min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), t_max));
+    return lane_bits16(enter <= leave);
 }
 
 #endif

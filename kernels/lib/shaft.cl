@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaft from a VPL to the box around receivers: what holds all their segments.
+// Shafts from a VPL to boxes around receivers, which hold all their segments: one of the whole packet, for the
+// eight children of a node at once, and one of each cluster, for one child and all clusters at once.
 #ifndef NEARLIGHT_LIB_SHAFT
 #define NEARLIGHT_LIB_SHAFT
 
 #include "lib/bvh_traverse.cl"
-#include "lib/lanes.cl"
+#include "lib/packet_receivers.cl"
 
 /// Bounds keep so far outside of what they bound, relatively: several roundings.
 #define SHAFT_SLACK 4e-7f
-
-/// Box around the receivers of a packet that are there.
-typedef struct PacketBounds {
-    float3 low, high;
-} PacketBounds;
 
 /// What holds all segments of a packet: at fraction t of its way each is within t·[low, high] of the origin.
 typedef struct Shaft {
@@ -20,10 +16,21 @@ typedef struct Shaft {
     float3 reach;                 // the greater of |low| and |high|
     float by_low[3], by_high[3];  // reciprocals of low and high
     uint straddles;               // 1: low and high differ in sign along some axis
-    // If not:
-    uint near[3];                 // which plane of a box comes first: 0 the lower, WIDE_UPPER the upper
-    float by_near[3], by_far[3];  // what near and far planes are divided by, reciprocal
+    uint near[3];                 // plane of a box taken for the nearer: 0 the lower, WIDE_UPPER the upper
+    float by_near[3], by_far[3];  // unless it straddles: what near and far planes are divided by, reciprocal
 } Shaft;
+
+/// The same of each cluster, in its lane. Near is lower where the packet straddles.
+typedef struct ClusterShafts {
+    float16 by_near[3], by_far[3];
+    float16
+        endless[3];  // where the packet straddles: FLT_MAX if the cluster does along that axis, else −FLT_MAX
+} ClusterShafts;
+
+/// Planes of a box, with the near one of each axis first, relative to the origin of the segments.
+typedef struct Planes {
+    float x0, x1, y0, y1, z0, z1;
+} Planes;
 
 // Floats from a lower plane of a WideNode to the upper one.
 #define WIDE_UPPER (3 * NEARLIGHT_WIDE_CHILDREN)
@@ -49,11 +56,28 @@ inline void make_shaft(Shaft* shaft, float3 origin, const PacketBounds* bounds) 
         shaft->by_near[axis] = down ? by_low[axis] : by_high[axis];
         shaft->by_far[axis] = (down ? by_high[axis] : by_low[axis]) * (1.0f + SHAFT_SLACK);
     }
+    if (shaft->straddles) {
+        shaft->near[0] = shaft->near[1] = shaft->near[2] = 0;
+    }
+}
+
+inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, float3 from,
+                                const PacketBounds* bounds) {
+    const float origin[3] = {from.x, from.y, from.z};
+    for (uint axis = 0; axis < 3; ++axis) {
+        const float16 by_low = reciprocal16(bounds->cluster_low[axis] - origin[axis]);
+        const float16 by_high = reciprocal16(bounds->cluster_high[axis] - origin[axis]);
+        const bool down = shaft->near[axis] != 0;
+        clusters->by_near[axis] = down ? by_low : by_high;
+        clusters->by_far[axis] = down ? by_high : by_low;
+        const int16 straddles = (by_low < 0.0f) & (by_high > 0.0f);
+        clusters->endless[axis] = straddles ? (float16)FLT_MAX : (float16)-FLT_MAX;
+    }
 }
 
 /// −1 in the lanes of children that the shaft may meet: those for which some t has t·high above the lower
 /// plane and t·low below the upper one, on each axis. What this rejects, every segment misses.
-inline int8 children_in_shaft(const Shaft* shaft, float3 from, const global WideNode* node) {
+LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const global WideNode* node) {
     const float origin[3] = {from.x, from.y, from.z};
     float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
     float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
@@ -74,6 +98,41 @@ inline int8 children_in_shaft(const Shaft* shaft, float3 from, const global Wide
         leave = shaft->by_low[axis] < 0.0f ? leave : min8(leave, high);
     }
     return enter <= leave;
+}
+
+/// The planes of child `slot`, whose lower x plane is at `plane`.
+LANES_INLINE Planes planes_of(const Shaft* shaft, float3 from, const global float* plane) {
+    const uint x = shaft->near[0];
+    const uint y = shaft->near[1] + NEARLIGHT_WIDE_CHILDREN;
+    const uint z = shaft->near[2] + 2 * NEARLIGHT_WIDE_CHILDREN;
+    const uint far_x = WIDE_UPPER - shaft->near[0];
+    const uint far_y = WIDE_UPPER - shaft->near[1] + NEARLIGHT_WIDE_CHILDREN;
+    const uint far_z = WIDE_UPPER - shaft->near[2] + 2 * NEARLIGHT_WIDE_CHILDREN;
+    const Planes planes = {plane[x] - from.x,     plane[far_x] - from.x, plane[y] - from.y,
+                           plane[far_y] - from.y, plane[z] - from.z,     plane[far_z] - from.z};
+    return planes;
+}
+
+/// One bit for each cluster whose shaft may meet the box.
+LANES_INLINE uint clusters_in_box(const ClusterShafts* c, bool straddles, const Planes* p) {
+    const float16 x0 = p->x0 * c->by_near[0], x1 = p->x1 * c->by_far[0];
+    const float16 y0 = p->y0 * c->by_near[1], y1 = p->y1 * c->by_far[1];
+    const float16 z0 = p->z0 * c->by_near[2], z1 = p->z1 * c->by_far[2];
+    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN, t_max = (float16)NEARLIGHT_SEGMENT_T_MAX;
+    const float slack = 1.0f + SHAFT_SLACK;
+    if (!straddles) {
+        const float16 enter = max16(max16(x0, y0), max16(z0, t_min));
+        return lane_bits16(enter <= slack * min16(min16(x1, y1), min16(z1, t_max)));
+    }
+    // Along an axis where a cluster straddles, both planes only bound t from below.
+    const float16 low_x = min16(x0, x1), low_y = min16(y0, y1), low_z = min16(z0, z1);
+    const float16 high_x = max16(x0, x1), high_y = max16(y0, y1), high_z = max16(z0, z1);
+    const float16 enter = max16(max16(max16(low_x, min16(high_x, c->endless[0])),  //
+                                      max16(low_y, min16(high_y, c->endless[1]))),
+                                max16(max16(low_z, min16(high_z, c->endless[2])), t_min));
+    const float16 leave = min16(min16(max16(high_x, c->endless[0]), max16(high_y, c->endless[1])),
+                                min16(max16(high_z, c->endless[2]), t_max));
+    return lane_bits16(enter <= slack * leave);
 }
 
 #endif

@@ -1,109 +1,136 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the wide tree by a packet of segments: any hit.
+//
+// Nodes come from a stack, a few at a time, and the leaves that they lead to are looked at after them. That makes
+// long runs of work that does not depend on the step before, which hides latencies, and asks for memory well
+// before it is used.
 #ifndef NEARLIGHT_LIB_WIDE_TRAVERSE
 #define NEARLIGHT_LIB_WIDE_TRAVERSE
 
 #include "lib/packet_blocks.cl"
 
-// Entries of a traversal stack: each level leaves all children but one behind.
-#define GATHER_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + NEARLIGHT_WIDE_CHILDREN)
+#define NODES_AT_ONCE 4
+// Entries lie deeper in the tree the nearer they are to the top, so that when nodes of a level are taken, nothing
+// is left of the level below: no level ever has more entries than one taking adds.
+#define GATHER_STACK_SIZE (NEARLIGHT_WIDE_CHILDREN * NODES_AT_ONCE * (NEARLIGHT_MAX_BVH_DEPTH + 1))
 
-/// One bit for each group from `group` on that has a segment in the box of a child; if `only_first`, no more
-/// than the first of them.
-inline uint groups_in_child(const Segments* s, const global WideNode* node, uint slot, uint group,
-                            bool only_first) {
-    const Shaft* shaft = &s->shaft;
-    const global float* x = node->low[0] + slot;
-    const global float* y = node->low[1] + slot;
-    const global float* z = node->low[2] + slot;
-    const float near_x = x[shaft->near[0]] - s->origin.x,
-                far_x = x[WIDE_UPPER - shaft->near[0]] - s->origin.x;
-    const float near_y = y[shaft->near[1]] - s->origin.y,
-                far_y = y[WIDE_UPPER - shaft->near[1]] - s->origin.y;
-    const float near_z = z[shaft->near[2]] - s->origin.z,
-                far_z = z[WIDE_UPPER - shaft->near[2]] - s->origin.z;
-    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN;
-    uint groups = 0;
-    for (; group < GATHER_GROUPS && !(only_first && groups != 0); ++group) {
-        const float16 x0 = near_x * s->reciprocal_x[group], x1 = far_x * s->reciprocal_x[group];
-        const float16 y0 = near_y * s->reciprocal_y[group], y1 = far_y * s->reciprocal_y[group];
-        const float16 z0 = near_z * s->reciprocal_z[group], z1 = far_z * s->reciprocal_z[group];
-        const float16 t_max = s->t_max[group];
-        const bool meets =
-            shaft->straddles
-                ? any_lane(max16(max16(min16(x0, x1), min16(y0, y1)), max16(min16(z0, z1), t_min)) <=
-                           min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), t_max)))
-                : any_lane(max16(max16(x0, y0), max16(z0, t_min)) <= min16(min16(x1, y1), min16(z1, t_max)));
-        groups |= meets ? 1u << group : 0u;
-    }
-    return groups;
-}
+/// An inner node, and the clusters that may meet it.
+typedef struct NodeVisit {
+    uint node, clusters;
+} NodeVisit;
+
+typedef struct Traversal {
+    NodeVisit stack[GATHER_STACK_SIZE];
+    uint top;
+    LeafVisit
+        leaves[NODES_AT_ONCE * NEARLIGHT_WIDE_CHILDREN * GATHER_GROUPS + 1];  // and one that does not count
+    uint leaf_count;
+} Traversal;
 
 /// Asks for the memory of a node or of a leaf's first block, which take three cache lines or more.
-inline void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks, uint child) {
+LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
+                                 uint child) {
     const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
     prefetch_lines(leaf ? (const global void*)(blocks + (child & NEARLIGHT_LEAF_FIRST_MASK))
                         : (const global void*)(nodes + child));
 }
 
-/// A child on the stack: its reference, and where its box stands, with the first group that met the parent.
-typedef uint2 StackEntry;
-inline StackEntry make_entry(const global WideNode* node, uint index, uint slot, uint group) {
-    return (StackEntry)(node->child[slot], group << 29 | index << 3 | slot);
+// Both write always and count only what is kept, which costs less than a branch that nobody can predict.
+LANES_INLINE void keep_node(Traversal* work, uint node, uint clusters) {
+    const NodeVisit visit = {node, clusters};
+    work->stack[work->top] = visit;
+    work->top += clusters != 0 ? 1 : 0;
 }
-inline uint entry_node(StackEntry entry) {
-    return (entry.y & 0x1fffffffu) >> 3;
-}
-inline uint entry_slot(StackEntry entry) {
-    return entry.y & 7u;
-}
-inline uint entry_group(StackEntry entry) {
-    return entry.y >> 29;
+LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint group, uint lanes) {
+    const LeafVisit visit = {leaf, group, lanes};
+    work->leaves[work->leaf_count] = visit;
+    work->leaf_count += lanes != 0 ? 1 : 0;
 }
 
-/// Ends the segments (t_max = −1) that meet anything.
-inline void trace_segments(Segments* s, const global WideNode* nodes, const global TriangleBlock* blocks) {
-    StackEntry stack[GATHER_STACK_SIZE];
-    int top = 0;
-    uint index = 0;
-    uint group = 0;
-    for (;;) {
-        const global WideNode* node = nodes + index;
-        for (uint met = lane_bits(children_in_shaft(&s->shaft, s->origin, node)); met != 0; met &= met - 1) {
-            const uint slot = lowest_bit(met);
-            stack[top++] = make_entry(node, index, slot, group);
-            prefetch_child(nodes, blocks, node->child[slot]);
+/// Keeps a child that some of `clusters` meet. An inner child is tested with the lanes of two groups, and may
+/// pass for the sake of others; a leaf with those of all.
+LANES_INLINE void visit_child(Traversal* work, const Segments* s, const global float* plane, uint child,
+                              uint clusters) {
+    const Planes planes = planes_of(&s->shaft, s->origin, plane);
+    const uint meeting = clusters & clusters_in_box(&s->clusters, s->shaft.straddles != 0, &planes);
+    if (meeting == 0) {
+        return;
+    }
+    const uint group0 = first_group(meeting);
+    const uint others = meeting & ~clusters_of_group(group0);
+    const uint group1 = others != 0 ? first_group(others) : group0;
+    const uint lanes0 = lanes_in_box(s, group0, &planes);
+    const uint lanes1 = lanes_in_box(s, group1, &planes);
+    if ((child & NEARLIGHT_LEAF_BIT) == 0) {
+        keep_node(work, child,
+                  meeting & ~(lanes0 == 0 ? clusters_of_group(group0) : 0) &
+                      ~(lanes1 == 0 ? clusters_of_group(group1) : 0));
+        return;
+    }
+    keep_leaf(work, child, group0, lanes0);
+    keep_leaf(work, child, group1, others != 0 ? lanes1 : 0);
+    uint rest = others & ~clusters_of_group(group1);
+    while (rest != 0) {
+        const uint group = first_group(rest);
+        rest &= ~clusters_of_group(group);
+        keep_leaf(work, child, group, lanes_in_box(s, group, &planes));
+    }
+}
+
+/// Takes nodes from the stack and keeps those of their children that segments meet.
+LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global WideNode* nodes,
+                              const global TriangleBlock* blocks) {
+    NodeVisit taken[NODES_AT_ONCE];
+    const uint count = min(work->top, (uint)NODES_AT_ONCE);
+    work->top -= count;
+    for (uint i = 0; i < count; ++i) {
+        taken[i] = work->stack[work->top + i];
+    }
+    for (uint i = 0; i < count; ++i) {
+        const global WideNode* node = nodes + taken[i].node;
+        const uint clusters = taken[i].clusters & s->open;
+        if (clusters == 0) {
+            continue;
         }
-        // Leaves until the next inner node that a segment meets.
-        for (;;) {
-            if (top == 0) {
-                return;
-            }
-            const StackEntry entry = stack[--top];
-            const bool leaf = (entry.x & NEARLIGHT_LEAF_BIT) != 0;
-            const uint groups =
-                groups_in_child(s, nodes + entry_node(entry), entry_slot(entry), entry_group(entry), !leaf);
-            if (groups == 0) {
-                continue;
-            }
-            if (!leaf) {
-                index = entry.x;
-                group = lowest_bit(groups);
-                break;
-            }
-            if (intersect_leaf(s, blocks, entry.x, groups) && all_done(s)) {
-                return;
-            }
+        for (uint met = lane_bits8(children_in_shaft(&s->shaft, s->origin, node)); met != 0; met &= met - 1) {
+            const uint slot = lowest_bit(met);
+            const uint child = node->child[slot];
+            prefetch_child(nodes, blocks, child);
+            visit_child(work, s, node->low[0] + slot, child, clusters);
         }
     }
 }
 
-/// Ends the segments that meet anything.
-inline void test_visibility(Segments* s, const PacketBounds* bounds, const global WideNode* nodes,
-                            const global TriangleBlock* blocks) {
-    if (!all_done(s)) {
-        make_shaft(&s->shaft, s->origin, bounds);
-        trace_segments(s, nodes, blocks);
+/// Ends the segments that hit a triangle of the leaves that were kept.
+LANES_INLINE void visit_leaves(Traversal* work, Segments* s, const global TriangleBlock* blocks) {
+    uint first = 0;
+    while (first < work->leaf_count) {
+        uint end = first + 1;
+        while (end < work->leaf_count && work->leaves[end].leaf == work->leaves[first].leaf) {
+            ++end;
+        }
+        intersect_leaf(s, blocks, work->leaves + first, end - first);
+        first = end;
+    }
+    work->leaf_count = 0;
+}
+
+/// Ends the segments (t_max = −1) that meet anything.
+LANES_INLINE void trace_segments(Segments* s, const PacketBounds* bounds, const global WideNode* nodes,
+                                 const global TriangleBlock* blocks) {
+    if (s->open == 0) {
+        return;
+    }
+    make_shaft(&s->shaft, s->origin, bounds);
+    make_cluster_shafts(&s->clusters, &s->shaft, s->origin, bounds);
+    Traversal work;
+    work.stack[0].node = 0;
+    work.stack[0].clusters = s->open;
+    work.top = 1;
+    work.leaf_count = 0;
+    while (work.top != 0 && s->open != 0) {
+        visit_nodes(&work, s, nodes, blocks);
+        visit_leaves(&work, s, blocks);
     }
 }
 

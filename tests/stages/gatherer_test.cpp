@@ -24,10 +24,10 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-    return {{"packets of 64", {GatherKernel::packets, 64}},
-            {"packets of 32", {GatherKernel::packets, 32}},
-            {"packets of 16", {GatherKernel::packets, 16}},
-            {"rays", {GatherKernel::rays, 64}}};
+    return {
+        {"packets of 256", {GatherKernel::packets, 256}}, {"packets of 128", {GatherKernel::packets, 128}},
+        {"packets of 64", {GatherKernel::packets, 64}},   {"packets of 32", {GatherKernel::packets, 32}},
+        {"packets of 16", {GatherKernel::packets, 16}},   {"rays", {GatherKernel::rays, 64}}};
 }
 
 /// How the pairs came out that kernel and host see differently.
@@ -180,10 +180,25 @@ TEST_F(GathererTest, DivisionIntoLaunchesDoesNotChangeABit) {
     });
 }
 
+TEST_F(GathererTest, PacketWidthDoesNotChangeABit) {
+    for (const GatherCase& data : {random_triangles(500, 257, 13, 14), room_of_boxes(60, 100, 13, 15),
+                                   points_on_grid(64, 13, 16), needles(400, 100, 13, 17)}) {
+        on_each_device([&](Device& device) {
+            Uploaded uploaded(device, data);
+            std::vector<std::vector<IrradiancePacket>> results;
+            for (const uint width : {256, 128, 64, 32, 16}) {
+                Gatherer gatherer(device, {GatherKernel::packets, width});
+                results.push_back(uploaded.gather(gatherer));
+                EXPECT_TRUE(same_bits(results.front(), results.back())) << data.name << ", width " << width;
+            }
+        });
+    }
+}
+
 TEST_F(GathererTest, ProgressCountsPairsAndCancels) {
     const GatherCase data = random_triangles(50, 1000, 5, 10);
     on_each_device([&](Device& device) {
-        GatherConfig config;
+        GatherConfig config{.packet_width = NEARLIGHT_PACKET_SIZE};
         config.first_launch_pairs = 1;
         config.launch_seconds = 1e-9;
         Gatherer gatherer(device, config);

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// The receivers of a work-item: loaded once, put in order so that neighbours form clusters, and bounded.
+#ifndef NEARLIGHT_LIB_PACKET_RECEIVERS
+#define NEARLIGHT_LIB_PACKET_RECEIVERS
+
+#include "lib/lanes.cl"
+
+// Receivers that go through the tree together: 16, 32, 64, 128 or 256, in groups of 16 lanes. They form 16
+// clusters, each of neighbouring lanes of one group.
+#ifndef GATHER_PACKET_WIDTH
+#define GATHER_PACKET_WIDTH (4 * NEARLIGHT_PACKET_SIZE)
+#endif
+#define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
+#define CLUSTERS 16
+#define CLUSTER_SIZE (GATHER_PACKET_WIDTH / CLUSTERS)
+#define GROUP_CLUSTERS (CLUSTERS / GATHER_GROUPS)
+
+typedef struct Receivers {
+    float16 x[GATHER_GROUPS], y[GATHER_GROUPS], z[GATHER_GROUPS];
+    float16 nx[GATHER_GROUPS], ny[GATHER_GROUPS], nz[GATHER_GROUPS];
+    uchar order[GATHER_PACKET_WIDTH];  // which receiver, counted from the work-item's first, a lane has
+} Receivers;
+
+/// Boxes around receivers: of all that are there, and of each cluster in a lane of its own (x, y, z).
+typedef struct PacketBounds {
+    float3 low, high;
+    float16 cluster_low[3], cluster_high[3];
+} PacketBounds;
+
+/// Positions by lane; +∞ where a receiver is absent or not finite: it is culled, and must not widen any bounds.
+typedef struct Places {
+    float at[3][GATHER_PACKET_WIDTH];
+} Places;
+
+/// Loads the receivers from `first` (counted in lanes) on; those beyond the last packet are absent.
+inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, uint first, uint end_packet) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const uint lane = first + 16 * group;
+        const bool there = lane / NEARLIGHT_PACKET_SIZE < end_packet;
+        const global ReceiverPacket* packet = packets + (there ? lane : first) / NEARLIGHT_PACKET_SIZE;
+        const uint at = lane % NEARLIGHT_PACKET_SIZE / 16;
+        const float16 absent = (float16)0.0f;
+        to->x[group] = vload16(at, packet->px);
+        to->y[group] = vload16(at, packet->py);
+        to->z[group] = vload16(at, packet->pz);
+        to->nx[group] = there ? vload16(at, packet->nx) : absent;
+        to->ny[group] = there ? vload16(at, packet->ny) : absent;
+        to->nz[group] = there ? vload16(at, packet->nz) : absent;
+    }
+}
+
+inline void place_receivers(Places* places, const Receivers* receivers) {
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        const float16 x = receivers->x[group], y = receivers->y[group], z = receivers->z[group];
+        const int16 present =
+            (receivers->nx[group] != 0.0f) | (receivers->ny[group] != 0.0f) | (receivers->nz[group] != 0.0f);
+        const int16 good = present & isfinite(x + y + z);
+        const float16 nowhere = (float16)INFINITY;
+        vstore16(good ? x : nowhere, group, places->at[0]);
+        vstore16(good ? y : nowhere, group, places->at[1]);
+        vstore16(good ? z : nowhere, group, places->at[2]);
+    }
+}
+
+/// The box of `count` places; inverted where none is there.
+inline void bound_places(const Places* places, const uchar* order, uint count, float3* low, float3* high) {
+    *low = (float3)INFINITY;
+    *high = (float3)-INFINITY;
+    for (uint i = 0; i < count; ++i) {
+        const float3 at = (float3)(places->at[0][order[i]], places->at[1][order[i]], places->at[2][order[i]]);
+        *low = fmin(*low, at);
+        *high = fmax(*high, at.x < INFINITY ? at : (float3)-INFINITY);
+    }
+}
+
+/// Puts `order` into ascending order of `key`, as far as ORDER_BINS equal steps from `low` to `high` tell.
+#define ORDER_BINS 64
+inline void order_by(const float* key, float low, float high, uchar* order, uint count) {
+    ushort ends[ORDER_BINS + 1];
+    uchar bins[GATHER_PACKET_WIDTH], sorted[GATHER_PACKET_WIDTH];
+    for (uint i = 0; i <= ORDER_BINS; ++i) {
+        ends[i] = 0;
+    }
+    const float scale = (ORDER_BINS - 1) / fmax(high - low, 1e-30f);
+    for (uint i = 0; i < count; ++i) {
+        bins[i] = (uchar)fmin((key[order[i]] - low) * scale, (float)(ORDER_BINS - 1));
+        ++ends[bins[i] + 1];
+    }
+    for (uint i = 1; i < ORDER_BINS; ++i) {
+        ends[i] += ends[i - 1];
+    }
+    for (uint i = 0; i < count; ++i) {
+        sorted[ends[bins[i]]++] = order[i];
+    }
+    for (uint i = 0; i < count; ++i) {
+        order[i] = sorted[i];
+    }
+}
+
+inline float component(float3 v, uint axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// Finds clusters: four slices along the longest side of the box, each cut in four along its own longest side.
+inline void find_clusters(const Places* places, uchar* order) {
+    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+        order[i] = (uchar)i;
+    }
+    for (uint size = GATHER_PACKET_WIDTH; size > CLUSTER_SIZE; size /= 4) {
+        for (uint first = 0; first < GATHER_PACKET_WIDTH; first += size) {
+            float3 low, high;
+            bound_places(places, order + first, size, &low, &high);
+            const float3 sides = high - low;
+            const uint axis = sides.x >= sides.y && sides.x >= sides.z ? 0 : sides.y >= sides.z ? 1 : 2;
+            order_by(places->at[axis], component(low, axis), component(high, axis), order + first, size);
+        }
+    }
+}
+
+inline void permute(float16* lanes, const uchar* order) {
+    float unordered[GATHER_PACKET_WIDTH];
+    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+        vstore16(lanes[group], group, unordered);
+    }
+    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+        ((float*)lanes)[i] = unordered[order[i]];
+    }
+}
+
+/// Loads receivers in the order of their clusters, with their bounds.
+inline void gather_receivers(Receivers* receivers, PacketBounds* bounds, const global ReceiverPacket* packets,
+                             uint first, uint end_packet) {
+    Places places;
+    load_receivers(receivers, packets, first, end_packet);
+    place_receivers(&places, receivers);
+    find_clusters(&places, receivers->order);
+    bounds->low = (float3)INFINITY;
+    bounds->high = (float3)-INFINITY;
+    for (uint cluster = 0; cluster < CLUSTERS; ++cluster) {
+        float3 low, high;
+        bound_places(&places, receivers->order + cluster * CLUSTER_SIZE, CLUSTER_SIZE, &low, &high);
+        ((float*)&bounds->cluster_low[0])[cluster] = low.x;
+        ((float*)&bounds->cluster_low[1])[cluster] = low.y;
+        ((float*)&bounds->cluster_low[2])[cluster] = low.z;
+        ((float*)&bounds->cluster_high[0])[cluster] = high.x;
+        ((float*)&bounds->cluster_high[1])[cluster] = high.y;
+        ((float*)&bounds->cluster_high[2])[cluster] = high.z;
+        bounds->low = fmin(bounds->low, low);
+        bounds->high = fmax(bounds->high, high);
+    }
+    permute(receivers->x, receivers->order);
+    permute(receivers->y, receivers->order);
+    permute(receivers->z, receivers->order);
+    permute(receivers->nx, receivers->order);
+    permute(receivers->ny, receivers->order);
+    permute(receivers->nz, receivers->order);
+}
+
+#endif
