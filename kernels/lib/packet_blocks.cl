@@ -79,7 +79,7 @@ LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) 
 
 // Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the compiler
 // is left to choose.
-#ifdef FP_FAST_FMAF
+#if defined(FP_FAST_FMAF) || defined(__FMA__)
 #define FUSED(a, b, c) fma(a, b, c)
 #else
 #define FUSED(a, b, c) ((a) * (b) + (c))
