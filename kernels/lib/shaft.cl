@@ -100,6 +100,33 @@ LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const globa
     return enter <= leave;
 }
 
+/// The same for the shaft of one cluster.
+LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft* shaft, uint cluster,
+                                      float3 from, const global WideNode* node) {
+    const float origin[3] = {from.x, from.y, from.z};
+    float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
+    float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
+    for (uint axis = 0; axis < 3; ++axis) {
+        const global float* planes = node->low[axis];
+        const uint near = shaft->near[axis];
+        const float by_near = ((const float*)&clusters->by_near[axis])[cluster];
+        const float by_far = ((const float*)&clusters->by_far[axis])[cluster];
+        const float8 t0 = (vload8(0, planes + near) - origin[axis]) * by_near;
+        const float8 t1 = (vload8(0, planes + (WIDE_UPPER - near)) - origin[axis]) * by_far;
+        if (!shaft->straddles) {
+            enter = max8(enter, t0);
+            leave = min8(leave, t1);
+            continue;
+        }
+        const float endless = ((const float*)&clusters->endless[axis])[cluster];
+        const float8 low = min8(t0, t1), high = max8(t0, t1);
+        enter = max8(enter, max8(low, min8(high, (float8)endless)));
+        leave = min8(leave, max8(high, (float8)endless));
+    }
+    // Minima and maxima make a box of what has no child.
+    return (enter <= leave * (1.0f + SHAFT_SLACK)) & (vload8(0, node->low[0]) < INFINITY);
+}
+
 /// The planes of child `slot`, whose lower x plane is at `plane`.
 LANES_INLINE Planes planes_of(const Shaft* shaft, float3 from, const global float* plane) {
     const uint x = shaft->near[0];

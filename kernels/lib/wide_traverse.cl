@@ -77,6 +77,19 @@ LANES_INLINE void visit_child(Traversal* work, const Segments* s, const global f
     }
 }
 
+/// The same where only one cluster is left, which is known to meet the child.
+LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const global float* plane, uint child,
+                                    uint cluster) {
+    const Planes planes = planes_of(&s->shaft, s->origin, plane);
+    const uint group = first_group(cluster);
+    const uint lanes = lanes_in_box(s, group, &planes);
+    if ((child & NEARLIGHT_LEAF_BIT) == 0) {
+        keep_node(work, child, lanes != 0 ? cluster : 0);
+    } else {
+        keep_leaf(work, child, group, lanes);
+    }
+}
+
 /// Takes nodes from the stack and keeps those of their children that segments meet.
 LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global WideNode* nodes,
                               const global TriangleBlock* blocks) {
@@ -90,6 +103,17 @@ LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global W
         const global WideNode* node = nodes + taken[i].node;
         const uint clusters = taken[i].clusters & s->open;
         if (clusters == 0) {
+            continue;
+        }
+        if ((clusters & (clusters - 1)) == 0) {
+            const int8 children =
+                children_in_cluster(&s->clusters, &s->shaft, lowest_bit(clusters), s->origin, node);
+            for (uint met = lane_bits8(children); met != 0; met &= met - 1) {
+                const uint slot = lowest_bit(met);
+                const uint child = node->child[slot];
+                prefetch_child(nodes, blocks, child);
+                visit_child_alone(work, s, node->low[0] + slot, child, clusters);
+            }
             continue;
         }
         for (uint met = lane_bits8(children_in_shaft(&s->shaft, s->origin, node)); met != 0; met &= met - 1) {
