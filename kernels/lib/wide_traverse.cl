@@ -90,6 +90,22 @@ LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const gl
     }
 }
 
+/// Keeps those of a node's children in `met` that segments of `clusters` meet.
+LANES_INLINE void visit_children(Traversal* work, const Segments* s, const global WideNode* nodes,
+                                 const global TriangleBlock* blocks, NodeVisit visit, uint met, bool alone) {
+    const global WideNode* node = nodes + visit.node;
+    for (; met != 0; met &= met - 1) {
+        const uint slot = lowest_bit(met);
+        const uint child = node->child[slot];
+        prefetch_child(nodes, blocks, child);
+        if (alone) {
+            visit_child_alone(work, s, node->low[0] + slot, child, visit.clusters);
+        } else {
+            visit_child(work, s, node->low[0] + slot, child, visit.clusters);
+        }
+    }
+}
+
 /// Takes nodes from the stack and keeps those of their children that segments meet.
 LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global WideNode* nodes,
                               const global TriangleBlock* blocks) {
@@ -101,26 +117,17 @@ LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global W
     }
     for (uint i = 0; i < count; ++i) {
         const global WideNode* node = nodes + taken[i].node;
-        const uint clusters = taken[i].clusters & s->open;
-        if (clusters == 0) {
+        const NodeVisit visit = {taken[i].node, taken[i].clusters & s->open};
+        if (visit.clusters == 0) {
             continue;
         }
-        if ((clusters & (clusters - 1)) == 0) {
-            const int8 children =
-                children_in_cluster(&s->clusters, &s->shaft, lowest_bit(clusters), s->origin, node);
-            for (uint met = lane_bits8(children); met != 0; met &= met - 1) {
-                const uint slot = lowest_bit(met);
-                const uint child = node->child[slot];
-                prefetch_child(nodes, blocks, child);
-                visit_child_alone(work, s, node->low[0] + slot, child, clusters);
-            }
-            continue;
-        }
-        for (uint met = lane_bits8(children_in_shaft(&s->shaft, s->origin, node)); met != 0; met &= met - 1) {
-            const uint slot = lowest_bit(met);
-            const uint child = node->child[slot];
-            prefetch_child(nodes, blocks, child);
-            visit_child(work, s, node->low[0] + slot, child, clusters);
+        if ((visit.clusters & (visit.clusters - 1)) == 0) {
+            const uint cluster = lowest_bit(visit.clusters);
+            const int8 met = children_in_cluster(&s->clusters, &s->shaft, cluster, s->origin, node);
+            visit_children(work, s, nodes, blocks, visit, lane_bits8(met), true);
+        } else {
+            const int8 met = children_in_shaft(&s->shaft, s->origin, node);
+            visit_children(work, s, nodes, blocks, visit, lane_bits8(met), false);
         }
     }
 }
