@@ -126,7 +126,7 @@ std::vector<const Device*> Renderer::State::plain_devices() const {
 void Renderer::State::upload(const SceneBvhs& bvhs) {
     for (std::size_t i = devices.size(); i-- > 0;) {
         try {
-            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs);
+            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs, gather_config.kernel);
         } catch (const Error& error) {
             lose(i, error);
         }

@@ -40,10 +40,7 @@ void gather_incident_light(SamplerStages& stages, const SamplingTask& task, cons
     }
     if (sparse.count > 0) {
         Buffer<IrradiancePacket> gathered(stages.device, packet_count);
-        stages.gatherer.gather({.nodes = task.scene.nodes,
-                                .triangles = task.scene.bvh_triangles,
-                                .wide_nodes = task.scene.wide_nodes,
-                                .blocks = task.scene.blocks,
+        stages.gatherer.gather({.tree = task.scene.tree,
                                 .vpls = sparse.vpls,
                                 .vpl_count = sparse.count,
                                 .receivers = receivers,

@@ -3,7 +3,6 @@
 
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
-#include "host/bvh/wide_bvh.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/reference_gather.h"
 #include "host/selftest/edge_excuse.h"
@@ -26,18 +25,13 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
     EdgeExcuse edges(bvh.triangles, max_component(bounds(scene).size()));
 
-    const Buffer<BvhNode> nodes(device, bvh.nodes);
-    const Buffer<BvhTriangle> triangles(device, bvh.triangles);
-    const WideBvh wide = widen(bvh);
-    const Buffer<WideNode> wide_nodes(device, wide.nodes);
-    const Buffer<TriangleBlock> blocks(device, wide.blocks);
+    const OpaqueTree tree = upload_tree(device, bvh, kernel);
     const Buffer<Vpl> vpl_buffer(device, vpls);
     const Buffer<ReceiverPacket> receiver_buffer(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     const std::vector<GatherPair> pairs =
         Gatherer(device, {.kernel = kernel})
-            .gather_recorded({nodes, triangles, wide_nodes, blocks, vpl_buffer, vpls.size(), receiver_buffer,
-                              receivers.size(), kClampRadius},
+            .gather_recorded({tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kClampRadius},
                              irradiance);
 
     const EmbreeScene embree(scene);
