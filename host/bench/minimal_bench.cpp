@@ -13,6 +13,7 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
@@ -97,10 +98,9 @@ bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
         if (pairs[i] == GatherPair::culled) {
             continue;
         }
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
         const Vpl& vpl = work.vpls[i / NEARLIGHT_PACKET_SIZE % job.vpls.count()];
         const ReceiverPacket& packet = work.receivers[i / NEARLIGHT_PACKET_SIZE / job.vpls.count()];
-        const Vec3 receiver{packet.px[lane], packet.py[lane], packet.pz[lane]};
+        const Vec3 receiver = receiver_at(packet, i % NEARLIGHT_PACKET_SIZE).position;
         const bool expected = occluded(work.bvhs.opaque, vpl.position, receiver - vpl.position,
                                        NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
         ++rays;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/base/receivers.h"
 #include "host/bench/agreement.h"
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
@@ -147,8 +148,9 @@ std::pair<std::size_t, std::uint64_t> clear_ray(const Answered& room) {
             continue;
         }
         const Vec3 from = room.segments.vpls[word % room.segments.vpls.size()].position;
-        const Vec3 to = receiver_position(room.segments.receivers[word / room.segments.vpls.size()],
-                                          static_cast<std::size_t>(std::countr_zero(lane)));
+        const Vec3 to = receiver_at(room.segments.receivers[word / room.segments.vpls.size()],
+                                    static_cast<std::size_t>(std::countr_zero(lane)))
+                            .position;
         if (distance_to_edges(room.bvh.triangles, from, to) > 1e-3) {
             return {word, lane};
         }
