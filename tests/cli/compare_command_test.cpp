@@ -80,8 +80,9 @@ TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
 
 TEST_F(Compare, CtrlCKeepsWhatWasMeasured) {
     NEARLIGHT_NEEDS_DEVICE();
-    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 3 ") + NEARLIGHT_PROGRAM +
-                             " " + command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8") +
+    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 3 ") +
+                             NEARLIGHT_PROGRAM + " " +
+                             command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8") +
                              " 2>" + quoted(folder_ / "errors") + " >" + quoted(folder_ / "output");
     const int status = std::system(line.c_str());
     ASSERT_TRUE(WIFEXITED(status));
