@@ -30,6 +30,7 @@ struct RenderOptions {
     std::string close_fraction = "auto";
     std::string range = "auto";
     std::string clamp_radius = "auto";
+    std::optional<double> seconds;  ///< of the whole command
 };
 
 const std::map<std::string, GatherKernel> kGatherKernels{
@@ -105,11 +106,15 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 }
 
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
-    spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height,
-                 report.close_vpls, report.distant_vpls, seconds);
+    spdlog::info("{}x{} pixels, {} close and {} distant VPLs{}, {:.1f} s", report.width, report.height,
+                 report.close_vpls, report.distant_vpls,
+                 report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
     tell_shares(report);
+    const char* const note = !report.interrupted ? ""
+                             : report.passes > 1 ? " (interrupted: the last pass is not whole)"
+                                                 : " (interrupted: the rest is black)";
     for (const auto& output : options.picture.outputs) {
-        spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
+        spdlog::info("wrote {}{}", output, note);
     }
 }
 
@@ -128,7 +133,7 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
-    const RenderSettings settings = settled(options);
+    RenderSettings settings = settled(options);
     check_outputs(options.picture);
     const Stopwatch total;
     // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
@@ -144,6 +149,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_request(scene, settings);
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
 
+    if (options.seconds) {
+        settings.seconds = *options.seconds - total.seconds();
+    }
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
@@ -234,6 +242,21 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     add_bvh_option(command, settings.bvh_quality);
 }
 
+void add_pass_options(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--passes", options.settings.passes,
+                    "Renderings to average, each with VPLs and random numbers of its own (default: 1)")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N");
+    command
+        .add_option(
+            "--time", options.seconds,
+            "As many passes (at most those of --passes) as are done in so many seconds, reading the scene "
+            "included; one at least")
+        ->check(CLI::Range(0.0, 1e9))
+        ->type_name("SECONDS");
+}
+
 }  // namespace
 
 void add_render_command(CommandLine& line) {
@@ -255,6 +278,7 @@ void add_render_command(CommandLine& line) {
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();
+    add_pass_options(command, *options);
     add_method_options(command, *options);
     add_device_options(command, options->device);
 }
