@@ -205,10 +205,10 @@ TEST_F(BadInputOnDevice, MoreThanMemoryHolds) {
 }
 
 TEST_F(BadInputOnDevice, InterruptSavesWhatIsThere) {
-    // In the foreground, for else `timeout` interrupts its whole group too, and a second interrupt kills.
-    const ProgramResult result = run_program("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
-                                                 " --size 1024x1024 --spp 1024 --vpls 1000 --quiet",
-                                             "timeout --foreground --preserve-status --signal=INT 8");
+    const ProgramResult result =
+        run_interrupted("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
+                            " --size 1024x1024 --spp 1024 --vpls 1000 --quiet",
+                        4, [&](const ProgramResult&) { return std::filesystem::exists(picture()); });
     EXPECT_EQ(result.exit_code, 130) << result.errors;
     EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG"));
     EXPECT_EQ(folder_.file_count(), 2u);  // the scene and the picture

@@ -80,14 +80,12 @@ TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
 
 TEST_F(Compare, CtrlCKeepsWhatWasMeasured) {
     NEARLIGHT_NEEDS_DEVICE();
-    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 3 ") +
-                             NEARLIGHT_PROGRAM + " " +
-                             command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8") +
-                             " 2>" + quoted(folder_ / "errors") + " >" + quoted(folder_ / "output");
-    const int status = std::system(line.c_str());
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(file_text(folder_ / "errors").find("the same command goes on"), std::string::npos);
+    const char* promise = "the same command goes on";
+    const ProgramResult result = run_interrupted(
+        command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8"), 2,
+        [&](const ProgramResult& so_far) { return so_far.errors.find(promise) != std::string::npos; });
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_NE(result.errors.find(promise), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(output_ / "report.html"));
 }
 

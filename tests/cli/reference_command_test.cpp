@@ -21,6 +21,12 @@ class Reference : public testing::Test {
   protected:
     Reference() { std::ofstream(scene_) << floor_from_above(); }
     [[nodiscard]] std::string files() const { return quoted(scene_) + " -o " + quoted(output_); }
+    void interrupt_endless_reference() const {
+        const ProgramResult result =
+            run_interrupted("reference --quiet --spp 16777216 " + files(), 1,
+                            [&](const ProgramResult&) { return std::filesystem::exists(output_); });
+        EXPECT_EQ(result.exit_code, 130) << result.errors;
+    }
 
     TemporaryFolder folder_;
     std::filesystem::path scene_ = folder_ / "scene.xml";
@@ -127,9 +133,7 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
 }
 
 TEST_F(Reference, AnInterruptedOneGoesOn) {
-    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 1.5 ") +
-                             NEARLIGHT_PROGRAM + " reference --quiet --spp 16777216 " + files();
-    ASSERT_EQ(WEXITSTATUS(std::system(line.c_str())), 130);
+    interrupt_endless_reference();
     Metadata metadata = read_metadata(output_);
     EXPECT_EQ(std::get<int>(metadata.at("nearlight:complete")), 0);
     const Image part = read_image(output_);
@@ -153,11 +157,7 @@ TEST_F(Reference, AnUnwritableOutputFailsBeforeTheWork) {
 }
 
 TEST_F(Reference, CtrlCSavesWhatIsThere) {
-    const std::string line = std::string("timeout --foreground --preserve-status --signal=INT 1 ") +
-                             NEARLIGHT_PROGRAM + " reference --quiet --spp 16777216 " + files();
-    const int status = std::system(line.c_str());
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
+    interrupt_endless_reference();
     const Image image = read_image(output_);
     EXPECT_NEAR(image.at(4, 3, static_cast<std::size_t>(image.find_channel("G"))), 0.25 / 3.14159265, 1e-4);
 }

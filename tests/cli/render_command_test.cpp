@@ -90,6 +90,22 @@ TEST_F(Render, TimeEndsThePasses) {
     EXPECT_EQ(rendered("--time 1000 --passes 2", output_)["passes"], 2);
 }
 
+TEST_F(Render, AnInterruptedOneSavesItsPasses) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const auto passes = [](const ProgramResult& result) {
+        return result.output.empty() ? 0 : nlohmann::json::parse(result.output)["passes"].get<int>();
+    };
+    const ProgramResult result =
+        run_interrupted("render --json --passes 1000000 " + quoted(scene_) + " -o " + quoted(output_), 2,
+                        [&](const ProgramResult& ended) { return passes(ended) > 1; });
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_EQ(nlohmann::json::parse(result.output)["interrupted"], true);
+    const Image image = read_image(output_);
+    EXPECT_EQ(read_metadata(output_).at("nearlight:passes"), Metadata::mapped_type{passes(result)});
+    const auto green = static_cast<std::size_t>(image.find_channel("G"));
+    EXPECT_GT(image.at(32, image.height - 4, green), 0.0f) << "the first pass is whole";
+}
+
 TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
     for (const char* options : {"--passes 0", "--passes many", "--time -1", "--time soon"}) {
         EXPECT_EQ(render(options, output_).exit_code, 2) << options;
