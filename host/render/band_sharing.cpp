@@ -239,7 +239,7 @@ void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum) 
         }
         place->bands += share.bands;
         place->seconds += share.seconds;
-        place->failed = share.failed;
+        place->failed = place->failed || share.failed;
         ++place;
     }
 }

@@ -69,7 +69,7 @@ class Gatherer {
     /// benchmarks; a byte a pair.
     std::vector<GatherPair> gather_recorded(const GatherInput& input, Buffer<IrradiancePacket>& irradiance);
 
-    /// Of which gathers need the tree; never `automatic`.
+    /// For which the tree must be uploaded; never `automatic`.
     [[nodiscard]] GatherKernel kernel() const { return config_.kernel; }
 
   private:
@@ -91,9 +91,9 @@ class Gatherer {
 
     Device* device_;
     GatherConfig config_;
-    // Made when first asked for, but for the plain kernel.
-    std::array<std::optional<Kernel>, 4>
-        kernels_;  ///< without and with roulette, each without and with record
+    // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
+    // recording one second.
+    std::array<std::optional<Kernel>, 4> kernels_;
     std::optional<Roulette> roulette_;
 };
 

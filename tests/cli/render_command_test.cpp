@@ -103,7 +103,7 @@ TEST_F(Render, AnInterruptedOneSavesItsPasses) {
     const Image image = read_image(output_);
     EXPECT_EQ(read_metadata(output_).at("nearlight:passes"), Metadata::mapped_type{passes(result)});
     const auto green = static_cast<std::size_t>(image.find_channel("G"));
-    EXPECT_GT(image.at(32, image.height - 4, green), 0.0f) << "the first pass is whole";
+    EXPECT_GT(image.at(32, 24, green), 0.0f) << "the first pass is whole";
 }
 
 TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
