@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the G-buffer).
+// Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the
+// G-buffer).
 //
-// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of 8 × 8 pixel tiles
-// × tiles_x + column, counted from the first tile row of the band; lane = y % 8 · 8 + x % 8. Each sample has
-// branch_count (1 or 2) receivers: at the first surface with two ways on (a coat, glass), branch 0 takes the base
-// or the refraction and branch 1 the reflection, each with its full weight, so that a glossy floor is not made
-// of noise; later ones choose by chance. Branch 1 of a sample that never divides is absent.
+// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of 8 × 8
+// pixel tiles × tiles_x + column, counted from the first tile row of the band; lane = y % 8 · 8 + x % 8. Each
+// sample has branch_count (1 or 2) receivers: at the first surface with two ways on (a coat, glass), branch 0
+// takes the base or the refraction and branch 1 the reflection, each with its full weight, so that a glossy
+// floor is not made of noise; later ones choose by chance. Branch 1 of a sample that never divides is absent.
 // One work-item a receiver; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/close_range.cl"
@@ -51,8 +52,8 @@ inline float3 sample_facet(float3 n, float3 to_viewer, float alpha, float2 u) {
 }
 
 /// Turns the path into the mirror direction about the facet. False where it would go below the surface.
-inline bool reflect_path(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, float3 n, float3 facet,
-                         float alpha, float3 weight) {
+inline bool reflect_path(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, float3 n,
+                         float3 facet, float alpha, float3 weight) {
     const float3 to_viewer = -path->direction;
     const float3 reflected = 2.0f * dot(to_viewer, facet) * facet - to_viewer;
     const float cosine = dot(reflected, n);
@@ -70,13 +71,15 @@ inline bool scatter_conductor(const SceneView* scene, CameraPath* path, const Su
                               const global Material* material, float3 n, float2 u) {
     const float3 facet = sample_facet(n, -path->direction, material->roughness, u);
     const float cosine = fmax(dot(-path->direction, facet), 0.0f);
-    const float3 weight = load3(material->specular) * fresnel_conductor(cosine, load3(material->eta), load3(material->k));
+    const float3 weight =
+        load3(material->specular) * fresnel_conductor(cosine, load3(material->eta), load3(material->k));
     return reflect_path(scene, path, hit, n, facet, material->roughness, weight);
 }
 
 /// Solid glass: reflection or refraction.
 inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                               const global Material* material, float3 n, uint branch, float2 u_facet, float u_choice) {
+                               const global Material* material, float3 n, uint branch, float2 u_facet,
+                               float u_choice) {
     const float eta = hit->front ? material->eta.x : 1.0f / material->eta.x;
     const float3 facet = sample_facet(n, -path->direction, material->roughness, u_facet);
     const float cosine = fmax(dot(-path->direction, facet), 0.0f);
@@ -86,7 +89,8 @@ inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const S
         return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular));
     }
     if (choose_reflection(path, branch, reflectance, u_choice)) {
-        return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular) * reflectance);
+        return reflect_path(scene, path, hit, n, facet, material->roughness,
+                            load3(material->specular) * reflectance);
     }
     const float3 refracted = normalize(path->direction / eta + (cosine / eta - cos_far) * facet);
     const float cosine_below = -dot(refracted, n);
@@ -114,8 +118,8 @@ inline bool scatter_thin_dielectric(const SceneView* scene, CameraPath* path, co
     return true;
 }
 
-/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, 2 if this surface is
-/// the receiver; then `albedo` is what the camera sees there.
+/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, 2 if this
+/// surface is the receiver; then `albedo` is what the camera sees there.
 inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, uint branch, uint step,
                     float3* albedo) {
     const global Material* material = scene->materials + hit->material;
@@ -124,7 +128,8 @@ inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* 
     const float3 n = dot(hit->shading, path->direction) < 0.0f ? hit->shading : hit->geometric;
     switch (material->lobe) {
         case NEARLIGHT_LOBE_CONDUCTOR:
-            return reflects(material, hit->front) && scatter_conductor(scene, path, hit, material, n, u_facet);
+            return reflects(material, hit->front) &&
+                   scatter_conductor(scene, path, hit, material, n, u_facet);
         case NEARLIGHT_LOBE_DIELECTRIC:
             return scatter_dielectric(scene, path, hit, material, n, branch, u_facet, u_choice);
         case NEARLIGHT_LOBE_THIN_DIELECTRIC:
@@ -141,8 +146,10 @@ inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* 
         float cos_far;
         const float facet_reflectance =
             fresnel_dielectric(fmax(dot(-path->direction, facet), 0.0f), material->eta.x, &cos_far);
-        const float reflectance = fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
-        const float p = clamp(reflectance / (reflectance + (1.0f - reflectance) * luminance(*albedo)), 0.05f, 0.95f);
+        const float reflectance =
+            fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
+        const float p =
+            clamp(reflectance / (reflectance + (1.0f - reflectance) * luminance(*albedo)), 0.05f, 0.95f);
         if (choose_reflection(path, branch, p, u_choice)) {
             return reflect_path(scene, path, hit, n, facet, material->roughness,
                                 load3(material->specular) * facet_reflectance);
@@ -153,9 +160,10 @@ inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* 
 }
 
 kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
-                        const global CloseRange* restrict close_range, uint first_tile_row, uint tile_row_count,
-                        uint first_sample, uint sample_count, uint sequence_length, uint branch_count, uint seed,
-                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
+                        const global CloseRange* restrict close_range, uint first_tile_row,
+                        uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
+                        uint branch_count, uint seed, global ReceiverPacket* restrict receivers,
+                        global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
@@ -186,7 +194,8 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
         path.key = random_uint4((uint4)(pixel, first_sample + sample, seed, 0xca3e7au)).x;
         // A single sample goes through the centre of its pixel.
         const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-        const float2 jitter = sequence_length > 1 ? sample_2d(first_sample + sample, 0, pixel_key) : (float2)(0.5f);
+        const float2 jitter =
+            sequence_length > 1 ? sample_2d(first_sample + sample, 0, pixel_key) : (float2)(0.5f);
         path.origin = load3(camera->origin);
         path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
                                    ((float)y + jitter.y) * load3(camera->step_y));

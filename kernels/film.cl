@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film: adds the samples of a band to its pixels, and turns sums into the layers of the picture.
 //
-// One work-item a pixel of the band; any work-group size. `sums` holds FILM_CHANNELS floats a pixel, row by row.
-// Samples are added one after the other in their order, so that batches give the same bits as one run.
+// One work-item a pixel of the band; any work-group size. `sums` holds FILM_CHANNELS floats a pixel, row by
+// row. Samples are added one after the other in their order, so that batches give the same bits as one run.
 
 #include "lib/math.cl"
 
 #define FILM_CHANNELS NEARLIGHT_FILM_CHANNELS
 
-kernel void film_add(const global ReceiverPacket* restrict receivers, const global CameraVertex* restrict vertices,
-                     const global IrradiancePacket* restrict direct, const global IrradiancePacket* restrict indirect,
-                     uint width, uint row_count, uint sample_count, uint branch_count, global float* restrict sums) {
+kernel void film_add(const global ReceiverPacket* restrict receivers,
+                     const global CameraVertex* restrict vertices,
+                     const global IrradiancePacket* restrict direct,
+                     const global IrradiancePacket* restrict indirect, uint width, uint row_count,
+                     uint sample_count, uint branch_count, global float* restrict sums) {
     const uint index = (uint)get_global_id(0);
     if (index >= width * row_count) {
         return;
@@ -25,7 +27,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers, const glob
         const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);
         const float3 response = reflectance / M_PI_F;
-        const float3 e_direct = (float3)(direct[packet].r[lane], direct[packet].g[lane], direct[packet].b[lane]);
+        const float3 e_direct =
+            (float3)(direct[packet].r[lane], direct[packet].g[lane], direct[packet].b[lane]);
         const float3 e_indirect =
             (float3)(indirect[packet].r[lane], indirect[packet].g[lane], indirect[packet].b[lane]);
         const float3 direct_radiance = load3(vertex.emitted) + response * e_direct;
@@ -56,7 +59,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers, const glob
     }
 }
 
-/// Output per pixel: beauty, direct, indirect, albedo, N, P, depth, closerange (NEARLIGHT_LAYER_CHANNELS floats).
+/// Output per pixel: beauty, direct, indirect, albedo, N, P, depth, closerange (NEARLIGHT_LAYER_CHANNELS
+/// floats).
 kernel void film_resolve(const global float* restrict sums, uint pixel_count, uint sample_count,
                          global float* restrict layers) {
     const uint index = (uint)get_global_id(0);

@@ -21,12 +21,11 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
 
 /// One work-item for each receiver of the packets [first_packet, end_packet), over the VPLs [first_vpl,
 /// end_vpl). Chunks and launches as in gather_packets.
-kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
-                        const global Vpl* vpls, uint first_vpl, uint end_vpl,
-                        const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-                        float clamp_radius_squared,
-                        global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS
-                            GATHER_RECORD_PARAMETERS) {
+kernel void gather_rays(
+    const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
+    uint end_vpl, const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
+    float clamp_radius_squared,
+    global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint packet = first_packet + item / NEARLIGHT_PACKET_SIZE;
     const uint lane = item % NEARLIGHT_PACKET_SIZE;

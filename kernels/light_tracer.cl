@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3 (3)].
+// Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3
+// (3)].
 //
-// One work-item a walk, first_walk and on; any work-group size. A walk leaves a light and deposits a VPL wherever
-// it lands, up to bounce_count times: slot (walk − first_walk) · bounce_count + (depth − 1) of `vpls`, and 1 in the
-// same slot of `flags` if it is to be kept.
-// Fractional absorption: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j − 1]; a VPL of
-// depth j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are launched that far, never
-// by how many arrive. With a uniform random shift that is unbiased for every depth.
+// One work-item a walk, first_walk and on; any work-group size. A walk leaves a light and deposits a VPL
+// wherever it lands, up to bounce_count times: slot (walk − first_walk) · bounce_count + (depth − 1) of
+// `vpls`, and 1 in the same slot of `flags` if it is to be kept. Fractional absorption: walk i goes on to
+// depth j while i + absorption_shift < walks_at_depth[j − 1]; a VPL of depth j is divided by walks_at_depth[j
+// − 1], the (real-valued) number of walks that are launched that far, never by how many arrive. With a
+// uniform random shift that is unbiased for every depth.
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
@@ -16,17 +17,18 @@
 #define KEEP_INDIRECT_INSIDE 1u  // partition: inside the close range, depth 2 and more
 #define KEEP_OUTSIDE 2u          // paper: nothing inside the close range
 
-/// Whether the close-range part answers for direct light at this point: its triangle was selected and, where the
-/// policy decides point by point, the point itself lies in the region.
+/// Whether the close-range part answers for direct light at this point: its triangle was selected and, where
+/// the policy decides point by point, the point itself lies in the region.
 inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
                              uint whole_triangles, uint triangle, float3 position) {
     return close_triangles[triangle] && (whole_triangles || in_close_range(region, position));
 }
 
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
-                         const global uint* restrict close_triangles, uint whole_triangles, uint keep, uint first_walk,
-                         uint walk_count, uint bounce_count, const global float* restrict walks_at_depth, float absorption_shift,
-                         uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
+                         const global uint* restrict close_triangles, uint whole_triangles, uint keep,
+                         uint first_walk, uint walk_count, uint bounce_count,
+                         const global float* restrict walks_at_depth, float absorption_shift, uint seed,
+                         global Vpl* restrict vpls, global uint* restrict flags) {
     const uint index = (uint)get_global_id(0);
     if (index >= walk_count) {
         return;
@@ -41,7 +43,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         const float launched = walks_at_depth[bounce];
         SurfaceHit hit;
-        if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) || !land(&scene, &particle, &hit)) {
+        if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) ||
+            !land(&scene, &particle, &hit)) {
             return;
         }
         const bool is_close =

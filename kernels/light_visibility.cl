@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which close-range triangles the light can reach [paper §3, "visible to the light source"].
 //
-// One work-item a triangle of `ids`, any work-group size: selected[id] = 1 if any of a few points of it, on any
-// side that reflects, sees any light; entries of other triangles are left alone. This only steers where VPLs are
-// placed: a triangle that is missed here is left to light tracing, so nothing is lost (docs/method.md). Therefore one
-// point for each area_per_point (m²) of a triangle is enough, up to MAX_POINTS.
+// One work-item a triangle of `ids`, any work-group size: selected[id] = 1 if any of a few points of it, on
+// any side that reflects, sees any light; entries of other triangles are left alone. This only steers where
+// VPLs are placed: a triangle that is missed here is left to light tracing, so nothing is lost
+// (docs/method.md). Therefore one point for each area_per_point (m²) of a triangle is enough, up to
+// MAX_POINTS.
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
@@ -17,8 +18,9 @@ inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, f
     if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         return true;  // to find the one window of a room takes more rays than it is worth
     }
-    const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE ? triangle_irradiance(scene, emitter, x, n, u)
-                                                                 : delta_irradiance(scene, emitter, x, n);
+    const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE
+                         ? triangle_irradiance(scene, emitter, x, n, u)
+                         : delta_irradiance(scene, emitter, x, n);
     return !is_black(e);
 }
 
@@ -36,8 +38,8 @@ inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point,
     return false;
 }
 
-kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, uint id_count, float area_per_point,
-                             uint seed, global uint* restrict selected) {
+kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, uint id_count,
+                             float area_per_point, uint seed, global uint* restrict selected) {
     const uint index = (uint)get_global_id(0);
     if (index >= id_count) {
         return;

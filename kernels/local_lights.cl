@@ -1,32 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Local lights [Davidovič et al., Combining Global and Local Virtual Lights for Detailed Glossy Illumination, SIGGRAPH
-// Asia 2010]: each packet of 64 receivers x makes lights y of its own, which supply what a wide clamp takes from VPLs.
+// Local lights [Davidovič et al., Combining Global and Local Virtual Lights for Detailed Glossy Illumination,
+// SIGGRAPH Asia 2010]: each packet of 64 receivers x makes lights y of its own, which supply what a wide
+// clamp takes from VPLs.
 //
-// The irradiance that is wanted is ∫ L_o(y) G_R V dy with G_r = cosθx·cosθy / max(d², r²) (d the distance). Global VPLs
-// at y are gathered with a radius R_g(y) ≥ R, and the remainder, which is 0 from R_g on, is
+// The irradiance that is wanted is ∫ L_o(y) G_R V dy with G_r = cosθx·cosθy / max(d², r²) (d the distance).
+// Global VPLs at y are gathered with a radius R_g(y) ≥ R, and the remainder, which is 0 from R_g on, is
 //
 //     ∫ L_o(y) (G_R − G_Rg) V dy  ≈  Σ_k  L_o(y_k) / p(y_k) · (G_R − G_Rg) V(x, y_k)
-//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g(y)]   over all present receivers s of the packet.
+//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g(y)]   over all present receivers s of the
+//     packet.
 //
-// Each of them sends m cosine-distributed rays; one that meets a reflecting surface within R_g makes a light there. p
-// is the density of all these rays together (probability-density summation: the balance heuristic over the receivers),
-// so every receiver of the packet may use every light of it: the sum's expectation is the integral wherever p > 0, and
-// where (G_R − G_Rg) V > 0 for some x, p > 0 by x alone. As p ≥ m·G_0/π, no term exceeds L_o·π/m. L_o = albedo·E/π,
-// E is direct light by next-event estimation, and that of some global VPLs, bounded in their turn; what this leaves out
-// comes from the next short ray, and so on (lib/path_walk.cl), so light on its way to y is not bounded.
+// Each of them sends m cosine-distributed rays; one that meets a reflecting surface within R_g makes a light
+// there. p is the density of all these rays together (probability-density summation: the balance heuristic
+// over the receivers), so every receiver of the packet may use every light of it: the sum's expectation is
+// the integral wherever p > 0, and where (G_R − G_Rg) V > 0 for some x, p > 0 by x alone. As p ≥ m·G_0/π, no
+// term exceeds L_o·π/m. L_o = albedo·E/π, E is direct light by next-event estimation, and that of some global
+// VPLs, bounded in their turn; what this leaves out comes from the next short ray, and so on
+// (lib/path_walk.cl), so light on its way to y is not bounded.
 //
-// R_g is a function of y (lib/path_walk.cl): where much light falls, many VPLs lie, and they need no wide bound; and a
-// small bright place, which few rays find, would make lights that are outliers.
+// R_g is a function of y (lib/path_walk.cl): where much light falls, many VPLs lie, and they need no wide
+// bound; and a small bright place, which few rays find, would make lights that are outliers.
 //
 // local_light_radii:   one work-item a VPL: R_g there.
-// local_light_rays:    one work-item a ray. Slot (packet · m + ray) · 64 + lane of `lights` gets a light with power
-//                      albedo · E, the slot of `light_radii` R_g there, and that of `flags` 1, where there is one.
-//                      Packets count from first_packet.
-// local_light_density: one work-item a light, listed in `indices`: divides its power by p and writes the receivers
+// local_light_rays:    one work-item a ray. Slot (packet · m + ray) · 64 + lane of `lights` gets a light with
+// power
+//                      albedo · E, the slot of `light_radii` R_g there, and that of `flags` 1, where there is
+//                      one. Packets count from first_packet.
+// local_light_density: one work-item a light, listed in `indices`: divides its power by p and writes the
+// receivers
 //                      that see it as bits.
 // local_light_gather:  one work-item a receiver: adds the lights of its packet to its irradiance.
-// Any work-group size. Random numbers are keyed by the position of the packet's first receiver, and no packet asks
-// another, so no cut of the picture changes the result.
+// Any work-group size. Random numbers are keyed by the position of the packet's first receiver, and no packet
+// asks another, so no cut of the picture changes the result.
 
 #include "lib/path_walk.cl"
 #include "lib/vpl.cl"
@@ -49,9 +54,10 @@ inline LocalPoint light_point(const global Vpl* light) {
     return point;
 }
 
-/// G_0 of a receiver and a light within the radius, else 0. Both stand off their surfaces by the ray epsilon, so points
-/// of one plane have height 0 but for rounding; a tenth of the epsilon tells that from light.
-inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, const LocalPoint* light, float radius) {
+/// G_0 of a receiver and a light within the radius, else 0. Both stand off their surfaces by the ray epsilon,
+/// so points of one plane have height 0 but for rounding; a tenth of the epsilon tells that from light.
+inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, const LocalPoint* light,
+                            float radius) {
     const float3 to_receiver = receiver->position - light->position;
     const float squared = dot(to_receiver, to_receiver);
     const float height = dot(light->normal, to_receiver);
@@ -68,7 +74,9 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
            packet->nz[lane] == 0.0f) {
         ++lane;
     }
-    return random_uint4((uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]), seed)).x;
+    return random_uint4(
+               (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]), seed))
+        .x;
 }
 
 kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count, float widest,
@@ -82,12 +90,12 @@ kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls,
     radii[index] = gather_radius(&scene, &law, load3(vpls[index].position), load3(vpls[index].normal));
 }
 
-kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                             uint slot_count, uint rays_per_receiver, float widest, float least, float at_unit_light,
-                             const global Vpl* restrict vpls, const global float* restrict vpl_radii, uint vpl_count,
-                             uint connections, uint bounce_count, uint direct_samples, uint seed,
-                             global Vpl* restrict lights, global float* restrict light_radii,
-                             global uint* restrict flags) {
+kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                             uint first_packet, uint slot_count, uint rays_per_receiver, float widest,
+                             float least, float at_unit_light, const global Vpl* restrict vpls,
+                             const global float* restrict vpl_radii, uint vpl_count, uint connections,
+                             uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights,
+                             global float* restrict light_radii, global uint* restrict flags) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= slot_count) {
         return;
@@ -102,7 +110,8 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     }
     const uint key = packet_key(packet, seed);
     const uint index = slot % slots_per_packet;
-    const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
+    const float3 direction =
+        to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
     const float reach = widest + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
     const SurfaceHit hit = trace_opaque(&scene, receiver.position, direction, reach);
     if (hit.t < 0.0f || !reflects(scene.materials + hit.material, hit.front)) {
@@ -119,9 +128,8 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
     const Connections to = {vpls, vpl_radii, vpl_count, connections, law};
-    const float3 exitance =
-        albedo *
-        short_walk_irradiance(&scene, &to, light.position, light.normal, bounce_count, direct_samples, walk_key);
+    const float3 exitance = albedo * short_walk_irradiance(&scene, &to, light.position, light.normal,
+                                                           bounce_count, direct_samples, walk_key);
     if (is_black(exitance)) {
         return;
     }
@@ -130,9 +138,10 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     flags[slot] = 1;
 }
 
-kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                                uint rays_per_receiver, const global float* restrict light_radii,
-                                const global uint* restrict indices, uint light_count, global Vpl* restrict lights,
+kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                                uint first_packet, uint rays_per_receiver,
+                                const global float* restrict light_radii, const global uint* restrict indices,
+                                uint light_count, global Vpl* restrict lights,
                                 global ulong* restrict seen_by) {
     const uint item = (uint)get_global_id(0);
     if (item >= light_count) {
@@ -140,7 +149,8 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
     }
     const SceneView scene = SCENE_VIEW;
     const uint slot = indices[item];
-    const global ReceiverPacket* packet = receivers + first_packet + slot / (rays_per_receiver * NEARLIGHT_PACKET_SIZE);
+    const global ReceiverPacket* packet =
+        receivers + first_packet + slot / (rays_per_receiver * NEARLIGHT_PACKET_SIZE);
     const LocalPoint light = light_point(lights + slot);
     const float radius = light_radii[slot];
     float sum = 0.0f;
@@ -158,11 +168,11 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
     seen_by[slot] = mask;
 }
 
-kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint first_packet,
-                               uint lane_count, uint rays_per_receiver, float clamp_radius,
+kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                               uint first_packet, uint lane_count, uint rays_per_receiver, float clamp_radius,
                                const global Vpl* restrict lights, const global float* restrict light_radii,
-                               const global uint* restrict flags,
-                               const global ulong* restrict seen_by, global IrradiancePacket* restrict irradiance) {
+                               const global uint* restrict flags, const global ulong* restrict seen_by,
+                               global IrradiancePacket* restrict irradiance) {
     const uint index = (uint)get_global_id(0);
     if (index >= lane_count) {
         return;
@@ -171,7 +181,8 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint slots_per_packet = rays_per_receiver * NEARLIGHT_PACKET_SIZE;
     const uint first_slot = index / NEARLIGHT_PACKET_SIZE * slots_per_packet;
-    const LocalPoint receiver = receiver_point(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
+    const LocalPoint receiver =
+        receiver_point(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
     float3 sum = (float3)(0.0f);
     for (uint slot = first_slot; slot < first_slot + slots_per_packet; ++slot) {
         if (flags[slot] == 0 || (seen_by[slot] >> lane & 1) == 0) {
@@ -184,7 +195,8 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         // G_R − G_Rg as parts of G_0; the distance is below R_g.
         const float bounded = clamp_radius * clamp_radius;
         const float part = (squared < bounded ? squared / bounded : 1.0f) - squared / (radius * radius);
-        sum += load3(lights[slot].power) * (M_1_PI_F * part * local_geometry(&scene, &receiver, &light, radius));
+        sum +=
+            load3(lights[slot].power) * (M_1_PI_F * part * local_geometry(&scene, &receiver, &light, radius));
     }
     global IrradiancePacket* out = irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE;
     out->r[lane] += sum.x;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// From placed surface samples to close-range VPLs, still without light: power is ρ·A/K, what an irradiance of 1 W/m²
-// would give, A the area the K samples stand for. kernels/vpl_light.cl brings the light.
+// From placed surface samples to close-range VPLs, still without light: power is ρ·A/K, what an irradiance of
+// 1 W/m² would give, A the area the K samples stand for. kernels/vpl_light.cl brings the light.
 //
-// Each sample becomes two VPLs, one on each side of its surface: slots 2·i (front) and 2·i + 1. `flags` tell which
-// slots hold one: not those whose side reflects nothing, nor, where the policy decides point by point, samples outside
-// the close range.
-// One work-item a slot; any work-group size.
+// Each sample becomes two VPLs, one on each side of its surface: slots 2·i (front) and 2·i + 1. `flags` tell
+// which slots hold one: not those whose side reflects nothing, nor, where the policy decides point by point,
+// samples outside the close range. One work-item a slot; any work-group size.
 
 #include "lib/close_range.cl"
 #include "lib/material.cl"
 #include "lib/vpl.cl"
 
 kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict samples, uint sample_count,
-                       const global CloseRange* restrict close_range, uint whole_triangles, float area_per_sample,
-                       global Vpl* restrict vpls, global uint* restrict flags) {
+                       const global CloseRange* restrict close_range, uint whole_triangles,
+                       float area_per_sample, global Vpl* restrict vpls, global uint* restrict flags) {
     const uint index = (uint)get_global_id(0);
     if (index >= 2 * sample_count) {
         return;

@@ -13,12 +13,14 @@ kernel void cast_closest(const global BvhNode* restrict nodes, const global BvhT
         return;
     }
     const RayQuery ray = rays[index];
-    hits[index] = closest_hit(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max);
+    hits[index] =
+        closest_hit(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max);
 }
 
 /// is_occluded: 1 where the ray meets anything.
 kernel void cast_any(const global BvhNode* restrict nodes, const global BvhTriangle* restrict triangles,
-                     const global RayQuery* restrict rays, uint ray_count, global uint* restrict is_occluded) {
+                     const global RayQuery* restrict rays, uint ray_count,
+                     global uint* restrict is_occluded) {
     const uint index = (uint)get_global_id(0);
     if (index >= ray_count) {
         return;

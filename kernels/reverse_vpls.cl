@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reverse VPLs [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]: where rays from points that the camera
-// sees land is where a VPL lights the picture.
+// Reverse VPLs [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]: where rays from points that the
+// camera sees land is where a VPL lights the picture.
 //
-// S points send m cosine-distributed rays each. What lands at y has the density (per area, of all rays together)
+// S points send m cosine-distributed rays each. What lands at y has the density (per area, of all rays
+// together)
 //     n(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y)     over exactly those points,
 // which is the irradiance that a gather brings to y from the points as VPLs of power m.
 //
-// One work-item a ray; ray r is of point r / m. Where it lands on a surface that reflects, slot r of `vpls` gets a VPL
-// whose power is the albedo there, and slot r of `flags` 1. Any work-group size.
+// One work-item a ray; ray r is of point r / m. Where it lands on a surface that reflects, slot r of `vpls`
+// gets a VPL whose power is the albedo there, and slot r of `flags` 1. Any work-group size.
 
 #include "lib/material.cl"
 #include "lib/random.cl"
 #include "lib/sampling.cl"
 #include "lib/vpl.cl"
 
-kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, uint point_count, uint rays_per_point,
-                         uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
+kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, uint point_count,
+                         uint rays_per_point, uint seed, global Vpl* restrict vpls,
+                         global uint* restrict flags) {
     const uint ray = (uint)get_global_id(0);
     if (ray >= point_count * rays_per_point) {
         return;
@@ -24,7 +26,8 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, ui
     const SceneView scene = SCENE_VIEW;
     const global Vpl* point = points + ray / rays_per_point;
     const float3 origin = load3(point->position);
-    // One sequence for all points: neighbours of it, which look the same way, share the directions among them.
+    // One sequence for all points: neighbours of it, which look the same way, share the directions among
+    // them.
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 0, seed)), load3(point->normal));
     const SurfaceHit hit = trace_opaque(&scene, origin, direction, INFINITY);
@@ -33,7 +36,8 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, ui
     }
     const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
     const float3 y = offset_point(&scene, hit.position, hit.geometric);
-    // A ray that leaves below the surface of its own point, as shading normals allow, comes from the plane of y.
+    // A ray that leaves below the surface of its own point, as shading normals allow, comes from the plane of
+    // y.
     const float height = dot(hit.geometric, origin - y);
     if (is_black(albedo) || !(height > 0.1f * ray_epsilon(y, scene.info->extent))) {
         return;

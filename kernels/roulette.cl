@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Russian roulette over the VPLs of a gather: which of them a packet of receivers asks about, and how much each
-// then counts. Unbiased: a VPL that is chosen with probability p counts 1/p.
+// Russian roulette over the VPLs of a gather: which of them a packet of receivers asks about, and how much
+// each then counts. Unbiased: a VPL that is chosen with probability p counts 1/p.
 //
-// A whole packet decides together, so that packets stay full: by what a VPL could bring to its receivers if nothing
-// were in the way (root mean square, which for a given number of packets traced leaves the least error). In one
-// packet the choice is systematic along the order of the VPLs: with VPLs along a Morton curve, of those
-// that are near each other always about the right number is chosen, which is far less noise than independent draws.
-// host/stages/roulette.h is the interface.
+// A whole packet decides together, so that packets stay full: by what a VPL could bring to its receivers if
+// nothing were in the way (root mean square, which for a given number of packets traced leaves the least
+// error). In one packet the choice is systematic along the order of the VPLs: with VPLs along a Morton curve,
+// of those that are near each other always about the right number is chosen, which is far less noise than
+// independent draws. host/stages/roulette.h is the interface.
 
 #include "lib/gather.cl"
 #include "lib/random.cl"
@@ -22,7 +22,8 @@ inline float sum_of_lanes(float16 v) {
 }
 
 /// Root mean square, over the receivers of the packet, of the geometry term without visibility.
-inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* packet, float clamp_radius_squared) {
+inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* packet,
+                            float clamp_radius_squared) {
     const float3 origin = load3(vpl->position);
     const float3 vpl_normal = load3(vpl->normal);
     float16 squares = (float16)0.0f;
@@ -31,8 +32,8 @@ inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* 
         const float16 dy = vload16(group, packet->py) - origin.y;
         const float16 dz = vload16(group, packet->pz) - origin.z;
         const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
-        const float16 cos_receiver =
-            -(vload16(group, packet->nx) * dx + vload16(group, packet->ny) * dy + vload16(group, packet->nz) * dz);
+        const float16 cos_receiver = -(vload16(group, packet->nx) * dx + vload16(group, packet->ny) * dy +
+                                       vload16(group, packet->nz) * dz);
         const float16 r2 = dx * dx + dy * dy + dz * dz;
         const float16 term = cos_vpl * cos_receiver / (r2 * fmax(r2, (float16)clamp_radius_squared));
         const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (term < INFINITY);
@@ -41,9 +42,9 @@ inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* 
     return sqrt(sum_of_lanes(squares) / NEARLIGHT_PACKET_SIZE);
 }
 
-/// bounds[(packet − first_packet)·vpl_count + vpl] = the irradiance that the VPL could bring to receivers of the
-/// packet, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of `run_length` VPLs of each
-/// packet of [first_packet, end_packet).
+/// bounds[(packet − first_packet)·vpl_count + vpl] = the irradiance that the VPL could bring to receivers of
+/// the packet, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of
+/// `run_length` VPLs of each packet of [first_packet, end_packet).
 kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_length,
                             const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
                             float clamp_radius_squared, global float* bounds) {
@@ -61,7 +62,8 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_len
     }
 }
 
-/// Uniform in [0, 1): a hash of where the packet's receivers are, so that no division of a picture changes it.
+/// Uniform in [0, 1): a hash of where the packet's receivers are, so that no division of a picture changes
+/// it.
 inline float packet_number(const global ReceiverPacket* packet, uint seed) {
     uint4 key = (uint4)(seed, 0x726f756cu, 0, 0);
     for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
@@ -85,11 +87,13 @@ inline float roulette_limit(const global float* bounds, uint count, float thresh
     return limit < INFINITY ? limit : 0.0f;  // 0: nothing is left to chance
 }
 
-/// Lists the chosen VPLs of each packet in their order, with 1/p: entries [packet·vpl_count, + counts[packet]) of
-/// `chosen` and `weights`, packets counted from first_packet as in `bounds`. One work-item a packet.
-kernel void roulette_choose(const global float* bounds, uint vpl_count, const global ReceiverPacket* receivers,
-                            uint first_packet, uint end_packet, float threshold, uint seed, global uint* chosen,
-                            global float* weights, global uint* counts) {
+/// Lists the chosen VPLs of each packet in their order, with 1/p: entries [packet·vpl_count, +
+/// counts[packet]) of `chosen` and `weights`, packets counted from first_packet as in `bounds`. One work-item
+/// a packet.
+kernel void roulette_choose(const global float* bounds, uint vpl_count,
+                            const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
+                            float threshold, uint seed, global uint* chosen, global float* weights,
+                            global uint* counts) {
     const uint packet = (uint)get_global_id(0);
     if (packet >= end_packet - first_packet) {
         return;

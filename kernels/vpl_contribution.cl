@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each VPL brings to the camera: the column sums of the receiver × VPL matrix, over some receivers.
 //
-// The matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the receivers of
-// the camera send out importance like VPLs (importons, host/stages/pilot_view.h), and the VPLs receive it.
-// With response the reflectance (divided by π) times the weight of the camera path, and sums over the importons:
+// The matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the
+// receivers of the camera send out importance like VPLs (importons, host/stages/pilot_view.h), and the VPLs
+// receive it. With response the reflectance (divided by π) times the weight of the camera path, and sums over
+// the importons:
 //   squared 0: Σ luminance(response · G · V · power/π), what the VPL brings;
-//   squared 1: the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by chance, the error of the
-//   picture is least when the probabilities follow this. The importons' powers are squares, and they are marked so.
+//   squared 1: the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by chance, the
+//   error of the picture is least when the probabilities follow this. The importons' powers are squares, and
+//   they are marked so.
 //
 // One work-item a VPL, from the importance that arrived and its power to luminance; any work-group size.
 
@@ -23,5 +25,6 @@ kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const float3 arrived = (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
     const float3 power = load3(vpls[index].power);
-    contribution[index] = squared ? sqrt(dot(arrived, power * power)) * M_1_PI_F : luminance(arrived * power) * M_1_PI_F;
+    contribution[index] =
+        squared ? sqrt(dot(arrived, power * power)) * M_1_PI_F : luminance(arrived * power) * M_1_PI_F;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // VPLs as receivers of light, and what they reflect of it.
 //
-// vpl_receivers:  VPL i becomes lane i % 64 of packet i / 64; the last packet is filled up with absent receivers.
-// vpl_light:      power of VPL i becomes power · irradiance of its lane. A VPL made for an irradiance of 1 W/m² (power:
-//                 albedo times the area it stands for) so gets the power that the light there gives it [paper eq. 2,
-//                 repaired: angle and distance are to the light].
+// vpl_receivers:  VPL i becomes lane i % 64 of packet i / 64; the last packet is filled up with absent
+// receivers. vpl_light:      power of VPL i becomes power · irradiance of its lane. A VPL made for an
+// irradiance of 1 W/m² (power:
+//                 albedo times the area it stands for) so gets the power that the light there gives it [paper
+//                 eq. 2, repaired: angle and distance are to the light].
 // add_irradiance: adds one set of packets to another.
 // One work-item a lane; any work-group size.
 
@@ -29,7 +30,8 @@ kernel void vpl_receivers(const global Vpl* restrict vpls, uint vpl_count, uint 
     packet->nz[lane] = normal.z;
 }
 
-kernel void vpl_light(global Vpl* restrict vpls, uint vpl_count, const global IrradiancePacket* restrict irradiance) {
+kernel void vpl_light(global Vpl* restrict vpls, uint vpl_count,
+                      const global IrradiancePacket* restrict irradiance) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
         return;

@@ -8,7 +8,9 @@ namespace nearlight {
 /// Wall-clock time since construction or the last lap.
 class Stopwatch {
   public:
-    [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(Clock::now() - start_).count();
+    }
     /// Time since the last lap; starts the next one.
     double lap() {
         const double elapsed = seconds();

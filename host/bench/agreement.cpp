@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/base/receivers.h"
 #include "host/bvh/segment_distance.h"
 
 namespace nearlight {
@@ -34,12 +35,11 @@ void Agreement::add(Disagreement item, std::uint64_t count_before) {
         return;
     }
     const Vpl& vpl = segments_->vpls[item.vpl];
-    const ReceiverPacket& packet = segments_->receivers[item.packet];
+    const ReceiverPoint receiver = receiver_at(segments_->receivers[item.packet], item.lane);
     item.from = vpl.position;
-    item.to = receiver_position(packet, item.lane);
+    item.to = receiver.position;
     const Vec3 segment = item.to - item.from;
-    item.distance = item.is_culling ? std::min(cosine(vpl.normal, segment),
-                                               cosine(receiver_normal(packet, item.lane), segment))
+    item.distance = item.is_culling ? std::min(cosine(vpl.normal, segment), cosine(receiver.normal, segment))
                                     : distance_to_edges(edges_, item.from, item.to);
     item.excused = item.distance <= (item.is_culling ? kCosineTolerance : edge_tolerance_);
     good_ = good_ && item.excused;

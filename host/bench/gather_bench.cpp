@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "host/bench/embree_occlusion.h"
-#include "host/bvh/wide_bvh.h"
 
 namespace nearlight {
 namespace {
@@ -24,25 +23,18 @@ struct Tracer {
 
 /// The set on the device, for all our kernels in turn.
 struct DeviceSegments {
-    DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh, const WideBvh& wide)
-        : nodes(device, bvh.nodes),
-          triangles(device, bvh.triangles),
-          wide_nodes(device, wide.nodes),
-          blocks(device, wide.blocks),
+    DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh, GatherKernel kernel)
+        : tree(upload_tree(device, bvh, kernel)),
           vpls(device, segments.vpls),
           receivers(device, segments.receivers),
           irradiance(device, segments.receivers.size()),
           clamp_radius(segments.clamp_radius) {}
 
     [[nodiscard]] GatherInput input(float roulette) const {
-        return {nodes,        triangles, wide_nodes,        blocks,       vpls,
-                vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
+        return {tree, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
     }
 
-    Buffer<BvhNode> nodes;
-    Buffer<BvhTriangle> triangles;
-    Buffer<WideNode> wide_nodes;
-    Buffer<TriangleBlock> blocks;
+    OpaqueTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;
@@ -101,7 +93,10 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
             }
         }
     }
-    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh, widen(bvh));
+    // A tree for packets serves both kernels.
+    const bool rays_only = config.kernel == GatherKernel::rays;
+    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh,
+                                                      rays_only ? GatherKernel::rays : GatherKernel::packets);
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
         if (config.kernel == GatherKernel::automatic || config.kernel == kernel) {
             tracers.push_back(make_own_tracer(device, job, kernel, 0.0f));

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
 #include "host/render/renderer.h"
 
@@ -30,9 +31,10 @@ Scene opaque_geometry(const Scene& scene) {
 std::uint64_t lanes_that_face(const Vpl& vpl, const ReceiverPacket& packet, float clamp_radius_squared) {
     std::uint64_t lanes = 0;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const Vec3 segment = receiver_position(packet, lane) - vpl.position;
+        const ReceiverPoint receiver = receiver_at(packet, lane);
+        const Vec3 segment = receiver.position - vpl.position;
         const float cos_vpl = dot(vpl.normal, segment);
-        const float cos_receiver = -dot(receiver_normal(packet, lane), segment);
+        const float cos_receiver = -dot(receiver.normal, segment);
         const float r2 = dot(segment, segment);
         const float term = cos_vpl * cos_receiver / (r2 * std::max(r2, clamp_radius_squared));
         const bool faces = cos_vpl > 0.0f && cos_receiver > 0.0f && std::isfinite(term);
@@ -95,7 +97,7 @@ std::uint64_t count_pairs(const GatherSegments& segments) {
     std::uint64_t present = 0;
     for (const ReceiverPacket& packet : segments.receivers) {
         for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            present += is_zero(receiver_normal(packet, lane)) ? 0 : 1;
+            present += is_zero(receiver_at(packet, lane).normal) ? 0 : 1;
         }
     }
     return present * segments.vpls.size();

@@ -49,11 +49,4 @@ std::uint64_t count_bits(std::span<const std::uint64_t> mask);
 /// Pairs whose receiver is there.
 std::uint64_t count_pairs(const GatherSegments& segments);
 
-inline Vec3 receiver_position(const ReceiverPacket& packet, std::size_t lane) {
-    return {packet.px[lane], packet.py[lane], packet.pz[lane]};
-}
-inline Vec3 receiver_normal(const ReceiverPacket& packet, std::size_t lane) {
-    return {packet.nx[lane], packet.ny[lane], packet.nz[lane]};
-}
-
 }  // namespace nearlight

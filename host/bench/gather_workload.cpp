@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/scene/distribution.h"
 #include "host/scene/emitters.h"
 #include "host/scene/ray_epsilon.h"
@@ -15,11 +16,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kTile = 8;  // kTile² = NEARLIGHT_PACKET_SIZE
 constexpr uint kMaxDepth = 5;
-
-struct SurfacePoint {
-    Vec3 position;  ///< stands off
-    Vec3 normal;
-};
 
 uint spread_bits(uint x) {
     x = (x | (x << 16u)) & 0x030000ffu;
@@ -49,8 +45,8 @@ class PointMaker {
   public:
     explicit PointMaker(const Scene& scene) : scene_(scene), extent_(max_component(bounds(scene).size())) {}
 
-    /// The side of the surface that `direction` points away from.
-    [[nodiscard]] SurfacePoint at_hit(const BvhHit& hit, Vec3 direction) const {
+    /// Standing off, on the side of the surface that `direction` points away from.
+    [[nodiscard]] ReceiverPoint at_hit(const BvhHit& hit, Vec3 direction) const {
         const Triangle& triangle = scene_.triangles[hit.triangle];
         Vec3 normal = triangle_normal(scene_, triangle);
         if (dot(normal, direction) > 0.0f) {
@@ -58,7 +54,7 @@ class PointMaker {
         }
         return {stand_off(triangle_point(scene_, triangle, hit.u, hit.v), normal, extent_), normal};
     }
-    [[nodiscard]] SurfacePoint on_front(const Triangle& triangle, Pcg32& random) const {
+    [[nodiscard]] ReceiverPoint on_front(const Triangle& triangle, Pcg32& random) const {
         const float root = std::sqrt(random.uniform());
         const float u = 1.0f - root;
         const float v = root * random.uniform();
@@ -86,7 +82,7 @@ Vec3 sphere_direction(Pcg32& random) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-Vpl make_vpl(const SurfacePoint& point, uint depth) {
+Vpl make_vpl(const ReceiverPoint& point, uint depth) {
     // Equal powers: the work does not depend on them.
     return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
 }
@@ -98,7 +94,7 @@ struct WalkStart {
 
 WalkStart start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
     if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
-        const SurfacePoint point = points.on_front(scene.triangles[emitter.triangle], random);
+        const ReceiverPoint point = points.on_front(scene.triangles[emitter.triangle], random);
         return {point.position, cosine_direction(point.normal, random)};
     }
     return {emitter.position, sphere_direction(random)};
@@ -124,7 +120,7 @@ void deposit_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, 
         if (hit.triangle == ~0u) {
             return;
         }
-        const SurfacePoint point = points.at_hit(hit, direction);
+        const ReceiverPoint point = points.at_hit(hit, direction);
         vpls.push_back(make_vpl(point, depth));
         const Material& material = scene.materials[scene.triangles[hit.triangle].material];
         if (random.uniform() >= max_component(light_albedo(scene, material, 0.0f, 0.0f))) {
@@ -215,13 +211,7 @@ std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh&
             if (x >= width || y >= height || hit.triangle == ~0u) {
                 continue;
             }
-            const SurfacePoint point = points.at_hit(hit, direction);
-            packet.px[i] = point.position.x;
-            packet.py[i] = point.position.y;
-            packet.pz[i] = point.position.z;
-            packet.nx[i] = point.normal.x;
-            packet.ny[i] = point.normal.y;
-            packet.nz[i] = point.normal.z;
+            set_receiver(packet, static_cast<std::size_t>(i), points.at_hit(hit, direction));
         }
     }
     return packets;

@@ -13,11 +13,11 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
-#include "host/bvh/wide_bvh.h"
 #include "host/render/renderer.h"
 #include "host/stages/gatherer.h"
 
@@ -39,7 +39,6 @@ struct Options {
 struct Workload {
     Scene scene;
     SceneBvhs bvhs;
-    WideBvh wide;
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
 };
@@ -64,7 +63,6 @@ Workload make_workload(const Options& options) {
     Workload work;
     work.scene = make_sphere_room(options.triangles);
     work.bvhs = build_scene_bvhs(work.scene);
-    work.wide = widen(work.bvhs.opaque);
     work.vpls = make_traced_vpls(work.scene, work.bvhs.opaque, options.vpls);
     const int side = static_cast<int>(options.side);
     work.receivers = make_camera_receivers(work.scene, work.bvhs.opaque, side, side);
@@ -73,24 +71,17 @@ Workload make_workload(const Options& options) {
 
 /// What a gather needs, on a device.
 struct GatherJob {
-    GatherJob(Device& device, const Workload& work, std::size_t vpl_count)
-        : nodes(device, work.bvhs.opaque.nodes),
-          triangles(device, work.bvhs.opaque.triangles),
-          wide_nodes(device, work.wide.nodes),
-          blocks(device, work.wide.blocks),
+    GatherJob(Device& device, const Workload& work, GatherKernel kernel, std::size_t vpl_count)
+        : tree(upload_tree(device, work.bvhs.opaque, kernel)),
           vpls(device, std::span(work.vpls).first(std::min(vpl_count, work.vpls.size()))),
           receivers(device, work.receivers),
           irradiance(device, work.receivers.size()) {}
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes,        triangles, wide_nodes,        blocks,      vpls,
-                vpls.count(), receivers, receivers.count(), kClampRadius};
+        return {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius};
     }
 
-    Buffer<BvhNode> nodes;
-    Buffer<BvhTriangle> triangles;
-    Buffer<WideNode> wide_nodes;
-    Buffer<TriangleBlock> blocks;
+    OpaqueTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;
@@ -98,7 +89,7 @@ struct GatherJob {
 
 /// True if the kernel sees what the host sees.
 bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
-    GatherJob job(device, work, kCheckedVpls);
+    GatherJob job(device, work, gatherer.kernel(), kCheckedVpls);
     const std::vector<GatherPair> pairs = gatherer.gather_recorded(job.input(), job.irradiance);
     std::size_t rays = 0;
     std::size_t blocked = 0;
@@ -107,10 +98,9 @@ bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
         if (pairs[i] == GatherPair::culled) {
             continue;
         }
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
         const Vpl& vpl = work.vpls[i / NEARLIGHT_PACKET_SIZE % job.vpls.count()];
         const ReceiverPacket& packet = work.receivers[i / NEARLIGHT_PACKET_SIZE / job.vpls.count()];
-        const Vec3 receiver{packet.px[lane], packet.py[lane], packet.pz[lane]};
+        const Vec3 receiver = receiver_at(packet, i % NEARLIGHT_PACKET_SIZE).position;
         const bool expected = occluded(work.bvhs.opaque, vpl.position, receiver - vpl.position,
                                        NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
         ++rays;
@@ -125,7 +115,7 @@ bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
 }
 
 void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
-    GatherJob job(device, work, work.vpls.size());
+    GatherJob job(device, work, gatherer.kernel(), work.vpls.size());
     std::vector<double> seconds;
     for (int i = 0; i <= kRepeats; ++i) {
         const Stopwatch watch;

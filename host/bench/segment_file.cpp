@@ -10,6 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/base/files.h"
+#include "host/base/receivers.h"
 
 namespace nearlight {
 namespace {
@@ -74,7 +75,7 @@ bool is_finite(const ReceiverPacket& packet) {
 std::uint64_t present_lanes(const ReceiverPacket& packet) {
     std::uint64_t lanes = 0;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        lanes |= std::uint64_t{is_zero(receiver_normal(packet, lane)) ? 0u : 1u} << lane;
+        lanes |= std::uint64_t{is_zero(receiver_at(packet, lane).normal) ? 0u : 1u} << lane;
     }
     return lanes;
 }

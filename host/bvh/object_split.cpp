@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace nearlight {
 namespace {
@@ -31,7 +30,7 @@ struct Bins {
         alignas(16) float center[4];
         reference.get_center(center);
         for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins[axis][mapping(center, axis)];
+            Bin& bin = bins[axis][mapping.bin(center[axis], axis)];
             bin.box.extend(reference);
             ++bin.count;
         }
@@ -78,16 +77,8 @@ Plane better_plane(const Bins& bins, int axis, Plane best) {
 
 }  // namespace
 
-BinMapping::BinMapping(const Box4& centers, int bin_count) : last_(static_cast<float>(bin_count - 1)) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const float size = centers.high[axis] - centers.low[axis];
-        low_[axis] = centers.low[axis];
-        // 0 sends everything to the first bin: no extent, or one that overflows.
-        scale_[axis] = size > 0.0f && std::isfinite(size) ? static_cast<float>(bin_count) / size : 0.0f;
-    }
-}
-
-ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping, int bin_count) {
+ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping) {
+    const int bin_count = mapping.count();
     Bins bins(bin_count);
     fold(range, bins, [&](Bins& sum, const Reference& r) { sum.add(r, mapping); });
     Plane best;
@@ -108,7 +99,7 @@ std::size_t partition(std::span<Reference> range, const BinMapping& mapping, con
     const auto right = std::partition(range.begin(), range.end(), [&](const Reference& reference) {
         alignas(16) float center[4];
         reference.get_center(center);
-        return mapping(center, split.axis) <= split.last_left_bin;
+        return mapping.bin(center[split.axis], split.axis) <= split.last_left_bin;
     });
     return static_cast<std::size_t>(right - range.begin());
 }

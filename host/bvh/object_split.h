@@ -6,27 +6,13 @@
 #include <limits>
 #include <span>
 
+#include "host/bvh/bin_mapping.h"
 #include "host/bvh/reference.h"
 
 namespace nearlight {
 
 constexpr int kMinBins = 8;
 constexpr int kMaxBins = 64;
-
-/// Maps centres of boxes to bins.
-class BinMapping {
-  public:
-    BinMapping(const Box4& centers, int bin_count);
-    [[nodiscard]] int operator()(const float* center, int axis) const {
-        const float x = (center[axis] - low_[axis]) * scale_[axis];
-        return x > 0.0f ? static_cast<int>(x < last_ ? x : last_) : 0;  // not-a-number goes to 0 as well
-    }
-
-  private:
-    float low_[3];
-    float scale_[3];
-    float last_;
-};
 
 /// A plane between bins of one axis.
 struct ObjectSplit {
@@ -37,8 +23,8 @@ struct ObjectSplit {
     Box4 right = Box4::empty();
 };
 
-/// The cheapest one. `bin_count` lies in [kMinBins, kMaxBins].
-ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping, int bin_count);
+/// The cheapest one. `mapping` is of the references' centres, its count in [kMinBins, kMaxBins].
+ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping);
 
 /// Moves those left of the plane to the front, and returns how many they are.
 std::size_t partition(std::span<Reference> range, const BinMapping& mapping, const ObjectSplit& split);

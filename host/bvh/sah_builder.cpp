@@ -100,7 +100,7 @@ class SahBuilder {
             range.size(), kMinBins,
             static_cast<std::size_t>(std::clamp(config_.bin_count, kMinBins, kMaxBins))));
         const BinMapping mapping(bounds.centers, bin_count);
-        const ObjectSplit object = find_object_split(range, mapping, bin_count);
+        const ObjectSplit object = find_object_split(range, mapping);
         const float area = bounds.box.half_area();
         const float leaf_cost = area * (config_.intersection_cost * static_cast<float>(range.size()));
         const auto is_worth_it = [&](float cost) {
@@ -108,7 +108,7 @@ class SahBuilder {
                    area * config_.traversal_cost + cost * config_.intersection_cost < leaf_cost;
         };
         if (may_split_references(room, bounds, object)) {
-            const SlabMapping slabs(
+            const BinMapping slabs(
                 bounds.box, static_cast<int>(std::clamp<std::size_t>(range.size(), kMinSlabs, kMaxSlabs)));
             const SpatialSplit spatial = splitter_->find(range, slabs);
             const std::size_t total = std::size_t{spatial.left_count} + spatial.right_count;

@@ -67,14 +67,14 @@ struct AxisSlabs {
     }
 
     /// A reference from slab `first` to a later slab `last`: to each slab, the box of what lies in it.
-    void add_cut(const Reference& reference, const Corners& corners, const SlabMapping& mapping, int axis,
+    void add_cut(const Reference& reference, const Corners& corners, const BinMapping& mapping, int axis,
                  int first, int last) {
         std::array<Box4, kMaxSlabs> parts;
         std::fill(parts.begin() + first, parts.begin() + last + 1, Box4::empty());
         const float* a = corners.points[2];
-        int slab_a = mapping.slab(a[axis], axis);
+        int slab_a = mapping.bin(a[axis], axis);
         for (const auto& b : corners.points) {
-            const int slab_b = mapping.slab(b[axis], axis);
+            const int slab_b = mapping.bin(b[axis], axis);
             if (slab_b >= first && slab_b <= last) {
                 parts[slab_b].extend(b);
             }
@@ -141,10 +141,10 @@ struct Slabs {
             axes[axis].add(other.axes[axis], slab_count);
         }
     }
-    void add(const Reference& reference, const Scene& scene, const SlabMapping& mapping) {
+    void add(const Reference& reference, const Scene& scene, const BinMapping& mapping) {
         for (int axis = 0; axis < 3; ++axis) {
-            const int first = mapping.slab(reference.low[axis], axis);
-            const int last = mapping.slab(reference.high[axis], axis);
+            const int first = mapping.bin(reference.low[axis], axis);
+            const int last = mapping.bin(reference.high[axis], axis);
             auto& slabs = axes[axis].slabs;
             ++slabs[first].entries;
             ++slabs[last].exits;
@@ -161,15 +161,6 @@ struct Slabs {
 };
 
 }  // namespace
-
-SlabMapping::SlabMapping(const Box4& box, int count) : last_(static_cast<float>(count - 1)), count_(count) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const float size = box.high[axis] - box.low[axis];
-        low_[axis] = box.low[axis];
-        thickness_[axis] = size / static_cast<float>(count);
-        scale_[axis] = size > 0.0f ? static_cast<float>(count) / size : 0.0f;
-    }
-}
 
 SpatialSplitter::SpatialSplitter(const Scene& scene, const Box4& root)
     : scene_(scene), root_area_(root.half_area()), pad_(0.0f) {
@@ -190,7 +181,7 @@ uint SpatialSplitter::weight(const Reference& reference) const {
     return static_cast<uint>(std::min(std::sqrt(excess / root_area_), 1.0f) * kWeightUnit);
 }
 
-SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const SlabMapping& mapping) const {
+SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping) const {
     Slabs slabs(mapping.count());
     fold(range, slabs, [&](Slabs& sum, const Reference& r) { sum.add(r, scene_, mapping); });
     SpatialSplit best;
@@ -237,7 +228,7 @@ SpatialSplitter::Cut SpatialSplitter::cut(const Reference& reference, int axis, 
 }
 
 SpatialSplitter::Parts SpatialSplitter::partition(std::span<Reference> room, std::size_t count,
-                                                  const SlabMapping& mapping,
+                                                  const BinMapping& mapping,
                                                   const SpatialSplit& split) const {
     const float position = mapping.plane(split.first_right_slab, split.axis);
     const auto left_count = static_cast<float>(split.left_count);
@@ -250,11 +241,11 @@ SpatialSplitter::Parts SpatialSplitter::partition(std::span<Reference> room, std
     const auto put_right = [&] { std::swap(room[left_end], room[--right_begin]); };
     while (left_end < right_begin) {
         Reference& reference = room[left_end];
-        if (mapping.slab(reference.low[split.axis], split.axis) >= split.first_right_slab) {
+        if (mapping.bin(reference.low[split.axis], split.axis) >= split.first_right_slab) {
             put_right();
             continue;
         }
-        if (mapping.slab(reference.high[split.axis], split.axis) < split.first_right_slab) {
+        if (mapping.bin(reference.high[split.axis], split.axis) < split.first_right_slab) {
             ++left_end;
             continue;
         }

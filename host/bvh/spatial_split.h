@@ -6,36 +6,13 @@
 #include <limits>
 #include <span>
 
+#include "host/bvh/bin_mapping.h"
 #include "host/bvh/reference.h"
 
 namespace nearlight {
 
 constexpr int kMinSlabs = 4;
 constexpr int kMaxSlabs = 16;
-
-/// The planes that come into question: they cut a box into slabs of equal thickness along each axis.
-class SlabMapping {
-  public:
-    /// `count` lies in [kMinSlabs, kMaxSlabs].
-    SlabMapping(const Box4& box, int count);
-    [[nodiscard]] int count() const { return count_; }
-    /// Of a coordinate; everything lies in slab 0 where the box has no thickness.
-    [[nodiscard]] int slab(float x, int axis) const {
-        const float scaled = (x - low_[axis]) * scale_[axis];
-        return scaled > 0.0f ? static_cast<int>(scaled < last_ ? scaled : last_) : 0;
-    }
-    /// The plane between slabs `slab` − 1 and `slab`.
-    [[nodiscard]] float plane(int slab, int axis) const {
-        return low_[axis] + static_cast<float>(slab) * thickness_[axis];
-    }
-
-  private:
-    float low_[3];
-    float thickness_[3];
-    float scale_[3];
-    float last_;
-    int count_;
-};
 
 struct SpatialSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< Σ half area · references of both sides
@@ -63,8 +40,8 @@ class SpatialSplitter {
     /// area that its box has beyond the least box of a triangle of such projections.
     [[nodiscard]] uint weight(const Reference& reference) const;
 
-    /// The cheapest plane through `box`, which is that of the range.
-    [[nodiscard]] SpatialSplit find(std::span<const Reference> range, const SlabMapping& mapping) const;
+    /// The cheapest plane between bins. `mapping` is of the range's box, its count in [kMinSlabs, kMaxSlabs].
+    [[nodiscard]] SpatialSplit find(std::span<const Reference> range, const BinMapping& mapping) const;
 
     struct Parts {
         std::size_t left_count;
@@ -73,7 +50,7 @@ class SpatialSplitter {
     /// Parts the first `count` entries; behind them must be room for as many as the plane cuts. A reference
     /// that costs less whole goes to one side only (the paper's reference unsplitting). Where one side stays
     /// empty nothing has changed but the order.
-    Parts partition(std::span<Reference> room, std::size_t count, const SlabMapping& mapping,
+    Parts partition(std::span<Reference> room, std::size_t count, const BinMapping& mapping,
                     const SpatialSplit& split) const;
 
     struct Cut {

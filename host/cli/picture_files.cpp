@@ -42,8 +42,8 @@ std::vector<std::size_t> channels_for(const PictureOptions& options, const std::
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string layer = layer_of(all[i]);
-        const bool wanted = options.layers.empty() ||
-                            std::find(options.layers.begin(), options.layers.end(), layer) != options.layers.end();
+        const bool wanted = options.layers.empty() || std::find(options.layers.begin(), options.layers.end(),
+                                                                layer) != options.layers.end();
         if (layer == kBeauty || (wanted && extension_of(file) == ".exr")) {
             chosen.push_back(i);
         }
@@ -60,16 +60,19 @@ void check_output(const std::string& file) {
     const fs::path folder = parent.empty() ? fs::path(".") : parent;
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
-        throw Error(ExitCode::file, "cannot write '" + file + "': there is no folder '" + folder.string() + "'; create it first");
+        throw Error(ExitCode::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
+                                        "'; create it first");
     }
     if (fs::is_directory(file, error)) {
         throw Error(ExitCode::file, "cannot write '" + file + "': it is a folder; name a file");
     }
     if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
-        throw Error(ExitCode::file, "cannot write '" + file + "': it is there and read-only; name another file");
+        throw Error(ExitCode::file,
+                    "cannot write '" + file + "': it is there and read-only; name another file");
     }
     if (access(folder.c_str(), W_OK) != 0) {
-        throw Error(ExitCode::file, "cannot write '" + file + "': the folder '" + folder.string() + "' is not writable");
+        throw Error(ExitCode::file,
+                    "cannot write '" + file + "': the folder '" + folder.string() + "' is not writable");
     }
 }
 
@@ -94,12 +97,15 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->required();
     command
         .add_option("--layers,--aov", options.layers,
-                    "Layers of the EXR besides beauty, comma-separated (default: all): direct, indirect, albedo, N, P, "
+                    "Layers of the EXR besides beauty, comma-separated (default: all): direct, indirect, "
+                    "albedo, N, P, "
                     "depth, closerange")
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--exposure", options.exposure, "Of PNG pictures, in stops")->type_name("EV")->capture_default_str();
+    command.add_option("--exposure", options.exposure, "Of PNG pictures, in stops")
+        ->type_name("EV")
+        ->capture_default_str();
 }
 
 void check_outputs(const PictureOptions& options) {
@@ -124,7 +130,8 @@ Metadata camera_metadata(const SceneCamera& camera) {
     const double tan_y = tan_x * camera.height / camera.width;
     // NDC: x and y in [0, 1] from the top left corner after division by w = z. The camera's +X points left.
     Mat4 projection{{-0.5 / tan_x, 0, 0.5, 0, 0, -0.5 / tan_y, 0.5, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
-    return {{"worldToCamera", transposed(world_to_camera)}, {"worldToNDC", transposed(projection * world_to_camera)}};
+    return {{"worldToCamera", transposed(world_to_camera)},
+            {"worldToNDC", transposed(projection * world_to_camera)}};
 }
 
 void PictureFiles::open(int width, int height, const Metadata& metadata) {
@@ -137,7 +144,8 @@ void PictureFiles::open(int width, int height, const Metadata& metadata) {
         for (const std::size_t channel : channels) {
             names.push_back(all[channel]);
         }
-        files_.push_back({ImageWriter(file, width, height, std::move(names), writer_options), std::move(channels)});
+        files_.push_back(
+            {ImageWriter(file, width, height, std::move(names), writer_options), std::move(channels)});
     }
 }
 

@@ -21,8 +21,8 @@ struct PictureOptions {
 /// -o, --layers and --exposure.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// Finds out before any work starts whether the outputs can be written. Throws Error(ExitCode::usage) for an unknown
-/// extension or layer, Error(ExitCode::file) for a folder that does not exist or cannot be written.
+/// Finds out before any work starts whether the outputs can be written. Throws Error(ExitCode::usage) for an
+/// unknown extension or layer, Error(ExitCode::file) for a folder that does not exist or cannot be written.
 void check_outputs(const PictureOptions& options);
 
 /// worldToCamera and worldToNDC in OpenEXR's row-vector convention, as other renderers write them.

@@ -66,7 +66,8 @@ void ProgressBar::update(double fraction, std::optional<double> seconds_left) {
             last_update_ = now;
             visible_ = true;
             const double elapsed = std::chrono::duration<double>(now - start_).count();
-            std::fprintf(stderr, "\r%s\033[K", progress_line(label_, fraction, elapsed, seconds_left).c_str());
+            std::fprintf(stderr, "\r%s\033[K",
+                         progress_line(label_, fraction, elapsed, seconds_left).c_str());
             std::fflush(stderr);
         }
     } else if (style_ == Style::messages && static_cast<int>(fraction * 10.0) > last_tenth_) {

@@ -11,8 +11,8 @@
 
 namespace nearlight {
 
-/// "gathering  42 %  [########............]  0:12 left"; the time appears once it can be told: from `seconds_left` where
-/// the caller knows it, else from the fraction and the time that it took.
+/// "gathering  42 %  [########............]  0:12 left"; the time appears once it can be told: from
+/// `seconds_left` where the caller knows it, else from the fraction and the time that it took.
 std::string progress_line(std::string_view label, double fraction, double elapsed_seconds,
                           std::optional<double> seconds_left = std::nullopt);
 

@@ -30,6 +30,7 @@ struct RenderOptions {
     std::string close_fraction = "auto";
     std::string range = "auto";
     std::string clamp_radius = "auto";
+    std::optional<double> seconds;  ///< of the whole command
 };
 
 const std::map<std::string, GatherKernel> kGatherKernels{
@@ -49,7 +50,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& va
         }
         const auto found = choices.find(text);
         if (found == choices.end()) {
-            throw Error(ExitCode::usage, fmt::format("{} does not know '{}'; there are: {}", option, text, names));
+            throw Error(ExitCode::usage,
+                        fmt::format("{} does not know '{}'; there are: {}", option, text, names));
         }
         value = found->second;
     };
@@ -57,7 +59,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& va
 }
 
 /// "auto", or a number in [low, high].
-std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low, float high) {
+std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low,
+                                    float high) {
     if (text == "auto") {
         return std::nullopt;
     }
@@ -69,8 +72,8 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
         used = 0;
     }
     if (used != text.size() || !(value >= low) || !(value <= high)) {
-        throw Error(ExitCode::usage,
-                    fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'", option, low, high, text));
+        throw Error(ExitCode::usage, fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'",
+                                                 option, low, high, text));
     }
     return value;
 }
@@ -92,9 +95,10 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.width.value_or(scene.camera.width);
     const int height = settings.height.value_or(scene.camera.height);
     if (std::int64_t{width} * height > kMostPixels) {
-        throw Error(ExitCode::out_of_memory,
-                    fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
-                                width, height, kMostPixels >> 20));
+        throw Error(
+            ExitCode::out_of_memory,
+            fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
+                        width, height, kMostPixels >> 20));
     }
     if (settings.vpl_count == 0) {
         spdlog::warn("--vpls 0: the picture has no indirect light");
@@ -102,11 +106,15 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 }
 
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
-    spdlog::info("{}x{} pixels, {} close and {} distant VPLs, {:.1f} s", report.width, report.height, report.close_vpls,
-                 report.distant_vpls, seconds);
+    spdlog::info("{}x{} pixels, {} close and {} distant VPLs{}, {:.1f} s", report.width, report.height,
+                 report.close_vpls, report.distant_vpls,
+                 report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
     tell_shares(report);
+    const char* const note = !report.interrupted ? ""
+                             : report.passes > 1 ? " (interrupted: the last pass is not whole)"
+                                                 : " (interrupted: the rest is black)";
     for (const auto& output : options.picture.outputs) {
-        spdlog::info("wrote {}{}", output, report.interrupted ? " (interrupted: the rest is black)" : "");
+        spdlog::info("wrote {}{}", output, note);
     }
 }
 
@@ -125,7 +133,7 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
-    const RenderSettings settings = settled(options);
+    RenderSettings settings = settled(options);
     check_outputs(options.picture);
     const Stopwatch total;
     // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
@@ -141,13 +149,17 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_request(scene, settings);
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
 
+    if (options.seconds) {
+        settings.seconds = *options.seconds - total.seconds();
+    }
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
     const RenderReport report = render(
         plain(devices), scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height, render_metadata(scene, settings, started, view, devices));
+            files.open(started.width, started.height,
+                       render_metadata(scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) { files.write_rows(rows); },
         [&](const std::string&, double fraction) {
@@ -157,7 +169,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report, load_seconds));
+        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report,
+                               load_seconds));
     }
     if (global.verbose) {
         for (const auto& device : devices) {
@@ -174,24 +187,32 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     std::string sampler_help = "Where VPLs are put: ";
     for (const SamplerEntry& entry : all_samplers()) {
         samplers.emplace(entry.name, entry.kind);
-        sampler_help += fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
+        sampler_help +=
+            fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--sampler", settings.sampler, samplers, sampler_help)->default_str(to_string(settings.sampler));
+    add_choice(command, "--sampler", settings.sampler, samplers, sampler_help)
+        ->default_str(to_string(settings.sampler));
     std::map<std::string, Policy> policies;
     std::string policy_help = "Of close-range: ";
     for (const PolicyEntry& entry : all_policies()) {
         policies.emplace(entry.name, entry.policy);
-        policy_help += fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
+        policy_help +=
+            fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--policy", settings.policy, policies, policy_help)->default_str(to_string(settings.policy));
+    add_choice(command, "--policy", settings.policy, policies, policy_help)
+        ->default_str(to_string(settings.policy));
     command.add_option("--vpls", settings.vpl_count, "Virtual point lights to aim at")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
-    command.add_option("--close-fraction", options.close_fraction, "Share of them in the close range, 0 to 1, or auto")
+    command
+        .add_option("--close-fraction", options.close_fraction,
+                    "Share of them in the close range, 0 to 1, or auto")
         ->type_name("F")
         ->capture_default_str();
-    command.add_option("--range", options.range, "How far from the camera the close range reaches, scene units, or auto")
+    command
+        .add_option("--range", options.range,
+                    "How far from the camera the close range reaches, scene units, or auto")
         ->type_name("R")
         ->capture_default_str();
     command
@@ -199,32 +220,55 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
                     "VPLs nearer than this light as if they were so far, scene units, or auto")
         ->type_name("R")
         ->capture_default_str();
-    command.add_option("--max-depth", settings.max_depth, "Longest light path as Mitsuba counts: 2 is direct light only (default: the scene's, or 8)")
+    command
+        .add_option(
+            "--max-depth", settings.max_depth,
+            "Longest light path as Mitsuba counts: 2 is direct light only (default: the scene's, or 8)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
-    command.add_option("--seed", settings.seed, "Another seed, another noise")->type_name("N")->capture_default_str();
+    command.add_option("--seed", settings.seed, "Another seed, another noise")
+        ->type_name("N")
+        ->capture_default_str();
     command
-        .add_option("--roulette", settings.roulette,
-                    "Trace VPLs that could bring pixels less than T times the mean by chance only; 0: trace all")
+        .add_option(
+            "--roulette", settings.roulette,
+            "Trace VPLs that could bring pixels less than T times the mean by chance only; 0: trace all")
         ->check(CLI::Range(0.0f, 1000.0f))
         ->type_name("T")
         ->capture_default_str();
-    add_choice(command, "--gather", settings.gather_kernel, kGatherKernels, "Gather kernel: auto, packets or rays")
+    add_choice(command, "--gather", settings.gather_kernel, kGatherKernels,
+               "Gather kernel: auto, packets or rays")
         ->default_str("auto");
     add_bvh_option(command, settings.bvh_quality);
+}
+
+void add_pass_options(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--passes", options.settings.passes,
+                    "Renderings to average, each with VPLs and random numbers of its own (default: 1)")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N");
+    command
+        .add_option(
+            "--time", options.seconds,
+            "As many passes (at most those of --passes) as are done in so many seconds, reading the scene "
+            "included; one at least")
+        ->check(CLI::Range(0.0, 1e9))
+        ->type_name("SECONDS");
 }
 
 }  // namespace
 
 void add_render_command(CommandLine& line) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App& command = line.add_command(
-        "render", "Render a scene with virtual point lights",
-        [options](const GlobalOptions& global) { return run_render(*options, global); });
+    CLI::App& command =
+        line.add_command("render", "Render a scene with virtual point lights",
+                         [options](const GlobalOptions& global) { return run_render(*options, global); });
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
-    command.add_option("--spp", options->settings.samples_per_pixel, "Camera samples a pixel (anti-aliasing)")
+    command
+        .add_option("--spp", options->settings.samples_per_pixel, "Camera samples a pixel (anti-aliasing)")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
@@ -234,6 +278,7 @@ void add_render_command(CommandLine& line) {
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();
+    add_pass_options(command, *options);
     add_method_options(command, *options);
     add_device_options(command, options->device);
 }

@@ -42,6 +42,7 @@ Metadata render_metadata(const Scene& scene, const RenderSettings& settings, con
     metadata["nearlight:policy"] =
         settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.clamp_radius;
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
@@ -63,6 +64,7 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
     json["policy"] = settings.sampler == SamplerKind::close_range
                          ? nlohmann::ordered_json(to_string(settings.policy))
                          : nullptr;
+    json["passes"] = report.passes;
     json["vpls"] = {{"requested", settings.vpl_count}, {"close", report.close_vpls},
                     {"distant", report.distant_vpls},  {"sparse", report.sparse_vpls},
                     {"candidates", report.candidates}, {"local_lights", report.local_lights}};

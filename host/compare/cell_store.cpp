@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "host/base/error.h"
+#include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
-#include "host/base/files.h"
 #include "host/image/image_io.h"
 
 namespace nearlight {

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/compare/cost_model.h"
-#include "host/base/files.h"
 #include "host/image/image_io.h"
 
 namespace nearlight {

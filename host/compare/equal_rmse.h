@@ -27,8 +27,8 @@ enum class Reach {
     measured,      ///< the baseline at one of its counts
     fitted,        ///< between half the least and twice the largest measured count
     extrapolated,  ///< beyond that: an order of magnitude rather than a number
-    never,         ///< the RMSE does not fall with the count, has a floor above what is asked for, or falls so
-                   ///< slowly that a hundred times the largest measured count would not do
+    never,  ///< the RMSE does not fall with the count, has a floor above what is asked for, or falls so
+            ///< slowly that a hundred times the largest measured count would not do
 };
 const char* to_string(Reach reach);
 

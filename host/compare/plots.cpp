@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
-#include "host/base/message.h"
 #include "host/base/files.h"
+#include "host/base/message.h"
 
 extern char** environ;
 

@@ -7,8 +7,8 @@
 
 namespace nearlight {
 
-/// Writes compare.json, equal_vpls.csv, equal_rmse.csv, report.html and report.md into settings.output and returns the
-/// text of the first. Throws Error(ExitCode::file).
+/// Writes compare.json, equal_vpls.csv, equal_rmse.csv, report.html and report.md into settings.output and
+/// returns the text of the first. Throws Error(ExitCode::file).
 std::string write_report(const Comparison& comparison, const CompareSettings& settings);
 
 }  // namespace nearlight

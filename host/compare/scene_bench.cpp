@@ -55,7 +55,9 @@ float clamp_radius_of(const std::filesystem::path& reference_file) {
 SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& name,
                        const CompareSettings& settings,
                        const std::optional<std::filesystem::path>& reference_file)
-    : scene_(scene), settings_(settings), renderer_(device, scene, GatherKernel::automatic, settings.bvh_quality) {
+    : scene_(scene),
+      settings_(settings),
+      renderer_(device, scene, GatherKernel::automatic, settings.bvh_quality) {
     facts_.name = name;
     facts_.source = scene.source.string();
     facts_.hash = scene_hash(scene);

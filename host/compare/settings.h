@@ -41,7 +41,7 @@ struct CompareSettings {
     int reference_spp = 1024;             ///< of the path-traced reference
     std::size_t reference_vpls = 0;       ///< where not 0: instant radiosity of so many VPLs is the reference
     std::vector<std::filesystem::path>
-        reference_files;          ///< made by `nearlight reference`; each for the scene it fits
+        reference_files;  ///< made by `nearlight reference`; each for the scene it fits
     BvhQuality bvh_quality = BvhQuality::quality;
     std::vector<Crop> crops;      ///< empty: chosen where the picture is hardest
     std::string program_version;  ///< cells of other versions are measured anew

@@ -10,8 +10,8 @@
 
 namespace nearlight {
 
-// An attribute is its name and type, each ended by a zero byte, the size of the value as a 32-bit integer, and the
-// value; all little-endian [The OpenEXR File Layout].
+// An attribute is its name and type, each ended by a zero byte, the size of the value as a 32-bit integer,
+// and the value; all little-endian [The OpenEXR File Layout].
 void patch_exr_float(const std::filesystem::path& file, const std::string& name, float value) {
     using namespace std::string_literals;
     const std::string attribute = name + "\0float\0\4\0\0\0"s;
@@ -22,7 +22,8 @@ void patch_exr_float(const std::filesystem::path& file, const std::string& name,
     stream.clear();
     const std::size_t at = header.find(attribute);
     if (at == std::string::npos) {
-        throw Error(ExitCode::file, "cannot update '" + file.string() + "': its header has no number '" + name + "'");
+        throw Error(ExitCode::file,
+                    "cannot update '" + file.string() + "': its header has no number '" + name + "'");
     }
     const auto bits = std::bit_cast<std::uint32_t>(value);
     std::array<char, 4> bytes{};

@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/image/exr_patch.h"
 #include "host/image/color.h"
+#include "host/image/exr_patch.h"
 
 namespace nearlight {
 namespace {

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "host/base/receivers.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/light_sampler.h"
 
@@ -33,10 +34,8 @@ void sum_terms(std::span<const ReceiverPacket> receivers, std::span<IrradiancePa
     tbb::task_arena arena(arena_size(threads));
     arena.execute([&] {
         tbb::parallel_for(std::size_t{0}, receivers.size() * NEARLIGHT_PACKET_SIZE, [&](std::size_t index) {
-            const ReceiverPacket& packet = receivers[index / NEARLIGHT_PACKET_SIZE];
             const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
-            const Vec3 position{packet.px[lane], packet.py[lane], packet.pz[lane]};
-            const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
+            const auto [position, normal] = receiver_at(receivers, index);
             double sum[3] = {0, 0, 0};
             for (std::size_t i = 0; i < count && !is_zero(normal); ++i) {
                 const Vec3 e = term(position, normal, i);

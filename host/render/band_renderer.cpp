@@ -47,10 +47,7 @@ bool BandRenderer::gather_indirect(std::size_t packets, const GatherProgress& pr
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
                                          buffers_.indirect, progress);
     }
-    return stages_.gatherer.gather({.nodes = scene_.nodes,
-                                    .triangles = scene_.bvh_triangles,
-                                    .wide_nodes = scene_.wide_nodes,
-                                    .blocks = scene_.blocks,
+    return stages_.gatherer.gather({.tree = scene_.tree,
                                     .vpls = vpls_,
                                     .vpl_count = picture_.vpls.size(),
                                     .receivers = buffers_.receivers,

@@ -31,7 +31,7 @@ struct BandStages {
     DirectLight direct_light;
     Gatherer gatherer;
     Film film;
-    std::optional<LocalGather> local_gather{};  ///< compiled when first wanted
+    std::optional<LocalGather> local_gather{};  ///< made when first wanted
 };
 
 /// What is the same for all bands and devices.

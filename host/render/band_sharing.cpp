@@ -226,4 +226,22 @@ BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker
     return outcome;
 }
 
+void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum) {
+    if (sum.empty()) {
+        sum.assign(shares.begin(), shares.end());
+        return;
+    }
+    auto place = sum.begin();  // devices may share a name
+    for (const BandShare& share : shares) {
+        place = std::find_if(place, sum.end(), [&](const BandShare& one) { return one.name == share.name; });
+        if (place == sum.end()) {
+            return;
+        }
+        place->bands += share.bands;
+        place->seconds += share.seconds;
+        place->failed = place->failed || share.failed;
+        ++place;
+    }
+}
+
 }  // namespace nearlight

@@ -48,4 +48,8 @@ struct BandOutcome {
 BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker> workers,
                         const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress);
 
+/// Adds what the workers of another picture did. Its devices are those of `sum` in their order, but for some
+/// that are no longer there; the first picture's are taken as they are.
+void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum);
+
 }  // namespace nearlight

@@ -18,10 +18,7 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
     std::uint64_t pairs_before = 0;
     const std::uint64_t receiver_count = packet_count * NEARLIGHT_PACKET_SIZE;
     for (const LocalVpls::Group& group : vpls_.groups) {
-        const bool finished = gatherer.gather({.nodes = scene.nodes,
-                                               .triangles = scene.bvh_triangles,
-                                               .wide_nodes = scene.wide_nodes,
-                                               .blocks = scene.blocks,
+        const bool finished = gatherer.gather({.tree = scene.tree,
                                                .vpls = group.vpls,
                                                .vpl_count = group.count,
                                                .receivers = receivers,

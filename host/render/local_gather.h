@@ -10,7 +10,7 @@ namespace nearlight {
 
 class LocalGather {
   public:
-    /// Compiles the kernels.
+    /// Begins to compile the kernels.
     explicit LocalGather(Device& device)
         : device_(&device), lights_(device), vpl_light_(device), vpls_(device) {}
 

@@ -7,6 +7,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/render/band_renderer.h"
+#include "host/render/passes.h"
 
 namespace nearlight {
 namespace {
@@ -34,17 +35,22 @@ std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
     return hash;
 }
 
-void fill_report(const View& view, const VplSet& vpls, RenderReport& report) {
-    report.width = static_cast<int>(view.camera.width);
-    report.height = static_cast<int>(view.camera.height);
-    report.range = view.close_range.range;
-    report.clamp_radius = view.clamp_radius;
-    report.max_depth = view.max_depth;
-    report.close_vpls = vpls.close_count;
-    report.distant_vpls = vpls.distant_count;
-    report.sparse_vpls = vpls.sparse_count;
-    report.candidates = vpls.candidate_count;
-    report.close_fraction = vpls.close_fraction;
+/// Settings that were decided, and VPLs that are gathered.
+void add_pass(const Preparation& pass, RenderReport& report) {
+    const View& view = pass.view;
+    const VplSet& vpls = pass.vpls;
+    if (report.passes++ == 0) {
+        report.width = static_cast<int>(view.camera.width);
+        report.height = static_cast<int>(view.camera.height);
+        report.range = view.close_range.range;
+        report.clamp_radius = view.clamp_radius;
+        report.max_depth = view.max_depth;
+        report.close_fraction = vpls.close_fraction;
+    }
+    report.close_vpls += vpls.close_count;
+    report.distant_vpls += vpls.distant_count;
+    report.sparse_vpls += vpls.sparse_count;
+    report.candidates += vpls.candidate_count;
 }
 
 SamplingTask sampling_task(const DeviceScene& scene, const View& view, const RenderSettings& settings) {
@@ -90,6 +96,9 @@ struct Renderer::State {
     std::vector<BandWorker> band_workers(const Picture& picture);
     void render_bands(const Preparation& prepared, const RenderSettings& settings, const RowSink& sink,
                       const RenderProgress& progress, RenderReport& report);
+    Preparation begin_pass(const RenderSettings& settings, RenderReport& report);
+    void render_passes(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
+                       const RenderProgress& progress, RenderReport& report);
 };
 
 /// Kernels compile while the tree is built: one waits for the driver, the other for memory.
@@ -126,7 +135,7 @@ std::vector<const Device*> Renderer::State::plain_devices() const {
 void Renderer::State::upload(const SceneBvhs& bvhs) {
     for (std::size_t i = devices.size(); i-- > 0;) {
         try {
-            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs);
+            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs, gather_config.kernel);
         } catch (const Error& error) {
             lose(i, error);
         }
@@ -198,25 +207,59 @@ void Renderer::State::render_bands(const Preparation& prepared, const RenderSett
                           .plan = plan,
                           .vpls = prepared.gathered,
                           .local = prepared.vpls.local};
-    report.image_hash = kFnvSeed;
+    const Stopwatch watch;
     const auto take_band = [&](const FinishedBand& band) {
         report.local_lights += band.local_lights;
-        report.image_hash = hash_beauty(band.rows, report.image_hash);
         sink(band.rows);
     };
     BandOutcome outcome =
         share_bands(plan.band_count(), band_window(plan, camera.width, devices.size()), band_workers(picture),
                     take_band, [&](double fraction) { return progress("gathering", fraction); });
+    report.seconds.gather += watch.seconds();
     report.interrupted = outcome.interrupted;
+    std::size_t device_bytes = 0;
     for (const auto& device : devices) {
-        report.device_bytes += device->stages.device.peak_bytes();
+        device_bytes += device->stages.device.peak_bytes();
     }
+    report.device_bytes = std::max(report.device_bytes, device_bytes);
     for (std::size_t i = outcome.shares.size(); i-- > 0;) {
         if (outcome.shares[i].failed) {
             drop(i);
         }
     }
-    report.shares = std::move(outcome.shares);
+    add_shares(outcome.shares, report.shares);
+}
+
+Preparation Renderer::State::begin_pass(const RenderSettings& settings, RenderReport& report) {
+    const Stopwatch watch;
+    Preparation prepared = prepare(settings);
+    add_pass(prepared, report);
+    report.seconds.generate += watch.seconds();
+    return prepared;
+}
+
+/// What the first pass decided of the view holds for all, or they would not be renderings of one thing.
+void Renderer::State::render_passes(const RenderSettings& settings, const RenderStart& start,
+                                    const RowSink& sink, const RenderProgress& progress,
+                                    RenderReport& report) {
+    PassClock clock(settings, report.seconds.total);
+    const Preparation first = begin_pass(settings, report);
+    PassAverage average(first.view.camera.width, first.view.camera.height);
+    const auto add_rows = [&](std::span<const float> rows) { average.add_rows(rows); };
+    const auto pass_progress = [&](const std::string& stage, double fraction) {
+        return progress(stage, clock.fraction(fraction));
+    };
+    render_bands(first, settings, add_rows, pass_progress, report);
+    RenderSettings another = settings;
+    another.range = first.view.close_range.range;
+    another.clamp_radius = first.view.clamp_radius;
+    while (!report.interrupted && clock.has_another()) {
+        another.seed = pass_seed(settings.seed, report.passes);
+        average.begin_pass();
+        render_bands(begin_pass(another, report), another, add_rows, pass_progress, report);
+    }
+    start(report, first.view, first.vpls);
+    average.send(sink);
 }
 
 Renderer::Renderer(std::span<Device* const> devices, const Scene& scene, GatherKernel gather_kernel,
@@ -228,20 +271,22 @@ Renderer::~Renderer() = default;
 
 RenderReport Renderer::render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
                               const RenderProgress& progress) {
-    State& state = *state_;
     RenderReport report;
-    report.seconds = std::exchange(state.seconds, {});
-    Stopwatch watch;
+    report.seconds = std::exchange(state_->seconds, {});
+    report.image_hash = kFnvSeed;
     const Stopwatch total;
-    const Preparation prepared = state.prepare(settings);
-    report.seconds.generate += watch.lap();
-
-    fill_report(prepared.view, prepared.vpls, report);
-    start(report, prepared.view, prepared.vpls);
-    watch.lap();
-    state.render_bands(prepared, settings, sink, progress, report);
-    report.seconds.gather = watch.lap();
-    report.seconds.compile = state.compile_seconds();
+    const auto hash_and_send = [&](std::span<const float> rows) {
+        report.image_hash = hash_beauty(rows, report.image_hash);
+        sink(rows);
+    };
+    if (settings.passes.value_or(settings.seconds ? 2 : 1) > 1) {
+        state_->render_passes(settings, start, hash_and_send, progress, report);
+    } else {
+        const Preparation prepared = state_->begin_pass(settings, report);
+        start(report, prepared.view, prepared.vpls);
+        state_->render_bands(prepared, settings, hash_and_send, progress, report);
+    }
+    report.seconds.compile = state_->compile_seconds();
     report.seconds.total += total.seconds();
     return report;
 }

@@ -36,21 +36,23 @@ struct RenderReport {
     float range = 0;
     float clamp_radius = 0;
     uint max_depth = 0;
+    uint passes = 0;  ///< that were begun
+    // Of all passes together:
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
-    std::size_t sparse_vpls = 0;  ///< that only lit other VPLs
-    std::size_t candidates = 0;   ///< that VPLs were chosen from; 0: there was no choice
-    float close_fraction = 0;
+    std::size_t sparse_vpls = 0;   ///< that only lit other VPLs
+    std::size_t candidates = 0;    ///< that VPLs were chosen from; 0: there was no choice
     std::size_t local_lights = 0;  ///< of all tiles
+    float close_fraction = 0;      ///< of the first pass
     RenderSeconds seconds;
     std::vector<BandShare> shares;  ///< of the picture, by device
     std::size_t device_bytes = 0;   ///< most at any time, all devices together
     std::uint64_t image_hash = 0;   ///< of the beauty's bits; equal pictures have equal hashes
-    bool interrupted = false;       ///< rows that are missing were not sent
+    bool interrupted = false;       ///< the last pass is not whole; rows that no pass reached were not sent
 };
 
 /// Called when all settings are decided and before the first row, so that files can be opened with the right
-/// size and metadata, and VPLs be looked at.
+/// size and metadata, and VPLs (of the first pass) be looked at. Of several passes rows come after the last.
 using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
 /// Begins to compile what a render with these settings needs, so that it goes on while the scene is loaded. A
@@ -71,8 +73,8 @@ class Renderer {
              BvhQuality bvh_quality = BvhQuality::quality);
     ~Renderer();
 
-    /// A picture. The report's seconds of building and compiling are the constructor's, once; so its total is
-    /// what a render takes from the scene on.
+    /// A picture, or the mean of several. The report's seconds of building and compiling are the
+    /// constructor's, once; so its total is what a render takes from the scene on.
     RenderReport render(const RenderSettings& settings, const RenderStart& start, const RowSink& sink,
                         const RenderProgress& progress);
 

@@ -24,6 +24,12 @@ struct RenderSettings {
     uint direct_samples_per_pixel = 64;  ///< for area and environment lights
     bool indirect_only = false;  ///< leave out direct light (its layer is emission only); for comparisons
     uint seed = 0;
+    /// Renderings to average, each with random numbers and VPLs of its own (passes.h); empty: one, or,
+    /// where `seconds` is given, as many as fit.
+    std::optional<uint> passes{};
+    /// No pass but the first is begun that, to judge by those before it, would end so long after the start of
+    /// render(); of a renderer's first picture: after the start of its construction.
+    std::optional<double> seconds{};
     /// Russian roulette of the gather: VPLs that could bring less than this many times the mean are asked
     /// about by chance (host/stages/roulette.h); 0: all pairs are resolved.
     float roulette = 0.0f;

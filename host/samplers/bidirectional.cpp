@@ -17,6 +17,7 @@
 #include "host/base/math.h"
 #include "host/base/message.h"
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/samplers/candidates.h"
 #include "host/samplers/incident_light.h"
 #include "host/samplers/resampling.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/message.h"
+#include "host/base/receivers.h"
 #include "host/samplers/close_fraction.h"
 #include "host/samplers/close_surface.h"
 #include "host/samplers/complete.h"

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "host/base/math.h"
+#include "host/base/receivers.h"
 #include "host/samplers/sparse_walks.h"
 
 namespace nearlight {
@@ -40,10 +41,7 @@ void gather_incident_light(SamplerStages& stages, const SamplingTask& task, cons
     }
     if (sparse.count > 0) {
         Buffer<IrradiancePacket> gathered(stages.device, packet_count);
-        stages.gatherer.gather({.nodes = task.scene.nodes,
-                                .triangles = task.scene.bvh_triangles,
-                                .wide_nodes = task.scene.wide_nodes,
-                                .blocks = task.scene.blocks,
+        stages.gatherer.gather({.tree = task.scene.tree,
                                 .vpls = sparse.vpls,
                                 .vpl_count = sparse.count,
                                 .receivers = receivers,
@@ -65,9 +63,7 @@ std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t cou
     std::vector<Vec3> values;
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const IrradiancePacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-        values.push_back({packet.r[lane], packet.g[lane], packet.b[lane]});
+        values.push_back(irradiance_at(packets, i));
     }
     return values;
 }

@@ -9,7 +9,8 @@
 namespace nearlight {
 
 struct EmitterTable {
-    std::vector<Emitter> emitters;  ///< delta lights, emissive triangles, the environment; cdf ends at exactly 1
+    std::vector<Emitter>
+        emitters;  ///< delta lights, emissive triangles, the environment; cdf ends at exactly 1
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };

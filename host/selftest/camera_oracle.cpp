@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/camera_oracle.h"
 
+#include "host/base/receivers.h"
 #include "host/bvh/segment_distance.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
@@ -14,9 +15,7 @@ namespace {
 /// distance.
 constexpr float kTolerance = 2e-5f;
 
-struct Found {
-    Vec3 position;
-    Vec3 normal;
+struct Found : ReceiverPoint {
     const CameraVertex& vertex;
 };
 
@@ -69,9 +68,7 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
         const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
         const uint x = static_cast<uint>(packet % tiles_x * 8 + lane % 8);
         const uint y = static_cast<uint>(packet / tiles_x * 8 + lane / 8);
-        const ReceiverPacket& p = receivers[packet];
-        const Found found{
-            {p.px[lane], p.py[lane], p.pz[lane]}, {p.nx[lane], p.ny[lane], p.nz[lane]}, vertices[i]};
+        const Found found{receiver_at(receivers, i), vertices[i]};
         const RayQuery ray = pixel_ray(camera, x, y);
         const BvhHit hit = x < camera.width && y < camera.height
                                ? embree.closest_visible_hit(ray.origin, ray.direction, 0.0f, ray.t_max)

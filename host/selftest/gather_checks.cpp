@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/gather_checks.h"
+#include "host/selftest/checks.h"
 
+#include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
-#include "host/bvh/wide_bvh.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/reference_gather.h"
 #include "host/selftest/edge_excuse.h"
+#include "host/stages/gatherer.h"
 
 namespace nearlight {
 namespace {
 
 constexpr float kClampRadius = 0.05f;
-
-Vec3 receiver_position(const ReceiverPacket& packet, std::size_t lane) {
-    return {packet.px[lane], packet.py[lane], packet.pz[lane]};
-}
 
 }  // namespace
 
@@ -26,18 +23,13 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
     EdgeExcuse edges(bvh.triangles, max_component(bounds(scene).size()));
 
-    const Buffer<BvhNode> nodes(device, bvh.nodes);
-    const Buffer<BvhTriangle> triangles(device, bvh.triangles);
-    const WideBvh wide = widen(bvh);
-    const Buffer<WideNode> wide_nodes(device, wide.nodes);
-    const Buffer<TriangleBlock> blocks(device, wide.blocks);
+    const OpaqueTree tree = upload_tree(device, bvh, kernel);
     const Buffer<Vpl> vpl_buffer(device, vpls);
     const Buffer<ReceiverPacket> receiver_buffer(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     const std::vector<GatherPair> pairs =
         Gatherer(device, {.kernel = kernel})
-            .gather_recorded({nodes, triangles, wide_nodes, blocks, vpl_buffer, vpls.size(), receiver_buffer,
-                              receivers.size(), kClampRadius},
+            .gather_recorded({tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kClampRadius},
                              irradiance);
 
     const EmbreeScene embree(scene);
@@ -47,7 +39,7 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
         const std::size_t packet = r / NEARLIGHT_PACKET_SIZE;
         const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;
-        const Vec3 x = receiver_position(receivers[packet], lane);
+        const Vec3 x = receiver_at(receivers, r).position;
         bool rays_agree = true;
         for (std::size_t v = 0; v < vpls.size(); ++v) {
             const GatherPair pair = pairs[(packet * vpls.size() + v) * NEARLIGHT_PACKET_SIZE + lane];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/light_checks.h"
+#include "host/selftest/checks.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/reference/embree_scene.h"
@@ -27,8 +28,7 @@ namespace {
 constexpr std::size_t kTriangles = 3000;
 
 /// Whether a shadow ray of the receiver passes an edge.
-bool is_excused(EdgeExcuse& edges, const Scene& scene, const ReceiverPacket& packet, std::size_t lane) {
-    const Vec3 x{packet.px[lane], packet.py[lane], packet.pz[lane]};
+bool is_excused(EdgeExcuse& edges, const Scene& scene, Vec3 x) {
     return std::any_of(scene.delta_emitters.begin(), scene.delta_emitters.end(),
                        [&](const Emitter& light) { return edges.excuses(light.position, x); });
 }
@@ -49,12 +49,10 @@ void check_direct_light(Device& device, CheckResult& result) {
     const std::vector<IrradiancePacket> found = irradiance.download();
     EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
-        const ReceiverPacket& packet = receivers[r / NEARLIGHT_PACKET_SIZE];
-        const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;
-        const float want = expected[r / NEARLIGHT_PACKET_SIZE].g[lane];
-        const float have = found[r / NEARLIGHT_PACKET_SIZE].g[lane];
+        const float want = irradiance_at(expected, r).y;
+        const float have = irradiance_at(found, r).y;
         result.expect(std::abs(have - want) <= 2e-4f * (want + 0.01f) ||
-                      is_excused(edges, scene, packet, lane));
+                      is_excused(edges, scene, receiver_at(receivers, r).position));
     }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/path_checks.h"
+#include "host/selftest/checks.h"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/light_sampler.h"
@@ -31,9 +32,7 @@ std::vector<ReceiverPacket> receivers_on(const Scene& scene) {
         const Vec3 b = scene.vertices[t.v1].position;
         const Vec3 c = scene.vertices[t.v2].position;
         const Vec3 n = normalize(cross(b - a, c - a));
-        const Vec3 p = stand_off((a + b + c) / 3.0f, n, extent);
-        packets[0].px[lane] = p.x, packets[0].py[lane] = p.y, packets[0].pz[lane] = p.z;
-        packets[0].nx[lane] = n.x, packets[0].ny[lane] = n.y, packets[0].nz[lane] = n.z;
+        set_receiver(packets[0], lane, {stand_off((a + b + c) / 3.0f, n, extent), n});
     }
     return packets;
 }
@@ -58,7 +57,7 @@ constexpr std::size_t kSlotsPerPacket = std::size_t{kPlan.rays_per_receiver} * N
 
 /// cosθx·cosθy / d² of points within the radius that face each other, by Embree's ray. Points of one plane
 /// do not, whatever rounding says.
-double pair_geometry(const EmbreeScene& embree, const RoomPoint& x, const Vpl& light, float radius) {
+double pair_geometry(const EmbreeScene& embree, const ReceiverPoint& x, const Vpl& light, float radius) {
     const Vec3 between = x.position - light.position;
     const double squared = dot(between, between);
     const double height = dot(light.normal, between);
@@ -121,7 +120,7 @@ std::span<const ReceiverPacket> packet_of(const LocalCase& data, std::size_t slo
 bool is_excused(EdgeExcuse& edges, const LocalCase& data, std::size_t slot) {
     const Vec3 y = data.lights[slot].position;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const RoomPoint x = receiver_at(packet_of(data, slot), lane);
+        const ReceiverPoint x = receiver_at(packet_of(data, slot), lane);
         if (!is_zero(x.normal) && length(x.position - y) < data.radii[slot] && edges.excuses(y, x.position)) {
             return true;
         }
@@ -149,7 +148,7 @@ bool light_fits(const LocalCase& data, std::size_t slot) {
 
 /// Σ power/π · (G_R − G_Rg) over the lights that see the receiver, by the kernel's own bits.
 double sum_of_lights(const LocalCase& data, std::size_t receiver) {
-    const RoomPoint x = receiver_at(data.receivers, receiver);
+    const ReceiverPoint x = receiver_at(data.receivers, receiver);
     const std::size_t first = receiver / NEARLIGHT_PACKET_SIZE * kSlotsPerPacket;
     double sum = 0;
     for (std::size_t slot = first; slot < first + kSlotsPerPacket; ++slot) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/placement_checks.h"
+#include "host/selftest/checks.h"
 
 #include <numeric>
 
+#include "host/reference/light_sampler.h"
 #include "host/scene/pinhole_camera.h"
+#include "host/scene/ray_epsilon.h"
 #include "host/selftest/close_range_oracle.h"
 #include "host/selftest/test_rays.h"
+#include "host/selftest/test_rooms.h"
 #include "host/stages/close_range.h"
+#include "host/stages/light_visibility.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_placement.h"
 
@@ -29,6 +33,48 @@ float distance_outside(const TriangleCorners& t, Vec3 p) {
         outside = std::max(outside, dot(normalize(cross(to - from, n)), p - from));
     }
     return outside;
+}
+
+/// Two lights, so that every point asks both of them; the spheres reflect outwards only.
+Scene make_room_of_two_lights() {
+    Scene scene = make_delta_lit_room();
+    scene.delta_emitters = {scene.delta_emitters.front(), scene.delta_emitters.back()};
+    scene.materials[1].flags = 0;
+    return scene;
+}
+
+/// Whether either light reaches the point, on any side that reflects.
+bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, float extent) {
+    const TriangleCorners t = corners_of(scene, id);
+    const Vec3 front = normalize(cross(t.b - t.a, t.c - t.a));
+    const uint flags = scene.materials[scene.triangles[id].material].flags;
+    const bool two_sided = (flags & NEARLIGHT_MATERIAL_TWO_SIDED) != 0;
+    for (const Emitter& light : scene.delta_emitters) {
+        for (const Vec3 side : {front, -front}) {
+            if ((side == front || two_sided) &&
+                !is_zero(delta_light_irradiance(embree, light, stand_off(point, side, extent), side))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// The share of a lattice of points of the triangle that light reaches.
+double lit_share(const Scene& scene, const EmbreeScene& embree, uint id, float extent) {
+    constexpr int kSteps = 15;
+    const TriangleCorners t = corners_of(scene, id);
+    int points = 0;
+    int lit = 0;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; i + j <= kSteps; ++j) {
+            const float u = static_cast<float>(i) / kSteps;
+            const float v = static_cast<float>(j) / kSteps;
+            ++points;
+            lit += is_lit(scene, embree, id, t.a * (1 - u - v) + t.b * u + t.c * v, extent) ? 1 : 0;
+        }
+    }
+    return static_cast<double>(lit) / points;
 }
 
 }  // namespace
@@ -57,6 +103,32 @@ void check_classifier(Device& device, CheckResult& result) {
         const bool perhaps =
             nearest_squared_distance(corners, region, kSlack) < (kRange + kSlack) * (kRange + kSlack);
         result.expect(found[i] != 0 ? perhaps : !surely);
+    }
+}
+
+void check_light_visibility(Device& device, CheckResult& result) {
+    constexpr uint kUntouched = 7;
+    const Scene scene = make_room_of_two_lights();
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const EmbreeScene embree(scene);
+    std::vector<uint> ids;
+    std::vector<uint> flags(scene.triangles.size(), kUntouched);
+    for (uint id = 0; id < flags.size(); id += 2) {
+        ids.push_back(id);
+        flags[id] = 0;
+    }
+    Buffer<uint> selected(device, flags);
+    LightVisibility(device).run(on_device, Buffer<uint>(device, ids), ids.size(), 3, selected);
+    const std::vector<uint> found = selected.download();
+    for (uint id = 0; id < found.size(); ++id) {
+        if (id % 2 != 0) {
+            result.expect(found[id] == kUntouched);
+            continue;
+        }
+        const double share = lit_share(scene, embree, id, on_device.host_info.extent);
+        if (share == 0 || share == 1) {
+            result.expect(found[id] == (share > 0 ? 1u : 0u));
+        }
     }
 }
 

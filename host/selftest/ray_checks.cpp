@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/ray_checks.h"
+#include "host/selftest/checks.h"
 
 #include <numeric>
 

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/selftest.h"
 
-#include "host/selftest/gather_checks.h"
-#include "host/selftest/light_checks.h"
-#include "host/selftest/path_checks.h"
-#include "host/selftest/placement_checks.h"
-#include "host/selftest/primitive_checks.h"
-#include "host/selftest/ray_checks.h"
-#include "host/selftest/vpl_checks.h"
+#include "host/selftest/checks.h"
 
 namespace nearlight {
 namespace {
@@ -24,6 +18,7 @@ std::vector<NamedCheck> all_checks() {
             {"sort", check_sort},
             {"morton", check_morton},
             {"classify", check_classifier},
+            {"light visibility", check_light_visibility},
             {"placement", check_placement},
             {"patch VPLs", check_patch_vpls},
             {"VPL light", check_vpl_light},
@@ -31,6 +26,7 @@ std::vector<NamedCheck> all_checks() {
             {"any hit", check_any_hit},
             {"gather packets", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::packets, r); }},
             {"gather rays", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::rays, r); }},
+            {"roulette", check_roulette},
             {"direct light", check_direct_light},
             {"bounce tracing", check_bounce_tracer},
             {"light tracing", check_light_tracing},
@@ -38,7 +34,8 @@ std::vector<NamedCheck> all_checks() {
             {"reverse VPLs", check_reverse_vpls},
             {"metropolis chains", check_metropolis_chains},
             {"local lights", check_local_lights},
-            {"camera pass", check_camera_pass}};
+            {"camera pass", check_camera_pass},
+            {"film", check_film}};
 }
 
 }  // namespace

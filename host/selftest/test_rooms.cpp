@@ -80,17 +80,4 @@ Scene make_lit_sphere(float radius, float albedo) {
     return scene;
 }
 
-RoomPoint receiver_at(std::span<const ReceiverPacket> packets, std::size_t index) {
-    const ReceiverPacket& packet = packets[index / NEARLIGHT_PACKET_SIZE];
-    const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
-    return {{packet.px[lane], packet.py[lane], packet.pz[lane]},
-            {packet.nx[lane], packet.ny[lane], packet.nz[lane]}};
-}
-
-Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t index) {
-    const IrradiancePacket& packet = packets[index / NEARLIGHT_PACKET_SIZE];
-    const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
-    return {packet.r[lane], packet.g[lane], packet.b[lane]};
-}
-
 }  // namespace nearlight

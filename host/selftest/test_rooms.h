@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rooms whose light is known, and points in them.
+// Rooms whose light is known.
 #pragma once
-
-#include <span>
 
 #include "host/base/math.h"
 #include "host/scene/scene.h"
@@ -18,12 +16,5 @@ Scene make_delta_lit_room();
 /// The inside of a sphere about a point light (1 W/sr): its irradiance is 1 / radius² everywhere, but for the
 /// 2 ‰ that flat triangles take.
 Scene make_lit_sphere(float radius, float albedo);
-
-struct RoomPoint {
-    Vec3 position;  ///< stands off its surface
-    Vec3 normal;    ///< zero: absent
-};
-RoomPoint receiver_at(std::span<const ReceiverPacket> packets, std::size_t index);
-Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t index);
 
 }  // namespace nearlight

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/vpl_checks.h"
+#include "host/selftest/checks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/reference_gather.h"
@@ -97,7 +98,7 @@ double column_norm(const EmbreeScene& embree, const Vpl& vpl, std::span<const Re
 
 bool any_excused(EdgeExcuse& edges, const Vpl& vpl, std::span<const ReceiverPacket> receivers) {
     for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
-        const RoomPoint x = receiver_at(receivers, i);
+        const ReceiverPoint x = receiver_at(receivers, i);
         if (!is_zero(x.normal) && edges.excuses(vpl.position, x.position)) {
             return true;
         }
@@ -141,7 +142,7 @@ void check_vpl_light(Device& device, CheckResult& result) {
     const std::vector<ReceiverPacket> points = receivers.download();
     const std::vector<IrradiancePacket> sums = sum.download();
     for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
-        const RoomPoint point = receiver_at(points, i);
+        const ReceiverPoint point = receiver_at(points, i);
         const Vec3 irradiance{static_cast<float>(i), 2 * static_cast<float>(i), 1};
         result.expect(irradiance_at(sums, i) == irradiance * 2.0f);
         result.expect(point.position == (i < kCount ? vpls[i].position : Vec3{}) &&
@@ -228,7 +229,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const float extent = on_device.host_info.extent;
     std::vector<Vpl> importons;
     for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
-        const RoomPoint x = receiver_at(std::span(&packet, 1), 0);  // one of each tile
+        const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one of each tile
         Vpl& importon = importons.emplace_back();
         importon.position = x.position;
         importon.normal = x.normal;
@@ -260,7 +261,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const std::vector<IrradiancePacket> densities = density.download();
     for (std::size_t i = 0; i < found.size(); ++i) {
         const float want = irradiance_at(expected, i).y;
-        const RoomPoint y = receiver_at(places, i);
+        const ReceiverPoint y = receiver_at(places, i);
         const bool right = std::abs(irradiance_at(densities, i).y - want) <= 2e-4f * want;
         result.expect(right || std::ranges::any_of(importons, [&](const Vpl& point) {
                           return edges.excuses(point.position, y.position);

@@ -4,17 +4,20 @@
 namespace nearlight {
 
 std::size_t packet_count(const CameraBand& band, uint image_width) {
-    return static_cast<std::size_t>((image_width + 7) / 8) * band.tile_row_count * band.sample_count * band.branch_count;
+    return static_cast<std::size_t>((image_width + 7) / 8) * band.tile_row_count * band.sample_count *
+           band.branch_count;
 }
 
-CameraPass::CameraPass(Device& device) : program_(device, "camera_pass.cl"), camera_pass_(program_, "camera_pass") {}
+CameraPass::CameraPass(Device& device)
+    : program_(device, "camera_pass.cl"), camera_pass_(program_, "camera_pass") {}
 
 void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
-    camera_pass_.launch_items(packet_count(band, image_width) * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
-                              band.first_tile_row, band.tile_row_count, band.first_sample, band.sample_count,
-                              band.samples_per_pixel, band.branch_count, seed, receivers, vertices);
+    camera_pass_.launch_items(packet_count(band, image_width) * NEARLIGHT_PACKET_SIZE, scene, camera,
+                              close_range, band.first_tile_row, band.tile_row_count, band.first_sample,
+                              band.sample_count, band.samples_per_pixel, band.branch_count, seed, receivers,
+                              vertices);
 }
 
 }  // namespace nearlight

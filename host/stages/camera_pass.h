@@ -24,7 +24,8 @@ class CameraPass {
   public:
     explicit CameraPass(Device& device);
 
-    /// Writes packet_count() packets and as many times 64 vertices, in the order that kernels/camera_pass.cl states.
+    /// Writes packet_count() packets and as many times 64 vertices, in the order that kernels/camera_pass.cl
+    /// states.
     void run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "host/bvh/wide_bvh.h"
 #include "host/scene/emitters.h"
 
 namespace nearlight {
@@ -50,7 +49,8 @@ float estimate_mean_albedo(const Scene& scene) {
         const Vertex& b = scene.vertices[triangle.v1];
         const Vertex& c = scene.vertices[triangle.v2];
         const double area = triangle_area(scene, triangle);
-        weighted += area * luminance(light_albedo(scene, material, (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
+        weighted +=
+            area * luminance(light_albedo(scene, material, (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
         total += area;
     }
     return total > 0 ? static_cast<float>(weighted / total) : 0.5f;
@@ -63,7 +63,7 @@ bool divides_camera_paths(const Material& material) {
 
 }  // namespace
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs) {
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs, GatherKernel kernel) {
     const EmitterTable emitters = build_emitter_table(scene);
     const EnvironmentTable environment = build_environment_table(scene);
     const TexturePool pool = pool_textures(scene);
@@ -85,13 +85,11 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
         on_device.total_area += triangle_area(scene, triangle);
     }
 
-    const auto put = [&]<typename T>(const std::vector<T>& values) { return Buffer<T>(device, std::span<const T>(values)); };
-    on_device.nodes = put(bvhs.opaque.nodes);
-    on_device.bvh_triangles = put(bvhs.opaque.triangles);
+    const auto put = [&]<typename T>(const std::vector<T>& values) {
+        return Buffer<T>(device, std::span<const T>(values));
+    };
+    on_device.tree = upload_tree(device, bvhs.opaque, kernel);
     on_device.triangle_ids = put(bvhs.opaque.triangle_ids);
-    const WideBvh wide = widen(bvhs.opaque);
-    on_device.wide_nodes = put(wide.nodes);
-    on_device.blocks = put(wide.blocks);
     on_device.glass_nodes = put(bvhs.glass.nodes);
     on_device.glass_triangles = put(bvhs.glass.triangles);
     on_device.glass_ids = put(bvhs.glass.triangle_ids);

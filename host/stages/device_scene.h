@@ -2,18 +2,14 @@
 // A scene in device memory, as kernels/lib/scene.cl sees it.
 #pragma once
 
-#include "host/bvh/bvh.h"
-#include "host/cl/buffer.h"
 #include "host/scene/scene.h"
+#include "host/stages/opaque_tree.h"
 
 namespace nearlight {
 
 struct DeviceScene {
-    Buffer<BvhNode> nodes;
-    Buffer<BvhTriangle> bvh_triangles;
-    Buffer<uint> triangle_ids;
-    Buffer<WideNode> wide_nodes;   ///< the opaque tree again, for gathers
-    Buffer<TriangleBlock> blocks;
+    OpaqueTree tree;
+    Buffer<uint> triangle_ids;  ///< of the tree
     Buffer<BvhNode> glass_nodes;
     Buffer<BvhTriangle> glass_triangles;
     Buffer<uint> glass_ids;
@@ -31,15 +27,15 @@ struct DeviceScene {
 
     // What the host needs to know without asking the device.
     SceneInfo host_info{};
-    bool has_lobes = false;     ///< some material gives camera paths two ways on (a coat or glass)
-    float mean_albedo = 0.5f;   ///< luminance that light transport sees, averaged over area
-    float total_power = 0.0f;   ///< luminance of all emitted flux, W
-    double total_area = 0.0;    ///< of all triangles, m²
+    bool has_lobes = false;    ///< some material gives camera paths two ways on (a coat or glass)
+    float mean_albedo = 0.5f;  ///< luminance that light transport sees, averaged over area
+    float total_power = 0.0f;  ///< luminance of all emitted flux, W
+    double total_area = 0.0;   ///< of all triangles, m²
 
     /// In the order of SCENE_PARAMETERS, which leave the wide tree out.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
-        visit(nodes), visit(bvh_triangles), visit(triangle_ids);
+        visit(tree.nodes), visit(tree.triangles), visit(triangle_ids);
         visit(glass_nodes), visit(glass_triangles), visit(glass_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
@@ -47,6 +43,8 @@ struct DeviceScene {
     }
 };
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs);
+/// For gathers with `kernel`, see upload_tree().
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
+                         GatherKernel kernel = GatherKernel::automatic);
 
 }  // namespace nearlight

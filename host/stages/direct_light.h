@@ -11,7 +11,8 @@ class DirectLight {
   public:
     explicit DirectLight(Device& device);
 
-    /// `sample_count` samples a receiver for area and environment lights (at least 1); point and spot lights need none.
+    /// `sample_count` samples a receiver for area and environment lights (at least 1); point and spot lights
+    /// need none.
     void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
              uint sample_count, uint seed, Buffer<IrradiancePacket>& irradiance);
 

@@ -7,20 +7,21 @@ Film::Film(Device& device)
     : program_(device, "film.cl"), film_add_(program_, "film_add"), film_resolve_(program_, "film_resolve") {}
 
 void Film::add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
-               const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect, const CameraBand& band,
-               uint width, uint row_count, Buffer<float>& sums) {
-    film_add_.launch_items(static_cast<std::size_t>(width) * row_count, receivers, vertices, direct, indirect, width,
-                           row_count, band.sample_count, band.branch_count, sums);
+               const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect,
+               const CameraBand& band, uint width, uint row_count, Buffer<float>& sums) {
+    film_add_.launch_items(static_cast<std::size_t>(width) * row_count, receivers, vertices, direct, indirect,
+                           width, row_count, band.sample_count, band.branch_count, sums);
 }
 
-void Film::resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel, Buffer<float>& layers) {
+void Film::resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,
+                   Buffer<float>& layers) {
     film_resolve_.launch_items(pixel_count, sums, static_cast<uint>(pixel_count), samples_per_pixel, layers);
 }
 
 std::vector<std::string> layer_channels() {
-    return {"R",        "G",        "B",        "direct.R", "direct.G", "direct.B", "indirect.R",
-            "indirect.G", "indirect.B", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z",
-            "P.X",      "P.Y",      "P.Z",      "depth.Z",  "closerange.Y"};
+    return {"R",          "G",          "B",        "direct.R", "direct.G", "direct.B",    "indirect.R",
+            "indirect.G", "indirect.B", "albedo.R", "albedo.G", "albedo.B", "N.X",         "N.Y",
+            "N.Z",        "P.X",        "P.Y",      "P.Z",      "depth.Z",  "closerange.Y"};
 }
 
 }  // namespace nearlight

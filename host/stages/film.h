@@ -11,12 +11,14 @@ class Film {
   public:
     explicit Film(Device& device);
 
-    /// Adds one batch of samples; `sums` holds NEARLIGHT_FILM_CHANNELS floats for each of width × row_count pixels.
+    /// Adds one batch of samples; `sums` holds NEARLIGHT_FILM_CHANNELS floats for each of width × row_count
+    /// pixels.
     void add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
-             const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect, const CameraBand& band,
-             uint width, uint row_count, Buffer<float>& sums);
+             const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect,
+             const CameraBand& band, uint width, uint row_count, Buffer<float>& sums);
     /// NEARLIGHT_LAYER_CHANNELS floats a pixel, in the order of layer_channels().
-    void resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel, Buffer<float>& layers);
+    void resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,
+                 Buffer<float>& layers);
 
   private:
     Program program_;

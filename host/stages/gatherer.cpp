@@ -24,9 +24,7 @@ constexpr std::size_t kGpuPackets = 16384;
 constexpr double kMostLaunchPairs = 0x1p40;
 
 GatherConfig resolved(GatherConfig config, const Device& device) {
-    if (config.kernel == GatherKernel::automatic) {
-        config.kernel = device.is_cpu() ? GatherKernel::packets : GatherKernel::rays;
-    }
+    config.kernel = choose_kernel(config.kernel, device);
     if (config.packet_width < 16 || config.packet_width > 256 || !std::has_single_bit(config.packet_width)) {
         throw Error(ExitCode::usage, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
                                          std::to_string(config.packet_width));
@@ -57,7 +55,17 @@ struct Gatherer::Course {
 };
 
 Gatherer::Gatherer(Device& device, const GatherConfig& config)
-    : device_(&device), config_(resolved(config, device)), kernel_(make_kernel(false, false)) {}
+    : device_(&device), config_(resolved(config, device)) {
+    kernel_of(false, false);
+}
+
+Kernel& Gatherer::kernel_of(bool roulette, bool recording) {
+    std::optional<Kernel>& kernel = kernels_[(roulette ? 2 : 0) + (recording ? 1 : 0)];
+    if (!kernel) {
+        kernel = make_kernel(roulette, recording);
+    }
+    return *kernel;
+}
 
 Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
     Defines defines{{"GATHER_CHUNK", std::to_string(kChunk)}};
@@ -117,9 +125,9 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
                       input.clamp_radius * input.clamp_radius, irradiance, more...);
     };
     if (rays) {
-        launch_on(device_->local_size(), input.nodes, input.triangles);
+        launch_on(device_->local_size(), input.tree.nodes, input.tree.triangles);
     } else {
-        launch_on(1, input.wide_nodes, input.blocks);
+        launch_on(1, input.tree.wide_nodes, input.tree.blocks);
     }
 }
 
@@ -149,40 +157,47 @@ bool Gatherer::gather_packets(Kernel& kernel, const GatherInput& input, std::siz
     return true;
 }
 
-const RouletteLists& Gatherer::choose(const GatherInput& input, std::size_t first_packet,
-                                      std::size_t end_packet) {
+/// Calls work(kernel, first_packet, end_packet, further arguments of the kernel …) for all packets in turn,
+/// in runs as long as the roulette's lists fit into memory. False as soon as `work` is.
+template <typename Work>
+bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work& work) {
+    if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
+        throw Error(ExitCode::runtime, "gather_packets needs a wide tree: upload the tree for that kernel");
+    }
+    const bool roulette = input.roulette > 0.0f;
+    Kernel& kernel = kernel_of(roulette, recording);
+    if (!roulette) {
+        return work(kernel, 0, input.packet_count);
+    }
     if (!roulette_) {
         roulette_.emplace(*device_);
     }
-    return roulette_->choose({.vpls = input.vpls,
-                              .vpl_count = input.vpl_count,
-                              .receivers = input.receivers,
-                              .clamp_radius = input.clamp_radius,
-                              .threshold = input.roulette,
-                              .seed = input.seed},
-                             first_packet, end_packet);
+    const RouletteTask task{.vpls = input.vpls,
+                            .vpl_count = input.vpl_count,
+                            .receivers = input.receivers,
+                            .clamp_radius = input.clamp_radius,
+                            .threshold = input.roulette,
+                            .seed = input.seed};
+    const std::size_t most = Roulette::most_packets(input.vpl_count);
+    for (std::size_t first = 0; first < input.packet_count; first += most) {
+        const std::size_t end = std::min(input.packet_count, first + most);
+        const RouletteLists& lists = roulette_->choose(task, first, end);
+        if (!work(kernel, first, end, lists.vpls, lists.weights, lists.counts, lists.first_packet,
+                  lists.stride)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                       const GatherProgress& progress) {
     Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
                   std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)};
-    if (input.roulette <= 0.0f) {
-        return gather_packets(kernel_, input, 0, input.packet_count, irradiance, course);
-    }
-    if (!roulette_kernel_) {
-        roulette_kernel_ = make_kernel(true, false);
-    }
-    const std::size_t most = Roulette::most_packets(input.vpl_count);
-    for (std::size_t first = 0; first < input.packet_count; first += most) {
-        const std::size_t end = std::min(input.packet_count, first + most);
-        const RouletteLists& lists = choose(input, first, end);
-        if (!gather_packets(*roulette_kernel_, input, first, end, irradiance, course, lists.vpls,
-                            lists.weights, lists.counts, lists.first_packet, lists.stride)) {
-            return false;
-        }
-    }
-    return true;
+    return for_each_run(input, false,
+                        [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
+                            return gather_packets(kernel, input, first, end, irradiance, course, lists...);
+                        });
 }
 
 std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,
@@ -190,20 +205,11 @@ std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,
     const std::size_t pairs = input.packet_count * input.vpl_count * NEARLIGHT_PACKET_SIZE;
     Buffer<std::uint8_t> record(*device_, pairs);
     record.fill_zero();
-    const bool roulette = input.roulette > 0.0f;
-    Kernel kernel = make_kernel(roulette, true);
     const auto vpl_count = static_cast<cl_uint>(input.vpl_count);
-    const std::size_t most = roulette ? Roulette::most_packets(input.vpl_count) : input.packet_count;
-    for (std::size_t first = 0; first < input.packet_count; first += most) {
-        const Part part{first, std::min(input.packet_count, first + most), 0, input.vpl_count};
-        if (roulette) {
-            const RouletteLists& lists = choose(input, part.first_packet, part.end_packet);
-            launch(kernel, input, part, irradiance, lists.vpls, lists.weights, lists.counts,
-                   lists.first_packet, lists.stride, record, vpl_count);
-        } else {
-            launch(kernel, input, part, irradiance, record, vpl_count);
-        }
-    }
+    for_each_run(input, true, [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
+        launch(kernel, input, {first, end, 0, input.vpl_count}, irradiance, lists..., record, vpl_count);
+        return true;
+    });
     std::vector<GatherPair> result(pairs);
     record.download(std::span(reinterpret_cast<std::uint8_t*>(result.data()), pairs));
     return result;

@@ -2,6 +2,7 @@
 // The gather: irradiance that a VPL set sends to receivers, with visibility tested for every pair.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -9,18 +10,11 @@
 
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
+#include "host/stages/opaque_tree.h"
 #include "host/stages/roulette.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight {
-
-/// Which kernel does the work. Both compute the same sum; visibility may differ for rays that meet an edge of
-/// a triangle within rounding.
-enum class GatherKernel {
-    automatic,  ///< packets on CPUs, rays elsewhere
-    packets,    ///< gather_packets.cl: one work-item, up to 256 receivers in vector registers
-    rays,       ///< gather_rays.cl: one work-item, one receiver
-};
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
@@ -33,12 +27,9 @@ struct GatherConfig {
     double launch_seconds = 0.2;  ///< how long a launch should take
 };
 
-/// What is gathered. The trees hold the opaque surfaces. Counts may be smaller than the buffers'.
+/// What is gathered. Counts may be smaller than the buffers'.
 struct GatherInput {
-    const Buffer<BvhNode>& nodes;  ///< of the binary tree, which `rays` goes through
-    const Buffer<BvhTriangle>& triangles;
-    const Buffer<WideNode>& wide_nodes;  ///< of the same tree widened, which `packets` goes through
-    const Buffer<TriangleBlock>& blocks;
+    const OpaqueTree& tree;  ///< uploaded for the gatherer's kernel
     const Buffer<Vpl>& vpls;
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;
@@ -64,7 +55,8 @@ enum class GatherPair : std::uint8_t {
 
 class Gatherer {
   public:
-    /// Compiles the kernel. Throws Error(ExitCode::kernel_build).
+    /// Begins to compile the kernel; the first gather throws what went wrong (see Program). Throws
+    /// Error(ExitCode::usage) for a packet width that there is not.
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
     /// irradiance[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
@@ -79,12 +71,14 @@ class Gatherer {
     /// benchmarks; a byte a pair.
     std::vector<GatherPair> gather_recorded(const GatherInput& input, Buffer<IrradiancePacket>& irradiance);
 
+    /// For which the tree must be uploaded; never `automatic`.
     [[nodiscard]] GatherKernel kernel() const { return config_.kernel; }
 
   private:
     struct Part;
     struct Course;
     [[nodiscard]] Kernel make_kernel(bool roulette, bool recording) const;
+    Kernel& kernel_of(bool roulette, bool recording);
     [[nodiscard]] uint item_width(bool roulette) const;
     [[nodiscard]] Part next_part(std::size_t vpl_count, bool roulette, const Part& done,
                                  std::size_t end_packet, std::uint64_t pair_budget) const;
@@ -95,13 +89,15 @@ class Gatherer {
     bool gather_packets(Kernel& kernel, const GatherInput& input, std::size_t first_packet,
                         std::size_t end_packet, Buffer<IrradiancePacket>& irradiance, Course& course,
                         const More&... more);
-    const RouletteLists& choose(const GatherInput& input, std::size_t first_packet, std::size_t end_packet);
+    template <typename Work>
+    bool for_each_run(const GatherInput& input, bool recording, const Work& work);
 
     Device* device_;
     GatherConfig config_;
-    Kernel kernel_;
-    std::optional<Roulette> roulette_;  ///< compiled when first asked for, like the kernel that follows it
-    std::optional<Kernel> roulette_kernel_;
+    // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
+    // recording one second.
+    std::array<std::optional<Kernel>, 4> kernels_;
+    std::optional<Roulette> roulette_;
 };
 
 }  // namespace nearlight

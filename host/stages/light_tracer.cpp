@@ -47,8 +47,8 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
     }
     const Buffer<float> walks_at_depth(*device_, walks_at_each_depth(walks));
     const float absorption_shift = Pcg32(walks.seed, 0xab5).uniform();
-    const auto slots_per_batch =
-        static_cast<uint>(std::min<std::size_t>(kSlotsPerBatch, device_->entry().max_allocation_bytes / sizeof(Vpl)));
+    const auto slots_per_batch = static_cast<uint>(
+        std::min<std::size_t>(kSlotsPerBatch, device_->entry().max_allocation_bytes / sizeof(Vpl)));
     const uint batch_size = std::min(walks.walk_count, std::max(1u, slots_per_batch / walks.bounce_count));
     const std::size_t slot_count = static_cast<std::size_t>(batch_size) * walks.bounce_count;
     Buffer<Vpl> slots(*device_, slot_count);

@@ -29,7 +29,8 @@ struct LightWalks {
     uint seed = 0;
 };
 
-/// Takes deposits while they are on the device: the first `count` ≥ 1 of `vpls`, which is used again afterwards.
+/// Takes deposits while they are on the device: the first `count` ≥ 1 of `vpls`, which is used again
+/// afterwards.
 using DepositVisitor = std::function<void(const Buffer<Vpl>& vpls, std::size_t count)>;
 
 class LightTracer {

@@ -12,7 +12,8 @@ class LightVisibility {
     explicit LightVisibility(Device& device);
 
     /// Sets selected[id] = 1 for those of the first `id_count` triangle ids that any light seems to reach.
-    void run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed, Buffer<uint>& selected);
+    void run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed,
+             Buffer<uint>& selected);
 
   private:
     Program program_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/receivers.h"
 #include "host/scene/pinhole_camera.h"
 
 namespace nearlight {
@@ -17,9 +18,9 @@ constexpr std::size_t kFewSquaredImportons = 32;
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
     std::vector<float> distances;
     for (const ReceiverPacket& packet : packets) {
-        for (int lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
-            const float distance = length(Vec3{packet.px[lane], packet.py[lane], packet.pz[lane]} - origin);
+        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            const auto [position, normal] = receiver_at(packet, lane);
+            const float distance = length(position - origin);
             if (!is_zero(normal) && std::isfinite(distance)) {
                 distances.push_back(distance);
             }
@@ -48,12 +49,10 @@ std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
                                 const std::vector<CameraVertex>& vertices) {
     std::vector<Vpl> importons;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const ReceiverPacket& packet = packets[i / NEARLIGHT_PACKET_SIZE];
-        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-        const Vec3 normal{packet.nx[lane], packet.ny[lane], packet.nz[lane]};
+        const auto [position, normal] = receiver_at(packets, i);
         const Vec3 response = vertices[i].throughput * vertices[i].albedo;
         if (!is_zero(normal) && luminance(response) > 0.0f) {
-            importons.push_back({.position = {packet.px[lane], packet.py[lane], packet.pz[lane]},
+            importons.push_back({.position = position,
                                  .depth = 0,
                                  .normal = normal,
                                  .flags = 0,

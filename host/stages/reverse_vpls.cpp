@@ -40,10 +40,7 @@ std::vector<Vpl> ReverseVpls::trace(const DeviceScene& scene, const CameraPoints
 void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& points,
                                   const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                                   Buffer<IrradiancePacket>& density) {
-    gatherer_->gather({.nodes = scene.nodes,
-                       .triangles = scene.bvh_triangles,
-                       .wide_nodes = scene.wide_nodes,
-                       .blocks = scene.blocks,
+    gatherer_->gather({.tree = scene.tree,
                        .vpls = points.points,
                        .vpl_count = points.count,
                        .receivers = receivers,

@@ -19,10 +19,7 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
     Buffer<ReceiverPacket> receivers(*device_, packets);
     Buffer<IrradiancePacket> importance(*device_, packets);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
-    gatherer_->gather({.nodes = scene.nodes,
-                       .triangles = scene.bvh_triangles,
-                       .wide_nodes = scene.wide_nodes,
-                       .blocks = scene.blocks,
+    gatherer_->gather({.tree = scene.tree,
                        .vpls = importons.vpls,
                        .vpl_count = importons.count,
                        .receivers = receivers,

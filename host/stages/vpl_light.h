@@ -2,15 +2,11 @@
 // VPLs as receivers of light, and what they reflect of it.
 #pragma once
 
+#include "host/base/receivers.h"
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight {
-
-/// Packets that hold so many receivers.
-inline std::size_t receiver_packet_count(std::size_t receiver_count) {
-    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
-}
 
 class VplLight {
   public:

@@ -54,7 +54,8 @@ inline uint2 environment_pixel(const SceneView* scene, float3 direction) {
     const float v = acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F;
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
-    return (uint2)(min((uint)((u - floor(u)) * (float)width), width - 1), min((uint)(v * (float)height), height - 1));
+    return (uint2)(min((uint)((u - floor(u)) * (float)width), width - 1),
+                   min((uint)(v * (float)height), height - 1));
 }
 
 inline float3 environment_radiance(const SceneView* scene, float3 direction) {
@@ -97,7 +98,8 @@ inline float3 sample_environment(const SceneView* scene, float2 u, float* pdf, f
     const float phi = 2.0f * M_PI_F * ((float)pixel.x + fx) / (float)width;
     *pdf = environment_pixel_pdf(scene, pixel);
     *radiance = scene->environment_pixels[pixel.y * width + pixel.x].xyz;
-    return rotate_to_world(scene->environment->world_to_local, (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
+    return rotate_to_world(scene->environment->world_to_local,
+                           (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
 }
 
 /// Intensity of a point or spot light towards `direction` (unit, away from the light), W/sr.
@@ -111,7 +113,8 @@ inline float3 delta_intensity(const global Emitter* emitter, float3 direction) {
         return intensity;
     }
     const float width = emitter->cutoff_angle - emitter->beam_angle;
-    return angle >= emitter->cutoff_angle ? (float3)(0.0f) : intensity * ((emitter->cutoff_angle - angle) / width);
+    return angle >= emitter->cutoff_angle ? (float3)(0.0f)
+                                          : intensity * ((emitter->cutoff_angle - angle) / width);
 }
 
 /// Irradiance at x (normal n) from a point or spot light.
@@ -148,7 +151,8 @@ inline float triangle_area(const SceneView* scene, uint triangle_id) {
 }
 
 /// One-sample estimate of the irradiance at x from one emissive triangle, sampled uniformly over its area.
-inline float3 triangle_irradiance(const SceneView* scene, const global Emitter* emitter, float3 x, float3 n, float2 u) {
+inline float3 triangle_irradiance(const SceneView* scene, const global Emitter* emitter, float3 x, float3 n,
+                                  float2 u) {
     float3 light_normal;
     const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u), &light_normal);
     const float3 y = offset_point(scene, point, light_normal);
@@ -162,8 +166,8 @@ inline float3 triangle_irradiance(const SceneView* scene, const global Emitter* 
     return load3(emitter->radiance) * (emitter->area * cos_x * cos_y / (squared * squared));
 }
 
-/// One-sample estimate of the irradiance at x from the environment: half the samples follow the cosine, half the
-/// table, and each is divided by the density of the mixture (balance heuristic).
+/// One-sample estimate of the irradiance at x from the environment: half the samples follow the cosine, half
+/// the table, and each is divided by the density of the mixture (balance heuristic).
 inline float3 environment_irradiance(const SceneView* scene, float3 x, float3 n, float choice, float2 u) {
     float3 direction;
     float3 radiance;
@@ -187,11 +191,12 @@ inline float3 environment_irradiance(const SceneView* scene, float3 x, float3 n,
 /// Point and spot lights up to this many are all asked; beyond it they are chosen by chance like the rest.
 #define MAX_DELTA_LOOP 16u
 
-/// Irradiance at x (unit normal n, off its surface) from all lights. Point and spot lights are exact, the others
-/// estimated from `sample_count` samples, the sequence `seed` telling one receiver from another.
+/// Irradiance at x (unit normal n, off its surface) from all lights. Point and spot lights are exact, the
+/// others estimated from `sample_count` samples, the sequence `seed` telling one receiver from another.
 inline float3 direct_irradiance(const SceneView* scene, float3 x, float3 n, uint sample_count, uint seed) {
     const uint emitter_count = scene->info->emitter_count;
-    const uint delta_count = scene->info->delta_emitter_count <= MAX_DELTA_LOOP ? scene->info->delta_emitter_count : 0;
+    const uint delta_count =
+        scene->info->delta_emitter_count <= MAX_DELTA_LOOP ? scene->info->delta_emitter_count : 0;
     float3 irradiance = (float3)(0.0f);
     for (uint i = 0; i < delta_count; ++i) {
         irradiance += delta_irradiance(scene, scene->emitters + i, x, n);
@@ -226,13 +231,15 @@ typedef struct EmittedParticle {
     float3 flux;  // W, divided by the density it was chosen with
 } EmittedParticle;
 
-inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position, float2 u_direction) {
+inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position,
+                                     float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
     const float inverse_probability = 1.0f / emitter->probability;
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         float3 normal;
-        const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u_position), &normal);
+        const float3 point =
+            triangle_point(scene, emitter->triangle, square_to_triangle(u_position), &normal);
         particle.origin = offset_point(scene, point, normal);
         particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
         particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area * inverse_probability);
@@ -247,7 +254,8 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
         particle.origin = load3(scene->environment->scene_center) + radius * from +
                           to_world_frame((float3)(r * cos(phi), r * sin(phi), 0.0f), from);
         particle.direction = -from;
-        particle.flux = pdf > 0.0f ? radiance * (M_PI_F * radius * radius / pdf * inverse_probability) : (float3)(0.0f);
+        particle.flux =
+            pdf > 0.0f ? radiance * (M_PI_F * radius * radius / pdf * inverse_probability) : (float3)(0.0f);
     } else {
         const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
         const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;

@@ -24,15 +24,15 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_RECORD_PARAMETERS
 #endif
 
-// With GATHER_ROULETTE defined, each packet goes through a list of VPLs instead of all of them (roulette.cl). Below,
-// `k` is a place in that list, or simply a VPL.
+// With GATHER_ROULETTE defined, each packet goes through a list of VPLs instead of all of them (roulette.cl).
+// Below, `k` is a place in that list, or simply a VPL.
 #ifdef GATHER_ROULETTE
-#define GATHER_ROULETTE_PARAMETERS                                                                             \
-    , const global uint *chosen, const global float *chosen_weights, const global uint *chosen_counts,         \
+#define GATHER_ROULETTE_PARAMETERS                                                                     \
+    , const global uint *chosen, const global float *chosen_weights, const global uint *chosen_counts, \
         uint first_listed, uint list_stride
-#define GATHER_END(packet, end) min(end, chosen_counts[(packet) - first_listed])
-#define GATHER_VPL(packet, k) chosen[(size_t)((packet) - first_listed) * list_stride + (k)]
-#define GATHER_WEIGHT(packet, k) chosen_weights[(size_t)((packet) - first_listed) * list_stride + (k)]
+#define GATHER_END(packet, end) min(end, chosen_counts[(packet)-first_listed])
+#define GATHER_VPL(packet, k) chosen[(size_t)((packet)-first_listed) * list_stride + (k)]
+#define GATHER_WEIGHT(packet, k) chosen_weights[(size_t)((packet)-first_listed) * list_stride + (k)]
 #else
 #define GATHER_ROULETTE_PARAMETERS
 #define GATHER_END(packet, end) (end)
@@ -41,7 +41,9 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #endif
 
 /// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.
-inline bool gather_squared(const global Vpl* vpl) { return (vpl->flags & NEARLIGHT_VPL_SQUARED) != 0; }
+inline bool gather_squared(const global Vpl* vpl) {
+    return (vpl->flags & NEARLIGHT_VPL_SQUARED) != 0;
+}
 
 /// Radiant intensity of the VPL along its normal, W/sr. A VPL whose power is not finite is left out.
 inline float3 gather_scale(const global Vpl* vpl) {

@@ -5,7 +5,9 @@
 
 #include "lib/scene.cl"
 
-inline float srgb_to_linear(float x) { return x <= 0.04045f ? x / 12.92f : pow((x + 0.055f) / 1.055f, 2.4f); }
+inline float srgb_to_linear(float x) {
+    return x <= 0.04045f ? x / 12.92f : pow((x + 0.055f) / 1.055f, 2.4f);
+}
 
 inline float3 load_texel(const SceneView* scene, const global Texture* texture, int x, int y) {
     const int width = (int)texture->width;
@@ -16,7 +18,8 @@ inline float3 load_texel(const SceneView* scene, const global Texture* texture, 
     y += y < 0 ? height : 0;
     const uint texel = scene->texels[texture->first_texel + (uint)(y * width + x)];
     const float scale = 1.0f / 255.0f;
-    return (float3)(srgb_to_linear((float)(texel & 255u) * scale), srgb_to_linear((float)((texel >> 8) & 255u) * scale),
+    return (float3)(srgb_to_linear((float)(texel & 255u) * scale),
+                    srgb_to_linear((float)((texel >> 8) & 255u) * scale),
                     srgb_to_linear((float)((texel >> 16) & 255u) * scale));
 }
 
@@ -37,7 +40,8 @@ inline float3 sample_texture(const SceneView* scene, uint index, float2 uv) {
     const float fx = x - (float)x0;
     const float fy = y - (float)y0;
     const float3 top = mix(load_texel(scene, texture, x0, y0), load_texel(scene, texture, x0 + 1, y0), fx);
-    const float3 bottom = mix(load_texel(scene, texture, x0, y0 + 1), load_texel(scene, texture, x0 + 1, y0 + 1), fx);
+    const float3 bottom =
+        mix(load_texel(scene, texture, x0, y0 + 1), load_texel(scene, texture, x0 + 1, y0 + 1), fx);
     return mix(top, bottom, fy);
 }
 

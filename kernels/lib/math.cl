@@ -5,7 +5,9 @@
 
 #include "shared/types.h"
 
-inline float3 load3(Vec3 v) { return (float3)(v.x, v.y, v.z); }
+inline float3 load3(Vec3 v) {
+    return (float3)(v.x, v.y, v.z);
+}
 inline Vec3 store3(float3 v) {
     Vec3 result;
     result.x = v.x;
@@ -13,9 +15,15 @@ inline Vec3 store3(float3 v) {
     result.z = v.z;
     return result;
 }
-inline float max_component(float3 v) { return fmax(v.x, fmax(v.y, v.z)); }
-inline float luminance(float3 c) { return dot(c, (float3)(0.2126f, 0.7152f, 0.0722f)); }
-inline bool is_black(float3 c) { return !(max_component(c) > 0.0f); }
+inline float max_component(float3 v) {
+    return fmax(v.x, fmax(v.y, v.z));
+}
+inline float luminance(float3 c) {
+    return dot(c, (float3)(0.2126f, 0.7152f, 0.0722f));
+}
+inline bool is_black(float3 c) {
+    return !(max_component(c) > 0.0f);
+}
 
 /// How far a point must stand off its surface so that rays from it do not meet that surface again. The same
 /// formula as host/scene/ray_epsilon.h.

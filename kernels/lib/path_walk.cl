@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that arrives at a point of a surface after any number of bounces, by a path with next-event estimation and
-// connections to VPLs.
+// Light that arrives at a point of a surface after any number of bounces, by a path with next-event
+// estimation and connections to VPLs.
 #ifndef NEARLIGHT_LIB_PATH_WALK
 #define NEARLIGHT_LIB_PATH_WALK
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
 
-/// The radius at which the geometry term is bounded for light from a place y: widest / 2^level, not below `least`. The
-/// level is the first (of GATHER_LEVELS) for which that is at most at_unit_light / √E, E the luminance of the direct
-/// light at y (W/m²), so that the radius follows the distance between VPLs of light walks. E is a rough estimate whose
-/// random numbers are hashes of y: the radius is a function of the place alone, and knows nothing of the VPLs there.
+/// The radius at which the geometry term is bounded for light from a place y: widest / 2^level, not below
+/// `least`. The level is the first (of GATHER_LEVELS) for which that is at most at_unit_light / √E, E the
+/// luminance of the direct light at y (W/m²), so that the radius follows the distance between VPLs of light
+/// walks. E is a rough estimate whose random numbers are hashes of y: the radius is a function of the place
+/// alone, and knows nothing of the VPLs there.
 typedef struct GatherRadius {
     float widest;
     float least;
@@ -23,7 +24,8 @@ typedef struct GatherRadius {
 inline float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
     float radius = law->widest;
     if (law->at_unit_light < INFINITY) {
-        const uint key = random_uint4((uint4)(as_uint(y.x), as_uint(y.y), as_uint(y.z), law->seed ^ 0x6a7be4u)).x;
+        const uint key =
+            random_uint4((uint4)(as_uint(y.x), as_uint(y.y), as_uint(y.z), law->seed ^ 0x6a7be4u)).x;
         const float light = luminance(direct_irradiance(scene, y, n, GATHER_LIGHT_SAMPLES, key));
         for (uint level = 1; level < GATHER_LEVELS && radius * sqrt(light) > law->at_unit_light; ++level) {
             radius *= 0.5f;
@@ -32,7 +34,8 @@ inline float gather_radius(const SceneView* scene, const GatherRadius* law, floa
     return fmax(radius, law->least);
 }
 
-/// A set of VPLs to connect to: so many chosen ones stand for all, and the geometry term is bounded at their radii.
+/// A set of VPLs to connect to: so many chosen ones stand for all, and the geometry term is bounded at their
+/// radii.
 typedef struct Connections {
     const global Vpl* vpls;
     const global float* radii;
@@ -41,9 +44,10 @@ typedef struct Connections {
     GatherRadius law;
 } Connections;
 
-/// Irradiance at x from VPLs of depth up to `deepest`, estimated from an even choice among them from a random one on.
-inline float3 connected_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n, uint deepest,
-                                   float u) {
+/// Irradiance at x from VPLs of depth up to `deepest`, estimated from an even choice among them from a random
+/// one on.
+inline float3 connected_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n,
+                                   uint deepest, float u) {
     const uint count = min(to->count, to->vpl_count);
     const float step = (float)to->vpl_count / (float)count;
     float3 sum = (float3)(0.0f);
@@ -53,20 +57,23 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
         const float3 origin = load3(vpl->position);
         const float3 between = x - origin;
         const float squared = dot(between, between);
-        const float cosines = -dot(n, between) * dot(load3(vpl->normal), between);  // times the distance squared
-        if (vpl->depth <= deepest && dot(n, between) < 0.0f && cosines > 0.0f && is_visible(scene, origin, x)) {
-            sum += load3(vpl->power) * (cosines / (squared * fmax(squared, to->radii[index] * to->radii[index])));
+        const float cosines =
+            -dot(n, between) * dot(load3(vpl->normal), between);  // times the distance squared
+        if (vpl->depth <= deepest && dot(n, between) < 0.0f && cosines > 0.0f &&
+            is_visible(scene, origin, x)) {
+            sum += load3(vpl->power) *
+                   (cosines / (squared * fmax(squared, to->radii[index] * to->radii[index])));
         }
     }
     return count > 0 ? sum * (M_1_PI_F * step) : sum;
 }
 
 /// One-path estimate of the irradiance at x (unit normal n, off its surface) from light that took at most
-/// `bounce_count` steps from its source, the one to x included: direct light at x, VPLs for farther surfaces, and short
-/// rays for near ones. As everywhere beyond the receiver, surfaces are Lambertian. The VPLs bring what a geometry term
-/// bounded at their radius lets through, and the remainder, (1 − t²/radius²) of what a cosine-distributed ray meets
-/// nearer than the radius there, is the light of a next vertex, made in the same way. Hardly a path is longer than a
-/// step.
+/// `bounce_count` steps from its source, the one to x included: direct light at x, VPLs for farther surfaces,
+/// and short rays for near ones. As everywhere beyond the receiver, surfaces are Lambertian. The VPLs bring
+/// what a geometry term bounded at their radius lets through, and the remainder, (1 − t²/radius²) of what a
+/// cosine-distributed ray meets nearer than the radius there, is the light of a next vertex, made in the same
+/// way. Hardly a path is longer than a step.
 inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n,
                                     uint bounce_count, uint direct_samples, uint seed) {
     float3 irradiance = (float3)(0.0f);
@@ -77,7 +84,8 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
         if (bounce + 1 == bounce_count) {
             break;
         }
-        irradiance += weight * connected_irradiance(scene, to, x, n, bounce_count - 1 - bounce, to_unit_float(keys.w));
+        irradiance +=
+            weight * connected_irradiance(scene, to, x, n, bounce_count - 1 - bounce, to_unit_float(keys.w));
         const float2 u = (float2)(to_unit_float(keys.y), to_unit_float(keys.z));
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(u), n);
         const SurfaceHit hit = trace_opaque(scene, x, direction, to->law.widest);
@@ -87,7 +95,8 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
         x = offset_point(scene, hit.position, hit.geometric);
         n = hit.geometric;
         const float ratio = hit.t / gather_radius(scene, &to->law, x, n);
-        weight *= light_albedo(scene, scene->materials + hit.material, hit.uv) * fmax(0.0f, 1.0f - ratio * ratio);
+        weight *=
+            light_albedo(scene, scene->materials + hit.material, hit.uv) * fmax(0.0f, 1.0f - ratio * ratio);
         if (is_black(weight)) {
             break;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random and quasi-random numbers without state: a function of what they are for, so that no result depends on
-// the order in which work-items run.
+// Random and quasi-random numbers without state: a function of what they are for, so that no result depends
+// on the order in which work-items run.
 #ifndef NEARLIGHT_LIB_RANDOM
 #define NEARLIGHT_LIB_RANDOM
 
@@ -20,7 +20,9 @@ inline uint4 random_uint4(uint4 key) {
 }
 
 /// Uniform in [0, 1).
-inline float to_unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
+inline float to_unit_float(uint bits) {
+    return (float)(bits >> 8) * 0x1p-24f;
+}
 
 inline uint reverse_bits(uint x) {
     x = ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);

@@ -20,8 +20,9 @@ inline float3 square_to_cone(float2 u, float cos_max) {
     return (float3)(r * cos(phi), r * sin(phi), z);
 }
 
-/// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that stratified points
-/// of the square are so in the triangle. [Heitz, A Low-Distortion Map Between Triangle and Square, 2019]
+/// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that stratified
+/// points of the square are so in the triangle. [Heitz, A Low-Distortion Map Between Triangle and Square,
+/// 2019]
 inline float2 square_to_triangle(float2 u) {
     return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
 }
@@ -31,7 +32,8 @@ inline float2 square_to_triangle(float2 u) {
 inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
     const float3 stretched = normalize((float3)(alpha * wo.x, alpha * wo.y, wo.z));
     const float planar = stretched.x * stretched.x + stretched.y * stretched.y;
-    const float3 t1 = planar > 0.0f ? (float3)(-stretched.y, stretched.x, 0.0f) * rsqrt(planar) : (float3)(1.0f, 0.0f, 0.0f);
+    const float3 t1 = planar > 0.0f ? (float3)(-stretched.y, stretched.x, 0.0f) * rsqrt(planar)
+                                    : (float3)(1.0f, 0.0f, 0.0f);
     const float3 t2 = cross(stretched, t1);
     const float r = sqrt(u.x);
     const float phi = 2.0f * M_PI_F * u.y;

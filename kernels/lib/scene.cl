@@ -8,21 +8,23 @@
 
 #include "lib/bvh_traverse.cl"
 
-#define SCENE_PARAMETERS                                                                                       \
-    const global BvhNode *restrict scene_nodes, const global BvhTriangle *restrict scene_bvh_triangles,        \
-        const global uint *restrict scene_triangle_ids, const global BvhNode *restrict scene_glass_nodes,      \
-        const global BvhTriangle *restrict scene_glass_triangles,                                              \
-        const global uint *restrict scene_glass_ids, const global Vertex *restrict scene_vertices,             \
-        const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,      \
-        const global Texture *restrict scene_textures, const global uint *restrict scene_texels,               \
-        const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment,   \
-        const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,    \
+#define SCENE_PARAMETERS                                                                                     \
+    const global BvhNode *restrict scene_nodes, const global BvhTriangle *restrict scene_bvh_triangles,      \
+        const global uint *restrict scene_triangle_ids, const global BvhNode *restrict scene_glass_nodes,    \
+        const global BvhTriangle *restrict scene_glass_triangles,                                            \
+        const global uint *restrict scene_glass_ids, const global Vertex *restrict scene_vertices,           \
+        const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,    \
+        const global Texture *restrict scene_textures, const global uint *restrict scene_texels,             \
+        const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
+        const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
         const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
-#define SCENE_VIEW                                                                                             \
-    {scene_nodes,     scene_bvh_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,       \
-     scene_glass_ids, scene_vertices,      scene_triangles,    scene_materials,   scene_textures,              \
-     scene_texels,    scene_emitters,      scene_environment,  scene_environment_pixels,                       \
-     scene_row_cdf,   scene_column_cdf,    scene_info}
+#define SCENE_VIEW                                                                                           \
+    {                                                                                                        \
+        scene_nodes, scene_bvh_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,      \
+            scene_glass_ids, scene_vertices, scene_triangles, scene_materials, scene_textures, scene_texels, \
+            scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf,    \
+            scene_info                                                                                       \
+    }
 
 typedef struct SceneView {
     const global BvhNode* nodes;  // opaque
@@ -46,18 +48,18 @@ typedef struct SceneView {
 
 /// What a ray found. Normals are unit vectors on the side the ray came from.
 typedef struct SurfaceHit {
-    float t;            // < 0: nothing
-    float3 position;    // on the surface
-    float3 geometric;   // normal of the triangle
-    float3 shading;     // interpolated; the geometric one where the mesh has none
-    float2 uv;          // texture coordinates
-    uint triangle;      // in SceneView.triangles
+    float t;           // < 0: nothing
+    float3 position;   // on the surface
+    float3 geometric;  // normal of the triangle
+    float3 shading;    // interpolated; the geometric one where the mesh has none
+    float2 uv;         // texture coordinates
+    uint triangle;     // in SceneView.triangles
     uint material;
     uint front;  // 1: the ray met the front
 } SurfaceHit;
 
-inline SurfaceHit make_surface_hit(const SceneView* scene, const global BvhTriangle* bvh_triangle, uint triangle_id,
-                                   float3 direction, float t, float u, float v) {
+inline SurfaceHit make_surface_hit(const SceneView* scene, const global BvhTriangle* bvh_triangle,
+                                   uint triangle_id, float3 direction, float t, float u, float v) {
     SurfaceHit hit;
     const Triangle triangle = scene->triangles[triangle_id];
     const global Vertex* a = scene->vertices + triangle.v0;
@@ -88,8 +90,8 @@ inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 dir
         none.t = -1.0f;
         return none;
     }
-    return make_surface_hit(scene, scene->bvh_triangles + hit.slot, scene->triangle_ids[hit.slot], direction, hit.t,
-                            hit.u, hit.v);
+    return make_surface_hit(scene, scene->bvh_triangles + hit.slot, scene->triangle_ids[hit.slot], direction,
+                            hit.t, hit.u, hit.v);
 }
 
 /// The nearest surface, glass included: for camera paths only.
@@ -108,13 +110,14 @@ inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 dir
         none.t = -1.0f;
         return none;
     }
-    return make_surface_hit(scene, scene->bvh_triangles + opaque.slot, scene->triangle_ids[opaque.slot], direction,
-                            opaque.t, opaque.u, opaque.v);
+    return make_surface_hit(scene, scene->bvh_triangles + opaque.slot, scene->triangle_ids[opaque.slot],
+                            direction, opaque.t, opaque.u, opaque.v);
 }
 
 /// True if no opaque surface lies between two points that both stand off their surfaces.
 inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
-    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
+    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN,
+                     NEARLIGHT_SEGMENT_T_MAX);
 }
 
 inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {

@@ -50,9 +50,9 @@ typedef struct BvhTriangle {
     Vec3 normal;
 } BvhTriangle;
 
-/// A node of the wide tree, which packets of rays go through: the boxes of eight children, plane by plane (x, y,
-/// z), so that a vector register holds one plane of all. Node 0 is the root. A child reference is that of a
-/// BvhNode, but a leaf counts and names TriangleBlocks. Where there is no child, low is +∞ and high −∞.
+/// A node of the wide tree, which packets of rays go through: the boxes of eight children, plane by plane (x,
+/// y, z), so that a vector register holds one plane of all. Node 0 is the root. A child reference is that of
+/// a BvhNode, but a leaf counts and names TriangleBlocks. Where there is no child, low is +∞ and high −∞.
 #define NEARLIGHT_WIDE_CHILDREN 8
 typedef struct WideNode {
     float low[3][NEARLIGHT_WIDE_CHILDREN];
@@ -243,8 +243,8 @@ typedef struct CameraVertex {
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
 
-/// Floats a pixel while samples are added (kernels/film.cl), and channels of a finished picture: beauty, direct,
-/// indirect, albedo, N, P (three each), depth, closerange.
+/// Floats a pixel while samples are added (kernels/film.cl), and channels of a finished picture: beauty,
+/// direct, indirect, albedo, N, P (three each), depth, closerange.
 #define NEARLIGHT_FILM_CHANNELS 17
 #define NEARLIGHT_LAYER_CHANNELS 20
 

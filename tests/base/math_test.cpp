@@ -23,7 +23,9 @@ TEST(Math, InverseUndoesATransform) {
     EXPECT_LT(linear_determinant(m), 0.0);
 }
 
-TEST(Math, SingularMatrixIsRefused) { EXPECT_THROW(inverse(scaling(1, 0, 1)), std::domain_error); }
+TEST(Math, SingularMatrixIsRefused) {
+    EXPECT_THROW(inverse(scaling(1, 0, 1)), std::domain_error);
+}
 
 TEST(Math, RotationIsCounterClockwiseSeenFromTheTipOfTheAxis) {
     expect_near(transform_vector(rotation(0, 0, 2, 90), {1, 0, 0}), {0, 1, 0});

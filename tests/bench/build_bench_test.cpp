@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "host/base/receivers.h"
 #include "host/bench/embree_trees.h"
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
@@ -39,10 +40,10 @@ TEST(TreeSteps, CountWhatAPlainTraversalFinds) {
     std::uint64_t occluded_rays = 0;
     for (const Vpl& vpl : vpls) {
         for (const ReceiverPacket& packet : receivers) {
-            for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
-                const Vec3 d = Vec3{packet.px[i], packet.py[i], packet.pz[i]} - vpl.position;
-                if (dot(d, vpl.normal) > 0.0f &&
-                    dot(d, Vec3{packet.nx[i], packet.ny[i], packet.nz[i]}) < 0.0f) {
+            for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+                const auto [position, normal] = receiver_at(packet, i);
+                const Vec3 d = position - vpl.position;
+                if (dot(d, vpl.normal) > 0.0f && dot(d, normal) < 0.0f) {
                     ++rays;
                     occluded_rays +=
                         occluded(bvh, vpl.position, d, NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX) ? 1

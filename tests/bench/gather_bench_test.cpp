@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/gather_bench.h"
-#include "host/bvh/wide_bvh.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
+#include "host/base/receivers.h"
 #include "host/bench/agreement.h"
 #include "host/bench/embree_occlusion.h"
 #include "host/bench/gather_workload.h"
@@ -42,18 +42,13 @@ class GatherBenchTest : public DeviceTest {
     /// One gather of the work; `pairs` says what became of each pair.
     static std::vector<IrradiancePacket> gather(Device& device, GatherKernel kernel, const Workload& work,
                                                 std::vector<GatherPair>& pairs) {
-        const Buffer<BvhNode> nodes(device, work.bvh.nodes);
-        const Buffer<BvhTriangle> triangles(device, work.bvh.triangles);
-        const WideBvh wide = widen(work.bvh);
-        const Buffer<WideNode> wide_nodes(device, wide.nodes);
-        const Buffer<TriangleBlock> blocks(device, wide.blocks);
+        const OpaqueTree tree = upload_tree(device, work.bvh, kernel);
         const Buffer<Vpl> vpls(device, work.vpls);
         const Buffer<ReceiverPacket> receivers(device, work.receivers);
         Buffer<IrradiancePacket> irradiance(device, work.receivers.size());
         Gatherer gatherer(device, {kernel});
-        pairs = gatherer.gather_recorded({nodes, triangles, wide_nodes, blocks, vpls, vpls.count(), receivers,
-                                          receivers.count(), kClampRadius},
-                                         irradiance);
+        pairs = gatherer.gather_recorded(
+            {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius}, irradiance);
         return irradiance.download();
     }
 };
@@ -153,8 +148,9 @@ std::pair<std::size_t, std::uint64_t> clear_ray(const Answered& room) {
             continue;
         }
         const Vec3 from = room.segments.vpls[word % room.segments.vpls.size()].position;
-        const Vec3 to = receiver_position(room.segments.receivers[word / room.segments.vpls.size()],
-                                          static_cast<std::size_t>(std::countr_zero(lane)));
+        const Vec3 to = receiver_at(room.segments.receivers[word / room.segments.vpls.size()],
+                                    static_cast<std::size_t>(std::countr_zero(lane)))
+                            .position;
         if (distance_to_edges(room.bvh.triangles, from, to) > 1e-3) {
             return {word, lane};
         }

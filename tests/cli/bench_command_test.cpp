@@ -74,6 +74,46 @@ TEST_F(BenchGather, WantsASceneOrAFile) {
     EXPECT_NE(result.errors.find("header"), std::string::npos) << result.errors;
 }
 
+TEST(BenchBuild, JsonTellsOfOurTreesAndEmbrees) {
+    const ProgramResult result = run_program("bench build spheres:3000 --json " + kSmall);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["scene"].get<std::string>().substr(0, 11), "sphere-room");
+    EXPECT_GT(json["triangles"], 2000);
+    EXPECT_GT(json["rays"], 0);
+    EXPECT_GT(json["packets"], 0);
+    EXPECT_LT(json["occluded"], json["rays"]);
+    std::vector<std::string> names;
+    for (const nlohmann::json& tree : json["trees"]) {
+        names.push_back(tree["name"]);
+        EXPECT_GE(tree["duplication"], 0.0) << tree;
+        for (const char* key : {"seconds", "sah_cost", "nodes", "depth", "nodes_per_ray", "triangles_per_ray",
+                                "nodes_per_packet", "triangles_per_packet"}) {
+            EXPECT_GT(tree[key], 0.0) << key << " of " << tree;
+        }
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"nearlight fast", "nearlight quality", "Embree medium",
+                                               "Embree high"}));
+    for (const char* key : {"ratio_seconds", "ratio_ray_steps", "ratio_packet_steps"}) {
+        EXPECT_GT(json[key], 0.0) << key;
+    }
+}
+
+TEST(BenchBuild, TextForPeople) {
+    const ProgramResult result = run_program("bench build spheres:3000 " + kSmall);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_NE(result.output.find("nodes/packet"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("nearlight quality / Embree high"), std::string::npos) << result.output;
+}
+
+TEST(BenchBuild, WantsASceneAndSaneNumbers) {
+    EXPECT_EQ(run_program("bench build").exit_code, 2);
+    EXPECT_EQ(run_program("bench build spheres:none").exit_code, 2);
+    EXPECT_EQ(run_program("bench build spheres:3000 --repeats 0").exit_code, 2);
+    EXPECT_EQ(run_program("bench build spheres:3000 --vpls 0").exit_code, 2);
+    EXPECT_EQ(run_program("bench build no-such-file.xml").exit_code, 3);
+}
+
 TEST(BenchSort, RatiosToOtherSorts) {
     NEARLIGHT_NEEDS_DEVICE();
     const ProgramResult result = run_program("bench sort --count 20000 --repeats 2 --json");

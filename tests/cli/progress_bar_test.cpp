@@ -61,7 +61,8 @@ class Terminal {
     Terminal& operator=(const Terminal&) = delete;
 
     [[nodiscard]] static bool works() { return isatty(STDERR_FILENO) == 1; }
-    /// What was written, if anything was. The kernel hands it on in pieces, so silence of a while means the end.
+    /// What was written, if anything was. The kernel hands it on in pieces, so silence of a while means the
+    /// end.
     [[nodiscard]] std::string read_all() const {
         std::string text;
         pollfd ready{.fd = terminal_, .events = POLLIN, .revents = 0};
@@ -92,8 +93,8 @@ TEST(ProgressBar, OnTheTerminalItIsDrawnSeldomAndCleared) {
     const std::string text = terminal.read_all();
     EXPECT_TRUE(text.starts_with("\r" + progress_line("gathering", 0.25, 0.0) + "\033[K")) << text;
     EXPECT_TRUE(text.ends_with("\033[K\r\033[K")) << text;
-    // A thousand updates in a row take far less than the tenth of a second after which a line is drawn anew; a busy
-    // machine may stretch that, but not a hundredfold.
+    // A thousand updates in a row take far less than the tenth of a second after which a line is drawn anew;
+    // a busy machine may stretch that, but not a hundredfold.
     EXPECT_LT(std::count(text.begin(), text.end(), '\r'), 100);
 }
 

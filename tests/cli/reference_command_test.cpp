@@ -7,25 +7,19 @@
 
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
+#include "tests/cli/small_scene.h"
 
 namespace nearlight {
 namespace {
 
-/// A floor 1 m below a point light of 1 W/sr, which is seen from above.
-constexpr const char* kLitFloor = R"(<scene version="3.0.0">
-  <integrator type="path"><integer name="max_depth" value="2"/></integrator>
-  <sensor type="perspective">
-    <float name="fov" value="0.1"/>
-    <transform name="to_world"><lookat origin="0, 0, 3" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="6"/></film>
-  </sensor>
-  <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, 0.125"/></bsdf></shape>
-  <emitter type="point"><point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1, 1, 1"/></emitter>
-</scene>)";
+/// Seen from above, as good as a single point.
+std::string floor_from_above() {
+    return lit_floor({.max_depth = 2, .fov_degrees = 0.1f, .origin = "0, 0, 3", .width = 8, .height = 6});
+}
 
 class Reference : public testing::Test {
   protected:
-    Reference() { std::ofstream(scene_) << kLitFloor; }
+    Reference() { std::ofstream(scene_) << floor_from_above(); }
     [[nodiscard]] std::string files() const { return quoted(scene_) + " -o " + quoted(output_); }
     void interrupt_endless_reference() const {
         const ProgramResult result =
@@ -129,7 +123,7 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
     std::ofstream(scene_, std::ios::app) << "\n";
     EXPECT_EQ(run_program("reference --resume --spp 4 " + files()).exit_code, 0)
         << "the same scene in other letters";
-    std::string other = kLitFloor;
+    std::string other = floor_from_above();
     other.replace(other.find("0.125"), 5, "0.126");
     std::ofstream(scene_) << other;
     expect_refused("", "nearlight:sceneHash");

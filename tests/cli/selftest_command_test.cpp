@@ -20,20 +20,18 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
     for (const nlohmann::json& device : json["devices"]) {
         EXPECT_FALSE(device["device"].get<std::string>().empty());
         EXPECT_EQ(device["pass"], true);
-        std::vector<std::string> names;
+        std::string names;
         for (const nlohmann::json& check : device["checks"]) {
-            names.push_back(check["name"]);
+            names += (names.empty() ? "" : ", ") + check["name"].get<std::string>();
             EXPECT_GT(check["cases"], 10) << check;
             EXPECT_EQ(check["mismatches"], 0) << check;
             EXPECT_EQ(check["pass"], true) << check;
         }
-        EXPECT_EQ(names, (std::vector<std::string>{
-                             "layout",           "scan",         "compaction",        "sort",
-                             "morton",           "classify",     "placement",         "patch VPLs",
-                             "VPL light",        "closest hit",  "any hit",           "gather packets",
-                             "gather rays",      "direct light", "bounce tracing",    "light tracing",
-                             "VPL contribution", "reverse VPLs", "metropolis chains", "local lights",
-                             "camera pass"}));
+        EXPECT_EQ(names,
+                  "layout, scan, compaction, sort, morton, classify, light visibility, placement, "
+                  "patch VPLs, VPL light, closest hit, any hit, gather packets, gather rays, roulette, "
+                  "direct light, bounce tracing, light tracing, VPL contribution, reverse VPLs, "
+                  "metropolis chains, local lights, camera pass, film");
     }
 }
 

@@ -180,11 +180,14 @@ TEST_F(Report, MarkdownHasRowsAsWideAsTheirHeadAndPicturesThatAreThere) {
         columns = bars;
     }
     EXPECT_GE(rows, 4 + 2 + 3);
-    EXPECT_NE(text.find("| instant-radiosity | 200 | 198 | 0 | 0.01 | 2.00 | 0.99 ± 0.02 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| instant-radiosity | 200 | 198 | 0 | 0.01 | 2.00 | 0.99 ± 0.02 |"),
+              std::string::npos)
+        << text;
     EXPECT_NE(text.find("| instant-radiosity | 0.01 | – | – | – | – | never |"), std::string::npos) << text;
     const std::regex pictures(R"(\]\(pictures/([^)]+)\))");
     int count = 0;
-    for (std::sregex_iterator match(text.begin(), text.end(), pictures), end; match != end; ++match, ++count) {
+    for (std::sregex_iterator match(text.begin(), text.end(), pictures), end; match != end;
+         ++match, ++count) {
         EXPECT_TRUE(std::filesystem::exists(folder_ / (*match)[1].str())) << (*match)[1];
     }
     EXPECT_EQ(count, 1 + 1 + 4);

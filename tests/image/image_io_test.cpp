@@ -119,7 +119,8 @@ TEST(ImageIo, ExrKeepsMetadata) {
     EXPECT_TRUE(std::equal(matrix.begin(), matrix.end(), static_cast<const float*>(stored->data())));
 
     const Metadata read = read_metadata(folder / "a.exr");
-    for (const char* name : {"nearlight:vpls", "nearlight:clampRadius", "nearlight:sampler", "renderTimeSeconds"}) {
+    for (const char* name :
+         {"nearlight:vpls", "nearlight:clampRadius", "nearlight:sampler", "renderTimeSeconds"}) {
         EXPECT_EQ(read.at(name), options.metadata.at(name)) << name;
     }
     EXPECT_FALSE(read.contains("worldToCamera"));

@@ -221,5 +221,26 @@ TEST(BandSharing, WhatTheSinkThrowsEndsTheWork) {
     EXPECT_EQ(error.code(), ExitCode::file);
 }
 
+TEST(AddShares, KeepsDevicesOfOneNameApart) {
+    std::vector<BandShare> sum;
+    add_shares(std::vector<BandShare>{{"a", 3, 1.0, false}, {"a", 2, 2.0, false}, {"b", 1, 4.0, false}}, sum);
+    ASSERT_EQ(sum.size(), 3u);
+    add_shares(std::vector<BandShare>{{"a", 1, 1.0, false}, {"a", 5, 1.0, true}, {"b", 1, 1.0, false}}, sum);
+    EXPECT_EQ(sum[0].bands, 4u);
+    EXPECT_EQ(sum[1].bands, 7u);
+    EXPECT_TRUE(sum[1].failed);
+    EXPECT_EQ(sum[2].seconds, 5.0);
+}
+
+TEST(AddShares, DevicesThatAreGoneKeepWhatTheyDid) {
+    std::vector<BandShare> sum;
+    add_shares(std::vector<BandShare>{{"a", 3, 1.0, true}, {"b", 1, 4.0, false}}, sum);
+    add_shares(std::vector<BandShare>{{"b", 6, 1.0, false}}, sum);
+    ASSERT_EQ(sum.size(), 2u);
+    EXPECT_EQ(sum[0].bands, 3u);
+    EXPECT_TRUE(sum[0].failed);
+    EXPECT_EQ(sum[1].bands, 7u);
+}
+
 }  // namespace
 }  // namespace nearlight

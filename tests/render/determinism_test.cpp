@@ -31,7 +31,11 @@ Scene terrace() {
 }
 
 RenderSettings terrace_settings(uint seed, SamplerKind sampler = SamplerKind::close_range) {
-    return {.sampler = sampler, .vpl_count = 120, .samples_per_pixel = 6, .direct_samples_per_pixel = 12, .seed = seed};
+    return {.sampler = sampler,
+            .vpl_count = 120,
+            .samples_per_pixel = 6,
+            .direct_samples_per_pixel = 12,
+            .seed = seed};
 }
 
 class Determinism : public test::DeviceTest {};
@@ -55,9 +59,11 @@ TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
 
 TEST_F(Determinism, RepeatingGivesTheSamePictureAndAnotherSeedAnother) {
     on_each_device([](Device& device) {
-        for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::bidirectional, SamplerKind::local}) {
+        for (const SamplerKind sampler :
+             {SamplerKind::close_range, SamplerKind::bidirectional, SamplerKind::local}) {
             const auto hash = [&](uint seed) {
-                return test::render_image(device, terrace(), terrace_settings(seed, sampler)).report.image_hash;
+                return test::render_image(device, terrace(), terrace_settings(seed, sampler))
+                    .report.image_hash;
             };
             const std::uint64_t first = hash(1);
             EXPECT_EQ(hash(1), first) << to_string(sampler);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/support/real_scenes.h"
 #include "host/scene/ply_loader.h"
 #include "tests/scene/scene_files.h"
-#include "tests/support/real_scenes.h"
 
 namespace nearlight {
 namespace {

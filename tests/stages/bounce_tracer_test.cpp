@@ -77,10 +77,7 @@ struct CornerLight {
             LightTracer(device).run(on_gpu.buffers, region, KeepDeposits::all,
                                     {.walk_count = 200'000, .bounce_count = bounces, .seed = 1});
         Buffer<IrradiancePacket> irradiance(device, 1);
-        Gatherer(device).gather({.nodes = on_gpu.buffers.nodes,
-                                 .triangles = on_gpu.buffers.bvh_triangles,
-                                 .wide_nodes = on_gpu.buffers.wide_nodes,
-                                 .blocks = on_gpu.buffers.blocks,
+        Gatherer(device).gather({.tree = on_gpu.buffers.tree,
                                  .vpls = Buffer<Vpl>(device, std::span(vpls)),
                                  .vpl_count = vpls.size(),
                                  .receivers = receivers,

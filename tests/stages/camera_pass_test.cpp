@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/reference/lobe.h"
 #include "host/scene/material_model.h"
 #include "host/scene/pinhole_camera.h"
@@ -17,7 +18,6 @@ namespace nearlight {
 namespace {
 
 using namespace small_scenes;
-using test::ReceiverPoint;
 using test::SceneOnDevice;
 
 struct GBuffer {
@@ -183,7 +183,7 @@ Branches branches_of(const GBuffer& found, std::size_t tile_sample, std::size_t 
     for (std::size_t branch = 0; branch < 2; ++branch) {
         const std::size_t index = (2 * tile_sample + branch) * NEARLIGHT_PACKET_SIZE + lane;
         result.vertex[branch] = found.vertices[index];
-        result.receiver[branch] = test::receiver_at(found.receivers, index);
+        result.receiver[branch] = receiver_at(found.receivers, index);
     }
     return result;
 }

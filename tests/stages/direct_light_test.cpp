@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/reference/light_sampler.h"
 #include "host/reference/reference_gather.h"
 #include "tests/support/device_fixture.h"
@@ -15,8 +16,6 @@ namespace nearlight {
 namespace {
 
 using namespace small_scenes;
-using test::irradiance_at;
-using test::ReceiverPoint;
 using test::SceneOnDevice;
 
 class DirectLightTest : public test::DeviceTest {};

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/segment_distance.h"
 #include "host/bvh/wide_bvh.h"
@@ -44,8 +45,8 @@ Differences compare(const GatherCase& data, const std::vector<GatherPair>& pairs
     Differences result;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Vpl& vpl = data.vpls[i / NEARLIGHT_PACKET_SIZE % data.vpls.size()];
-        const Point receiver =
-            point_of(data.receivers[i / NEARLIGHT_PACKET_SIZE / data.vpls.size()], i % NEARLIGHT_PACKET_SIZE);
+        const ReceiverPoint receiver = receiver_at(
+            data.receivers[i / NEARLIGHT_PACKET_SIZE / data.vpls.size()], i % NEARLIGHT_PACKET_SIZE);
         const PairTerm term = pair_term(vpl, receiver, data.clamp_radius);
         if ((term.value > 0.0) != (pairs[i] != GatherPair::culled)) {
             result.culling += term.least_cosine > 1e-6 ? 1 : 0;
@@ -75,7 +76,7 @@ std::vector<IrradiancePacket> sum_visible(const GatherCase& data, const std::vec
                 if (pairs[(p * data.vpls.size() + v) * NEARLIGHT_PACKET_SIZE + lane] == GatherPair::visible) {
                     const Vpl& vpl = data.vpls[v];
                     const double term =
-                        pair_term(vpl, point_of(data.receivers[p], lane), data.clamp_radius).value / M_PI;
+                        pair_term(vpl, receiver_at(data.receivers[p], lane), data.clamp_radius).value / M_PI;
                     r += term * vpl.power.x;
                     g += term * vpl.power.y;
                     b += term * vpl.power.z;

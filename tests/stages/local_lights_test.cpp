@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/scene/ray_epsilon.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -13,8 +14,6 @@ namespace nearlight {
 namespace {
 
 using namespace small_scenes;
-using test::receiver_at;
-using test::ReceiverPoint;
 using test::SceneOnDevice;
 
 class LocalLightsTest : public test::DeviceTest {};
@@ -181,7 +180,7 @@ std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
     const std::vector<IrradiancePacket> sums = irradiance.download();
     std::vector<Vec3> means;
     for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
-        means.push_back(test::irradiance_at(sums, i) / static_cast<float>(runs));
+        means.push_back(irradiance_at(sums, i) / static_cast<float>(runs));
     }
     return means;
 }

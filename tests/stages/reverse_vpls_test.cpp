@@ -2,6 +2,7 @@
 #include "host/stages/reverse_vpls.h"
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "host/scene/ray_epsilon.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -69,7 +70,7 @@ Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_
     const CameraPoints points = make_camera_points(device, importons, rays_per_point);
     Reverse result;
     result.vpls = stage.trace(scene.buffers, points, 17);
-    std::vector<test::ReceiverPoint> receivers;
+    std::vector<ReceiverPoint> receivers;
     for (const Vpl& vpl : result.vpls) {
         receivers.push_back({vpl.position, vpl.normal});
     }
@@ -79,7 +80,7 @@ Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_
                           packets.size(), density);
     const std::vector<IrradiancePacket> found = density.download();
     for (std::size_t i = 0; i < result.vpls.size(); ++i) {
-        result.density.push_back(test::irradiance_at(found, i).x);
+        result.density.push_back(irradiance_at(found, i).x);
     }
     return result;
 }

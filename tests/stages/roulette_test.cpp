@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/selftest/roulette_oracle.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
 #include "tests/support/spread.h"
@@ -86,16 +87,6 @@ class RouletteTest : public DeviceTest {
     }
 };
 
-/// What the VPL could bring to the receivers of the packet, root mean square.
-double bound_of(const GatherCase& data, std::size_t packet, const Vpl& vpl) {
-    double squares = 0.0;
-    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const double term = pair_term(vpl, point_of(data.receivers[packet], lane), data.clamp_radius).value;
-        squares += term * term;
-    }
-    return std::sqrt(squares / NEARLIGHT_PACKET_SIZE) * max_component(vpl.power) / M_PI;
-}
-
 TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
     const GatherCase data = room();
     on_each_device([&](Device& device) {
@@ -103,15 +94,11 @@ TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
         std::size_t certain = 0;
         std::size_t by_chance = 0;
         for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
-            std::vector<double> bounds;
-            for (const Vpl& vpl : data.vpls) {
-                bounds.push_back(bound_of(data, packet, vpl));
-            }
-            const double mean =
-                std::accumulate(bounds.begin(), bounds.end(), 0.0) / static_cast<double>(bounds.size());
-            for (std::size_t vpl = 0; vpl < bounds.size(); ++vpl) {
-                const double p = std::min(1.0, bounds[vpl] / (kThreshold * mean));
-                const int count = choices.chosen[packet * bounds.size() + vpl];
+            const std::vector<double> probabilities =
+                roulette_probabilities(data.vpls, data.receivers[packet], data.clamp_radius, kThreshold);
+            for (std::size_t vpl = 0; vpl < probabilities.size(); ++vpl) {
+                const double p = probabilities[vpl];
+                const int count = choices.chosen[packet * probabilities.size() + vpl];
                 if (p == 0.0 || p == 1.0) {
                     EXPECT_EQ(count, p == 0.0 ? 0 : static_cast<int>(kSeeds))
                         << "packet " << packet << " VPL " << vpl;
@@ -122,7 +109,7 @@ TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
                 EXPECT_LE(std::abs(count - p * kSeeds), kMostErrors * std::sqrt(kSeeds * p * (1.0 - p)) + 2.0)
                     << "packet " << packet << " VPL " << vpl << ", probability " << p;
                 if (count > 0) {
-                    EXPECT_NEAR(choices.weights[packet * bounds.size() + vpl] * p, 1.0, 1e-3);
+                    EXPECT_NEAR(choices.weights[packet * probabilities.size() + vpl] * p, 1.0, 1e-3);
                 }
             }
         }

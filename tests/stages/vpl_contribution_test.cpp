@@ -2,6 +2,7 @@
 #include "host/stages/vpl_contribution.h"
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
 #include "tests/support/scene_on_device.h"
@@ -32,8 +33,7 @@ double expected_contribution(const test::GatherCase& data, const std::vector<Cam
                              const Vpl& vpl, ContributionNorm norm) {
     double sum = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const test::Point receiver =
-            test::point_of(data.receivers[i / NEARLIGHT_PACKET_SIZE], i % NEARLIGHT_PACKET_SIZE);
+        const ReceiverPoint receiver = receiver_at(data.receivers, i);
         const double term = test::pair_term(vpl, receiver, data.clamp_radius).value;
         if (term > 0 &&
             !occluded(data.bvh, vpl.position, receiver.position - vpl.position, 1e-5f, 1.0f - 1e-5f)) {

@@ -3,6 +3,7 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
 
@@ -48,7 +49,7 @@ TEST_F(VplLightTest, ReceiversAreTheVplsThenNothing) {
             VplLight(device).make_receivers(Buffer<Vpl>(device, vpls), count, receivers);
             const std::vector<ReceiverPacket> found = receivers.download();
             for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
-                const auto [position, normal] = test::receiver_at(found, i);
+                const auto [position, normal] = receiver_at(found, i);
                 EXPECT_EQ(position, i < count ? vpls[i].position : Vec3{});
                 EXPECT_EQ(normal, i < count ? vpls[i].normal : Vec3{});
             }

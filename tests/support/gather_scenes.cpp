@@ -7,11 +7,12 @@
 #include <numeric>
 
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 
 namespace nearlight::test {
 namespace {
 
-using MakePoint = std::function<Point()>;
+using MakePoint = std::function<ReceiverPoint()>;
 
 float symmetric(Pcg32& random) {
     return 2.0f * random.uniform() - 1.0f;
@@ -61,20 +62,14 @@ void finish(GatherCase& data, std::size_t vpls, std::size_t packets, Pcg32& rand
     std::iota(ids.begin(), ids.end(), 0u);
     data.bvh = build_bvh(data.scene, ids);
     for (std::size_t i = 0; i < vpls; ++i) {
-        const Point point = make_point();
+        const ReceiverPoint point = make_point();
         const float power = random.uniform();
         data.vpls.push_back({point.position, 1, point.normal, 0, {power, 0.5f * power, 1.0f - power}, 0.0f});
     }
     for (std::size_t p = 0; p < packets; ++p) {
         ReceiverPacket& packet = data.receivers.emplace_back();
         for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
-            const Point point = make_point();
-            packet.px[i] = point.position.x;
-            packet.py[i] = point.position.y;
-            packet.pz[i] = point.position.z;
-            packet.nx[i] = point.normal.x;
-            packet.ny[i] = point.normal.y;
-            packet.nz[i] = point.normal.z;
+            set_receiver(packet, i, make_point());
         }
     }
 }
@@ -93,7 +88,7 @@ GatherCase random_triangles(std::size_t triangles, std::size_t vpls, std::size_t
     }
     finish(data, vpls, packets, random, [&] {
         const Vec3 position = point_in_cube(random);
-        return Point{position, any_direction(random)};
+        return ReceiverPoint{position, any_direction(random)};
     });
     return data;
 }
@@ -124,7 +119,7 @@ GatherCase room_of_boxes(std::size_t boxes, std::size_t vpls, std::size_t packet
             const Vec3 normal = normalize(cross(data.scene.vertices[triangle.v1].position - v0,
                                                 data.scene.vertices[triangle.v2].position - v0));
             const Vec3 facing = dot(normal, direction) < 0.0f ? normal : -normal;
-            return Point{origin + direction * hit.t + facing * 1e-4f, facing};
+            return ReceiverPoint{origin + direction * hit.t + facing * 1e-4f, facing};
         }
     });
     return data;
@@ -147,7 +142,7 @@ GatherCase points_on_grid(std::size_t vpls, std::size_t packets, std::uint64_t s
     }
     finish(data, vpls, packets, random, [&] {
         const Vec3 position = grid_point();
-        return Point{position, any_direction(random)};
+        return ReceiverPoint{position, any_direction(random)};
     });
     return data;
 }
@@ -173,17 +168,12 @@ GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets,
     }
     finish(data, vpls, packets, random, [&] {
         const Vec3 position = point_in_cube(random);
-        return Point{position, any_direction(random)};
+        return ReceiverPoint{position, any_direction(random)};
     });
     return data;
 }
 
-Point point_of(const ReceiverPacket& packet, std::size_t lane) {
-    return {{packet.px[lane], packet.py[lane], packet.pz[lane]},
-            {packet.nx[lane], packet.ny[lane], packet.nz[lane]}};
-}
-
-PairTerm pair_term(const Vpl& vpl, const Point& receiver, float clamp_radius) {
+PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_radius) {
     const auto dot64 = [](Vec3 a, Vec3 b) {
         return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y +
                static_cast<double>(a.z) * b.z;

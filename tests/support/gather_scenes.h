@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/receivers.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
@@ -30,16 +31,10 @@ GatherCase points_on_grid(std::size_t vpls, std::size_t packets, std::uint64_t s
 /// Very thin triangles, and some that are lines or points.
 GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets, std::uint64_t seed);
 
-struct Point {
-    Vec3 position;
-    Vec3 normal;
-};
-Point point_of(const ReceiverPacket& packet, std::size_t lane);
-
 struct PairTerm {
     double value = 0.0;         ///< max0(cosθx)·max0(cosθy)/max(r², R²), 0 where not finite
     double least_cosine = 0.0;  ///< the smaller magnitude of both cosines
 };
-PairTerm pair_term(const Vpl& vpl, const Point& receiver, float clamp_radius);
+PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_radius);
 
 }  // namespace nearlight::test

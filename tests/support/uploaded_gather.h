@@ -9,7 +9,6 @@
 #include <cstring>
 #include <vector>
 
-#include "host/bvh/wide_bvh.h"
 #include "host/stages/gatherer.h"
 #include "tests/support/gather_scenes.h"
 
@@ -19,10 +18,7 @@ namespace nearlight::test {
 class Uploaded {
   public:
     Uploaded(Device& device, const GatherCase& data)
-        : nodes_(device, data.bvh.nodes),
-          triangles_(device, data.bvh.triangles),
-          wide_nodes_(device, widen(data.bvh).nodes),
-          blocks_(device, widen(data.bvh).blocks),
+        : tree_(upload_tree(device, data.bvh, GatherKernel::packets)),  // serves both kernels
           vpls_(device, data.vpls),
           receivers_(device, data.receivers),
           // Whatever the memory holds must not matter.
@@ -30,8 +26,7 @@ class Uploaded {
           clamp_radius_(data.clamp_radius) {}
 
     [[nodiscard]] GatherInput input() const {
-        return {nodes_,        triangles_, wide_nodes_,        blocks_,      vpls_,
-                vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
+        return {tree_, vpls_, vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
     }
     std::vector<IrradiancePacket> gather(Gatherer& gatherer, float roulette = 0.0f, uint seed = 0) {
         GatherInput task = input();
@@ -49,10 +44,7 @@ class Uploaded {
         return packet;
     }
 
-    Buffer<BvhNode> nodes_;
-    Buffer<BvhTriangle> triangles_;
-    Buffer<WideNode> wide_nodes_;
-    Buffer<TriangleBlock> blocks_;
+    OpaqueTree tree_;
     Buffer<Vpl> vpls_;
     Buffer<ReceiverPacket> receivers_;
     Buffer<IrradiancePacket> irradiance_;

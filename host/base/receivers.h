@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Receivers and what arrives at them, in the packets of 64 in which kernels take them.
+#pragma once
+
+#include <span>
+
+#include "host/base/math.h"
+
+namespace nearlight {
+
+/// A point of a surface that is to be lit.
+struct ReceiverPoint {
+    Vec3 position;
+    Vec3 normal;  ///< zero: absent
+};
+
+/// Packets that hold so many receivers.
+constexpr std::size_t receiver_packet_count(std::size_t receiver_count) {
+    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
+}
+
+inline ReceiverPoint receiver_at(const ReceiverPacket& packet, std::size_t lane) {
+    return {{packet.px[lane], packet.py[lane], packet.pz[lane]},
+            {packet.nx[lane], packet.ny[lane], packet.nz[lane]}};
+}
+/// Number `index` of all lanes of all packets.
+inline ReceiverPoint receiver_at(std::span<const ReceiverPacket> packets, std::size_t index) {
+    return receiver_at(packets[index / NEARLIGHT_PACKET_SIZE], index % NEARLIGHT_PACKET_SIZE);
+}
+inline void set_receiver(ReceiverPacket& packet, std::size_t lane, const ReceiverPoint& receiver) {
+    packet.px[lane] = receiver.position.x;
+    packet.py[lane] = receiver.position.y;
+    packet.pz[lane] = receiver.position.z;
+    packet.nx[lane] = receiver.normal.x;
+    packet.ny[lane] = receiver.normal.y;
+    packet.nz[lane] = receiver.normal.z;
+}
+
+/// W/m² at lane number `index` of all packets.
+inline Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t index) {
+    const IrradiancePacket& packet = packets[index / NEARLIGHT_PACKET_SIZE];
+    const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
+    return {packet.r[lane], packet.g[lane], packet.b[lane]};
+}
+
+}  // namespace nearlight

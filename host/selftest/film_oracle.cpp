@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/film_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/base/random.h"
+
+namespace nearlight {
+namespace {
+
+/// Packet and lane of a sample of a pixel.
+std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
+                                             uint branch) {
+    const std::size_t tile = y / 8 * layout.tile_columns() + x / 8;
+    return {(tile * layout.samples + sample) * layout.branches + branch, y % 8 * 8 + x % 8};
+}
+
+}  // namespace
+
+FilmSamples random_film_samples(const FilmLayout& layout) {
+    Pcg32 random(1);
+    const auto color = [&] {
+        const float r = random.uniform();
+        const float g = random.uniform();
+        return Vec3{r, g, random.uniform()};
+    };
+    FilmSamples samples;
+    const std::size_t tiles = layout.tile_columns() * layout.tile_rows();
+    for (std::size_t p = 0; p < tiles * layout.samples * layout.branches; ++p) {
+        ReceiverPacket receiver;
+        std::generate_n(receiver.px, sizeof(ReceiverPacket) / sizeof(float),
+                        [&] { return random.uniform() + 0.1f; });
+        samples.receivers.push_back(receiver);
+        for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.indirect}) {
+            std::generate_n(light->emplace_back().r, sizeof(IrradiancePacket) / sizeof(float),
+                            [&] { return random.uniform(); });
+        }
+        for (int lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            const float depth = random.next() % 4 == 0 ? 0.0f : 1.0f + random.uniform();
+            samples.vertices.push_back({.throughput = color(),
+                                        .depth = depth,
+                                        .albedo = color(),
+                                        .flags = random.next() % 2,
+                                        .emitted = color(),
+                                        .pad0 = 0});
+        }
+    }
+    return samples;
+}
+
+std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout& layout, uint x, uint y) {
+    std::vector<double> out(NEARLIGHT_LAYER_CHANNELS, 0.0);
+    double normal[3] = {0, 0, 0};
+    const auto channel = [](Vec3 v, int c) {
+        return static_cast<double>(c == 0 ? v.x : (c == 1 ? v.y : v.z));
+    };
+    for (uint s = 0; s < layout.samples * layout.branches; ++s) {
+        const auto [packet, lane] = place_of(layout, x, y, s / layout.branches, s % layout.branches);
+        const CameraVertex& vertex = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
+        const ReceiverPacket& receiver = samples.receivers[packet];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int axis = static_cast<int>(c);
+            const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
+            const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
+            const double direct =
+                channel(vertex.emitted, axis) + reflectance / kPi * (&samples.direct[packet].r[0])[at];
+            const double indirect = reflectance / kPi * (&samples.indirect[packet].r[0])[at];
+            out[3 + c] += direct / layout.samples;
+            out[6 + c] += indirect / layout.samples;
+            out[c] = out[3 + c] + out[6 + c];
+            out[9 + c] += reflectance / layout.samples;
+            normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
+            if (s % layout.branches == 0 && out[18] == 0.0 && vertex.depth > 0) {
+                out[15 + c] = (&receiver.px[0])[at];
+            }
+        }
+        if (s % layout.branches == 0) {
+            out[18] = out[18] == 0.0 ? vertex.depth : out[18];
+            out[19] += static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
+        }
+    }
+    const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (std::size_t c = 0; c < 3; ++c) {
+        out[12 + c] = normal[c] / length;
+    }
+    return out;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "host/bench/gather_workload.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/selftest/checks.h"
+#include "host/selftest/roulette_oracle.h"
+#include "host/stages/gatherer.h"
+
+namespace nearlight {
+namespace {
+
+constexpr float kClampRadius = 0.05f;
+constexpr float kThreshold = 2.0f;
+constexpr uint kSeeds = 100;
+/// Standard errors that chance does not reach in thousands of cases.
+constexpr double kMostErrors = 5.5;
+
+struct RouletteCase {
+    std::vector<Vpl> vpls;
+    std::vector<ReceiverPacket> receivers;
+    OpaqueTree tree;
+    Buffer<Vpl> vpl_buffer;
+    Buffer<ReceiverPacket> receiver_buffer;
+
+    [[nodiscard]] GatherInput input(float roulette, uint seed) const {
+        return {.tree = tree,
+                .vpls = vpl_buffer,
+                .vpl_count = vpls.size(),
+                .receivers = receiver_buffer,
+                .packet_count = receivers.size(),
+                .clamp_radius = kClampRadius,
+                .roulette = roulette,
+                .seed = seed};
+    }
+};
+
+RouletteCase make_case(Device& device) {
+    const Scene scene = make_sphere_room(3000);
+    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    RouletteCase data;
+    data.vpls = make_traced_vpls(scene, bvh, 150);
+    for (std::size_t i = 0; i < data.vpls.size(); ++i) {
+        data.vpls[i].power = Vec3{0.5f, 1.0f, 2.0f} * (1.0f + static_cast<float>(i % 7));
+    }
+    data.receivers = make_camera_receivers(scene, bvh, 40, 32);
+    data.tree = upload_tree(device, bvh);
+    data.vpl_buffer = {device, data.vpls};
+    data.receiver_buffer = {device, data.receivers};
+    return data;
+}
+
+/// Packet by packet, VPL by VPL.
+void check_choices(Device& device, const RouletteCase& data, CheckResult& result) {
+    std::vector<uint> chosen(data.receivers.size() * data.vpls.size());
+    std::vector<float> chosen_weights(chosen.size());
+    Roulette roulette(device);
+    for (uint seed = 0; seed < kSeeds; ++seed) {
+        const RouletteLists& lists = roulette.choose({.vpls = data.vpl_buffer,
+                                                      .vpl_count = data.vpls.size(),
+                                                      .receivers = data.receiver_buffer,
+                                                      .clamp_radius = kClampRadius,
+                                                      .threshold = kThreshold,
+                                                      .seed = seed},
+                                                     0, data.receivers.size());
+        const std::vector<uint> vpls = lists.vpls.download();
+        const std::vector<float> weights = lists.weights.download();
+        const std::vector<uint> counts = lists.counts.download();
+        for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
+            const std::size_t first = packet * data.vpls.size();
+            for (std::size_t k = first; k < first + counts[packet]; ++k) {
+                ++chosen[first + vpls[k]];
+                chosen_weights[first + vpls[k]] = weights[k];
+            }
+        }
+    }
+    for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
+        const std::vector<double> probabilities =
+            roulette_probabilities(data.vpls, data.receivers[packet], kClampRadius, kThreshold);
+        for (std::size_t vpl = 0; vpl < probabilities.size(); ++vpl) {
+            const double p = probabilities[vpl];
+            const double count = chosen[packet * data.vpls.size() + vpl];
+            const double weight = chosen_weights[packet * data.vpls.size() + vpl];
+            // A bound that is almost 0 or almost the limit may be on either side of it for rounding.
+            const double chance = kMostErrors * std::sqrt(kSeeds * p * (1 - p)) + (p > 0 && p < 1 ? 2 : 0);
+            result.expect(std::abs(count - p * kSeeds) <= chance &&
+                          (count == 0 || std::abs(weight * p - 1) <= 1e-3));
+        }
+    }
+}
+
+/// Of all receivers and channels of each packet.
+std::vector<double> sums_of_packets(const Buffer<IrradiancePacket>& irradiance) {
+    std::vector<double> sums;
+    for (const IrradiancePacket& packet : irradiance.download()) {
+        sums.push_back(std::accumulate(packet.r, packet.r + 3 * NEARLIGHT_PACKET_SIZE, 0.0));
+    }
+    return sums;
+}
+
+void check_expectation(Device& device, const RouletteCase& data, CheckResult& result) {
+    Gatherer gatherer(device);
+    Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
+    gatherer.gather(data.input(0.0f, 0), irradiance);
+    const std::vector<double> full = sums_of_packets(irradiance);
+    std::vector<double> deviation(full.size());  // summed over the seeds
+    std::vector<double> squares(full.size());
+    for (uint seed = 0; seed < kSeeds; ++seed) {
+        gatherer.gather(data.input(kThreshold, seed), irradiance);
+        const std::vector<double> some = sums_of_packets(irradiance);
+        for (std::size_t packet = 0; packet < full.size(); ++packet) {
+            deviation[packet] += some[packet] - full[packet];
+            squares[packet] += (some[packet] - full[packet]) * (some[packet] - full[packet]);
+        }
+    }
+    for (std::size_t packet = 0; packet < full.size(); ++packet) {
+        const double mean = deviation[packet] / kSeeds;
+        const double error = std::sqrt((squares[packet] / kSeeds - mean * mean) / (kSeeds - 1));
+        result.expect(std::abs(mean) <= kMostErrors * error + 1e-6 * full[packet]);
+    }
+}
+
+}  // namespace
+
+void check_roulette(Device& device, CheckResult& result) {
+    const RouletteCase data = make_case(device);
+    check_choices(device, data, result);
+    check_expectation(device, data, result);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_io.h"
+#include "tests/cli/run_program.h"
+#include "tests/cli/small_scene.h"
+#include "tests/support/device_required.h"
+
+namespace nearlight {
+namespace {
+
+class Render : public testing::Test {
+  protected:
+    Render() {
+        std::ofstream(scene_) << floor_and_wall(
+            R"(<shape type="sphere"><point name="center" x="0.3" y="0" z="0.3"/><float name="radius" value="0.3"/>
+  <bsdf type="diffuse"><rgb name="reflectance" value="0.6, 0.6, 0.6"/></bsdf></shape>)");
+    }
+    /// Renders to `output` with further options.
+    [[nodiscard]] ProgramResult render(const std::string& options,
+                                       const std::filesystem::path& output) const {
+        return run_program("render --json --vpls 100 --spp 2 " + options + " " + quoted(scene_) + " -o " +
+                           quoted(output));
+    }
+    [[nodiscard]] nlohmann::json rendered(const std::string& options,
+                                          const std::filesystem::path& output) const {
+        const ProgramResult result = render(options, output);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return nlohmann::json::parse(result.output);
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path scene_ = folder_ / "scene.xml";
+    std::filesystem::path output_ = folder_ / "picture.exr";
+};
+
+TEST_F(Render, BothTreesGiveTheSamePicture) {
+    NEARLIGHT_NEEDS_DEVICE();
+    EXPECT_EQ(rendered("--bvh fast", folder_ / "fast.exr")["bvh"], "fast");
+    EXPECT_EQ(rendered("--bvh quality", folder_ / "quality.exr")["bvh"], "quality");
+    EXPECT_EQ(rendered("", output_)["bvh"], "quality");
+    const Image fast = read_image(folder_ / "fast.exr");
+    const Image quality = read_image(folder_ / "quality.exr");
+    ASSERT_EQ(fast.values.size(), quality.values.size());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < fast.values.size(); ++i) {
+        different +=
+            std::abs(fast.values[i] - quality.values[i]) > 1e-4f * std::abs(quality.values[i]) + 1e-6f;
+    }
+    // A ray through an edge that two triangles share may meet either.
+    EXPECT_LE(different, fast.values.size() / 200);
+}
+
+TEST_F(Render, AnUnknownTreeIsAnsweredWithTheKnownOnes) {
+    const ProgramResult result = render("--bvh slow", output_);
+    EXPECT_EQ(result.exit_code, 2);
+    for (const char* word : {"--bvh", "slow", "fast", "quality"}) {
+        EXPECT_NE(result.errors.find(word), std::string::npos) << result.errors;
+    }
+    EXPECT_FALSE(std::filesystem::exists(output_));
+}
+
+TEST_F(Render, PassesAreCountedInJsonAndInTheFile) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const nlohmann::json plain = rendered("", folder_ / "plain.exr");
+    const nlohmann::json one = rendered("--passes 1", folder_ / "one.exr");
+    EXPECT_EQ(plain["passes"], 1);
+    EXPECT_EQ(one["image_hash"], plain["image_hash"]);
+    const nlohmann::json three = rendered("--passes 3", output_);
+    EXPECT_EQ(three["passes"], 3);
+    EXPECT_EQ(three["vpls"]["requested"], 100);
+    const auto gathered = [](const nlohmann::json& json) {
+        return json["vpls"]["close"].get<double>() + json["vpls"]["distant"].get<double>();
+    };
+    EXPECT_NEAR(gathered(three), 3 * gathered(plain), 0.3 * gathered(plain));
+    EXPECT_NE(three["image_hash"], plain["image_hash"]);
+    const Metadata metadata = read_metadata(output_);
+    EXPECT_EQ(metadata.at("nearlight:passes"), Metadata::mapped_type{3});
+    EXPECT_EQ(metadata.at("nearlight:vpls"), Metadata::mapped_type{static_cast<int>(gathered(three))});
+    // Same passes, same bits.
+    EXPECT_EQ(rendered("--passes 3", output_)["image_hash"], three["image_hash"]);
+}
+
+TEST_F(Render, TimeEndsThePasses) {
+    NEARLIGHT_NEEDS_DEVICE();
+    EXPECT_EQ(rendered("--time 0", output_)["passes"], 1);
+    EXPECT_EQ(rendered("--time 1000 --passes 2", output_)["passes"], 2);
+}
+
+TEST_F(Render, AnInterruptedOneSavesItsPasses) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const auto passes = [](const ProgramResult& result) {
+        return result.output.empty() ? 0 : nlohmann::json::parse(result.output)["passes"].get<int>();
+    };
+    const ProgramResult result =
+        run_interrupted("render --json --passes 1000000 " + quoted(scene_) + " -o " + quoted(output_), 2,
+                        [&](const ProgramResult& ended) { return passes(ended) > 1; });
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_EQ(nlohmann::json::parse(result.output)["interrupted"], true);
+    const Image image = read_image(output_);
+    EXPECT_EQ(read_metadata(output_).at("nearlight:passes"), Metadata::mapped_type{passes(result)});
+    const auto green = static_cast<std::size_t>(image.find_channel("G"));
+    EXPECT_GT(image.at(32, 24, green), 0.0f) << "the first pass is whole";
+}
+
+TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
+    for (const char* options : {"--passes 0", "--passes many", "--time -1", "--time soon"}) {
+        EXPECT_EQ(render(options, output_).exit_code, 2) << options;
+    }
+}
+
+}  // namespace
+}  // namespace nearlight
