@@ -9,10 +9,19 @@
 //   squared 1: the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by chance, the
 //   error of the picture is least when the probabilities follow this. The importons' powers are squares, and
 //   they are marked so.
+// `vpl_group_contribution` keeps the three channels, for one group of importons (a part of the picture) at a
+// time:
+//   Σ response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
 //
 // One work-item a VPL, from the importance that arrived and its power to luminance; any work-group size.
 
 #include "lib/math.cl"
+
+inline float3 arrived_importance(const global IrradiancePacket* importance, uint vpl) {
+    const global IrradiancePacket* packet = importance + vpl / NEARLIGHT_PACKET_SIZE;
+    const uint lane = vpl % NEARLIGHT_PACKET_SIZE;
+    return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
+}
 
 kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
                              const global IrradiancePacket* restrict importance, uint squared,
@@ -21,10 +30,19 @@ kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
     if (index >= vpl_count) {
         return;
     }
-    const global IrradiancePacket* packet = importance + index / NEARLIGHT_PACKET_SIZE;
-    const uint lane = index % NEARLIGHT_PACKET_SIZE;
-    const float3 arrived = (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
+    const float3 arrived = arrived_importance(importance, index);
     const float3 power = load3(vpls[index].power);
     contribution[index] =
         squared ? sqrt(dot(arrived, power * power)) * M_1_PI_F : luminance(arrived * power) * M_1_PI_F;
+}
+
+kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_count,
+                                   const global IrradiancePacket* restrict importance, uint group,
+                                   uint group_count, global float* restrict contribution) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= vpl_count) {
+        return;
+    }
+    const float3 brought = arrived_importance(importance, index) * load3(vpls[index].power) * M_1_PI_F;
+    vstore3(brought, (size_t)index * group_count + group, contribution);
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "host/base/math.h"
+#include "host/samplers/balanced_choice.h"
 
 namespace nearlight {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr double kBlindPart = 0.1;
 /// Candidates on the device at a time, so that device memory stays small.
 constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
+/// The same where a row of numbers is kept of each.
+constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 14u;
 
 /// Adds to `weights`, which sum up to something else than 0 unless the view sees none of the candidates.
 void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
@@ -48,6 +51,30 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
     }
     add_blind_part(candidates, weights);
     return weights;
+}
+
+Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
+                       std::span<const float> weights, std::size_t wanted, Pcg32 random) {
+    const Probabilities probabilities = choice_probabilities(weights, wanted);
+    std::vector<uint> order = stages.vpl_order.order(candidates);
+    std::erase_if(order, [&](uint index) { return probabilities.of[index] <= 0; });
+    const std::size_t row_length = 3 * task.view.importon_groups.size();
+    BalancedChoice choice(row_length, probabilities.tau, random);
+    for (std::size_t first = 0; first < order.size(); first += kMostRowsInChunk) {
+        const std::span part =
+            std::span(order).subspan(first, std::min(kMostRowsInChunk, order.size() - first));
+        std::vector<Vpl> vpls;
+        vpls.reserve(part.size());
+        std::ranges::transform(part, std::back_inserter(vpls), [&](uint index) { return candidates[index]; });
+        const std::vector<float> rows = stages.vpl_contribution.by_group(
+            task.scene, Buffer<Vpl>(stages.device, std::span<const Vpl>(vpls)), vpls.size(), task.view,
+            task.clamp_radius);
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            choice.offer(part[i], probabilities.of[part[i]],
+                         std::span(rows).subspan(i * row_length, row_length));
+        }
+    }
+    return choice.finish();
 }
 
 }  // namespace nearlight

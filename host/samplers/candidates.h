@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "host/base/random.h"
+#include "host/samplers/resampling.h"
 #include "host/samplers/sampler.h"
 
 namespace nearlight {
@@ -14,5 +16,11 @@ namespace nearlight {
 /// even where the sample of the view does not see it.
 std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& task,
                                   std::span<const Vpl> candidates, ContributionNorm norm);
+
+/// Draws `wanted` of the candidates in proportion to `weights`, those together that bring to every part of
+/// the picture what all would (balanced_choice.h), along the Morton curve. As with resample(), each counts 1
+/// / its probability.
+Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
+                       std::span<const float> weights, std::size_t wanted, Pcg32 random);
 
 }  // namespace nearlight

@@ -20,8 +20,9 @@
 // carries in the end.
 //
 // Choice. VPLs are drawn from all candidates in proportion to the error each would leave in the picture
-// (ContributionNorm::mean_square), by systematic resampling along the Morton curve. The split between close
-// and distant follows by itself. Each is divided by the probability that it was really chosen with: unbiased.
+// (ContributionNorm::mean_square), and those together that bring to each of several dozen parts of the
+// picture what all candidates would (balanced_choice.h). The split between close and distant follows by
+// itself. Each is divided by the probability that it was really chosen with: unbiased.
 //
 // Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
 // larger sparse set, and short paths for what the bounded gather leaves out.
@@ -57,7 +58,8 @@ constexpr float kAmbientShare = 0.3f;
 /// camera's points are too few to meet every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
 constexpr uint kRoughSeed = 0x20060u;
-constexpr uint kResamplingStream = 0x5e1ec7u;
+constexpr uint kChoiceStream = 0x5e1ec7u;
+constexpr uint kDistantChoiceStream = 0x5e1ec8u;
 constexpr uint kScreeningStream = 0x5c4ee7u;
 
 bool is_close(const Vpl& vpl) {
@@ -144,10 +146,10 @@ std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> ro
 }
 
 /// Draws task.vpl_count candidates; close and distant ones apart where the user gave the split.
-Choice choose(const SamplingTask& task, std::span<const Vpl> lit, std::span<const float> weights) {
-    Pcg32 random(task.seed, kResamplingStream);
+Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> lit,
+              std::span<const float> weights) {
     if (!task.close_fraction) {
-        return resample(weights, task.vpl_count, random.uniform());
+        return choose_balanced(stages, task, lit, weights, task.vpl_count, Pcg32(task.seed, kChoiceStream));
     }
     const auto close_count =
         static_cast<std::size_t>(std::lround(*task.close_fraction * static_cast<float>(task.vpl_count)));
@@ -157,9 +159,11 @@ Choice choose(const SamplingTask& task, std::span<const Vpl> lit, std::span<cons
         (is_close(lit[i]) ? close : distant)[i] = weights[i];
     }
     // Neither side may be empty, or its light would be lost.
-    Choice choice = resample(close, std::max<std::size_t>(close_count, 1), random.uniform());
+    const Choice choice = choose_balanced(stages, task, lit, close, std::max<std::size_t>(close_count, 1),
+                                          Pcg32(task.seed, kChoiceStream));
     const Choice rest =
-        resample(distant, std::max<std::size_t>(task.vpl_count - close_count, 1), random.uniform());
+        choose_balanced(stages, task, lit, distant, std::max<std::size_t>(task.vpl_count - close_count, 1),
+                        Pcg32(task.seed, kDistantChoiceStream));
     // Patches come first among the candidates, and must among the chosen.
     std::vector<std::pair<uint, float>> merged;
     for (const Choice& part : {choice, rest}) {
@@ -168,12 +172,12 @@ Choice choose(const SamplingTask& task, std::span<const Vpl> lit, std::span<cons
         }
     }
     std::ranges::sort(merged);
-    choice = {};
+    Choice both;
     for (const auto& [index, factor] : merged) {
-        choice.indices.push_back(index);
-        choice.factors.push_back(factor);
+        both.indices.push_back(index);
+        both.factors.push_back(factor);
     }
-    return choice;
+    return both;
 }
 
 /// The chosen VPLs; the patches among them, which come first, still without light.
@@ -227,7 +231,7 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     const std::vector<float> share = shares(candidates, rough);
     const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
     const Choice choice =
-        choose(task, lit, selection_weights(stages, task, lit, ContributionNorm::mean_square));
+        choose(stages, task, lit, selection_weights(stages, task, lit, ContributionNorm::mean_square));
 
     VplSet set;
     set.vpls = chosen_vpls(candidates, share, choice);

@@ -39,23 +39,30 @@ double threshold(std::span<const float> weights, std::size_t wanted) {
 
 }  // namespace
 
-Choice resample(std::span<const float> weights, std::size_t wanted, double shift) {
-    Choice choice;
+Probabilities choice_probabilities(std::span<const float> weights, std::size_t wanted) {
+    Probabilities result{.of = std::vector<double>(weights.size())};
     if (wanted == 0) {
-        return choice;
+        return result;
     }
-    const double tau = threshold(weights, wanted);
+    result.tau = threshold(weights, wanted);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (usable(weights[i])) {
+            result.of[i] = weights[i] < result.tau ? weights[i] / result.tau : 1.0;
+        }
+    }
+    return result;
+}
+
+Choice resample(std::span<const float> weights, std::size_t wanted, double shift) {
+    const std::vector<double> probabilities = choice_probabilities(weights, wanted).of;
+    Choice choice;
     double sum = 0;
     double next_point = shift;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (!usable(weights[i])) {
-            continue;
-        }
-        const double probability = weights[i] < tau ? weights[i] / tau : 1.0;
-        sum += probability;
+    for (std::size_t i = 0; i < probabilities.size(); ++i) {
+        sum += probabilities[i];
         if (sum > next_point) {
             choice.indices.push_back(static_cast<uint>(i));
-            choice.factors.push_back(static_cast<float>(1.0 / probability));
+            choice.factors.push_back(static_cast<float>(1.0 / probabilities[i]));
             next_point += 1.0;
         }
     }

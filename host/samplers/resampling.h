@@ -15,6 +15,14 @@ struct Choice {
     std::vector<float> factors;
 };
 
+/// p_i = min(1, weight_i / τ) for each weight, τ such that they add up to `wanted`, or to as many as there
+/// are; 0 for weights that are not positive (or not finite).
+struct Probabilities {
+    std::vector<double> of;
+    double tau = 0;  ///< 0: all are chosen for certain
+};
+Probabilities choice_probabilities(std::span<const float> weights, std::size_t wanted);
+
 /// Systematic resampling without repeats: candidate i is chosen with probability p_i = min(1, weight_i / τ),
 /// τ such that `wanted` are chosen in expectation, by equidistant points with one random shift over the
 /// running sum of p, so that neighbours share their points evenly: order candidates along a curve. Its factor

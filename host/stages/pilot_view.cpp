@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/base/receivers.h"
 #include "host/scene/pinhole_camera.h"
+#include "host/stages/importon_groups.h"
 
 namespace nearlight {
 namespace {
 
 constexpr double kPixelCount = 1024;
-/// They only steer a choice, and are asked by many candidates.
-constexpr std::size_t kSquaredImportons = 512;
+/// They only steer a choice, and are asked by many candidates (bench/RESULTS.md).
+constexpr std::size_t kSquaredImportons = 1024;
 constexpr std::size_t kFewSquaredImportons = 32;
+constexpr std::size_t kImportonGroups = 64;
 
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
     std::vector<float> distances;
@@ -30,17 +33,37 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
     return distances;
 }
 
-/// `wanted` of them, evenly spread, squared.
-Importons squared_importons(Device& device, std::span<const Vpl> importons, std::size_t wanted) {
+/// `wanted` of them, evenly spread.
+std::vector<Vpl> some_of(std::span<const Vpl> importons, std::size_t wanted) {
     const std::size_t count = std::min(importons.size(), wanted);
-    std::vector<Vpl> squared;
+    std::vector<Vpl> some;
     for (std::size_t i = 0; i < count; ++i) {
-        Vpl importon = importons[i * importons.size() / count];
+        some.push_back(importons[i * importons.size() / count]);
+    }
+    return some;
+}
+
+Importons upload(Device& device, std::span<const Vpl> importons) {
+    return {.vpls = Buffer<Vpl>(device, importons), .count = importons.size()};
+}
+
+Importons squared(Device& device, std::vector<Vpl> importons) {
+    for (Vpl& importon : importons) {
         importon.power = importon.power * importon.power * (1.0f / kPi);
         importon.flags = NEARLIGHT_VPL_SQUARED;
-        squared.push_back(importon);
     }
-    return {.vpls = Buffer<Vpl>(device, std::span<const Vpl>(squared)), .count = count};
+    return upload(device, importons);
+}
+
+std::vector<Importons> grouped(Device& device, std::vector<Vpl> importons) {
+    std::vector<Importons> groups;
+    for (std::vector<Vpl>& group : group_importons(std::move(importons), kImportonGroups)) {
+        for (Vpl& importon : group) {
+            importon.power *= 1.0f / std::sqrt(static_cast<float>(group.size()));
+        }
+        groups.push_back(upload(device, group));
+    }
+    return groups;
 }
 
 }  // namespace
@@ -64,9 +87,10 @@ std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
 }
 
 void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons) {
-    view.importons = {.vpls = Buffer<Vpl>(device, importons), .count = importons.size()};
-    view.squared_importons = squared_importons(device, importons, kSquaredImportons);
-    view.few_squared_importons = squared_importons(device, importons, kFewSquaredImportons);
+    view.importons = upload(device, importons);
+    view.squared_importons = squared(device, some_of(importons, kSquaredImportons));
+    view.few_squared_importons = squared(device, some_of(importons, kFewSquaredImportons));
+    view.importon_groups = grouped(device, some_of(importons, kSquaredImportons));
 }
 
 const Importons& PilotView::importons_of(ContributionNorm norm) const {

@@ -32,6 +32,9 @@ struct PilotView {
     Importons importons;
     Importons squared_importons;      ///< some of them
     Importons few_squared_importons;  ///< still fewer, evenly spread too
+    /// As many as the squared ones, by parts of the picture. Powers are divided by the root of a group's
+    /// size, so that squares of sums over a group compare with sums of squares.
+    std::vector<Importons> importon_groups;
     std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
 
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;
@@ -41,7 +44,7 @@ struct PilotView {
 std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
                                 const std::vector<CameraVertex>& vertices);
 
-/// Uploads them, and the squares of some.
+/// Uploads them, the squares of some, and groups.
 void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons);
 
 /// About a thousand receivers, evenly spread over the view.

@@ -28,16 +28,24 @@ class VplOrder {
         return sorted;
     }
 
-    /// The same order on the host: only positions are on the device meanwhile, so many more of them fit.
-    std::vector<Vpl> sorted(std::span<const Vpl> vpls) {
+    /// The indices in that order. Only positions are on the device meanwhile, so many more of them fit.
+    std::vector<uint> order(std::span<const Vpl> vpls) {
+        if (vpls.empty()) {
+            return {};
+        }
         std::vector<Vec3> positions;
         positions.reserve(vpls.size());
         std::ranges::transform(vpls, std::back_inserter(positions), &Vpl::position);
-        Buffer<uint> order(*device_, vpls.size());
-        morton_sort_.order(Buffer<Vec3>(*device_, std::span<const Vec3>(positions)), vpls.size(), order);
+        Buffer<uint> indices(*device_, vpls.size());
+        morton_sort_.order(Buffer<Vec3>(*device_, std::span<const Vec3>(positions)), vpls.size(), indices);
+        return indices.download();
+    }
+
+    /// The same order on the host.
+    std::vector<Vpl> sorted(std::span<const Vpl> vpls) {
         std::vector<Vpl> result;
         result.reserve(vpls.size());
-        for (const uint index : order.download()) {
+        for (const uint index : order(vpls)) {
             result.push_back(vpls[index]);
         }
         return result;

@@ -81,5 +81,35 @@ TEST_F(VplContributionTest, IsTheColumnNormOfAPlainLoop) {
     });
 }
 
+TEST_F(VplContributionTest, GroupsAddUpToThePicture) {
+    test::GatherCase data = test::room_of_boxes(30, 70, 4, 2);
+    data.scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
+    const std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
+    on_each_device([&](Device& device) {
+        const test::SceneOnDevice on_device(device, data.scene);
+        PilotView view;
+        set_importons(device, view, make_importons(data.receivers, vertices));
+        ASSERT_GT(view.importon_groups.size(), 8u);
+        Gatherer gatherer(device);
+        const std::size_t vpl_count = data.vpls.size();
+        const std::vector<float> rows = VplContribution(device, gatherer)
+                                            .by_group(on_device.buffers, Buffer<Vpl>(device, data.vpls),
+                                                      vpl_count, view, data.clamp_radius);
+        const std::size_t row_length = 3 * view.importon_groups.size();
+        ASSERT_EQ(rows.size(), vpl_count * row_length);
+        for (std::size_t v = 0; v < vpl_count; ++v) {
+            Vec3 sum{};
+            for (std::size_t group = 0; group < view.importon_groups.size(); ++group) {
+                const float* brought = rows.data() + v * row_length + 3 * group;
+                const float scale = std::sqrt(static_cast<float>(view.importon_groups[group].count));
+                sum += scale * Vec3{brought[0], brought[1], brought[2]};
+            }
+            const double expected =
+                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean);
+            EXPECT_NEAR(luminance(sum), expected, 1e-4 * expected) << "VPL " << v;
+        }
+    });
+}
+
 }  // namespace
 }  // namespace nearlight

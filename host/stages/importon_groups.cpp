@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/importon_groups.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "host/base/math.h"
+
+namespace nearlight {
+namespace {
+
+/// How far apart opposite normals are, as a part of the extent of all positions.
+constexpr float kNormalDistance = 0.5f;
+
+using Key = std::array<float, 6>;
+
+Key key_of(const Vpl& importon, float normal_scale) {
+    const Vec3 n = normal_scale * importon.normal;
+    return {importon.position.x, importon.position.y, importon.position.z, n.x, n.y, n.z};
+}
+
+struct Spread {
+    Key low, high;
+    Key extent{};
+};
+
+Spread spread_of(std::span<const Vpl> importons, float normal_scale) {
+    Spread spread;
+    spread.low.fill(std::numeric_limits<float>::infinity());
+    spread.high.fill(-std::numeric_limits<float>::infinity());
+    for (const Vpl& importon : importons) {
+        const Key key = key_of(importon, normal_scale);
+        for (std::size_t axis = 0; axis < key.size(); ++axis) {
+            spread.low[axis] = std::min(spread.low[axis], key[axis]);
+            spread.high[axis] = std::max(spread.high[axis], key[axis]);
+            spread.extent[axis] = spread.high[axis] - spread.low[axis];
+        }
+    }
+    return spread;
+}
+
+void split(std::span<Vpl> importons, std::size_t wanted, float normal_scale,
+           std::vector<std::vector<Vpl>>& groups) {
+    if (wanted == 1) {
+        groups.emplace_back(importons.begin(), importons.end());
+        return;
+    }
+    const Key extent = spread_of(importons, normal_scale).extent;
+    const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
+    const std::size_t wanted_below = wanted / 2;
+    const std::size_t below = importons.size() * wanted_below / wanted;
+    std::ranges::nth_element(importons, importons.begin() + static_cast<std::ptrdiff_t>(below), {},
+                             [&](const Vpl& importon) { return key_of(importon, normal_scale)[axis]; });
+    split(importons.first(below), wanted_below, normal_scale, groups);
+    split(importons.subspan(below), wanted - wanted_below, normal_scale, groups);
+}
+
+}  // namespace
+
+std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::size_t wanted) {
+    std::vector<std::vector<Vpl>> groups;
+    const Key extent = spread_of(importons, 0.0f).extent;
+    const float diagonal = length({extent[0], extent[1], extent[2]});
+    if (!importons.empty() && wanted > 0) {
+        split(importons, std::min(wanted, importons.size()), 0.5f * kNormalDistance * diagonal, groups);
+    }
+    return groups;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of the picture: importons that are near one another and face alike.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernels/shared/types.h"
+
+namespace nearlight {
+
+/// Splits them into `wanted` groups of nearly equal size (fewer if there are fewer importons; none is empty),
+/// again and again at the median of what spreads most, position or normal.
+std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::size_t wanted);
+
+}  // namespace nearlight
