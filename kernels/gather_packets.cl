@@ -53,7 +53,7 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle*
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
         if (packet < bundle->count) {
-            global IrradiancePacket* to = irradiance + bundle_packet(bundle, packet);
+            global IrradiancePacket* to = irradiance + bundle->first + packet;
             to->r[lane] = ((const float*)sum->r)[i] + (replace ? 0.0f : to->r[lane]);
             to->g[lane] = ((const float*)sum->g)[i] + (replace ? 0.0f : to->g[lane]);
             to->b[lane] = ((const float*)sum->b)[i] + (replace ? 0.0f : to->b[lane]);
@@ -70,8 +70,7 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
         const bool open = ((const float*)s->t_max)[i] > 0.0f;
         if (packet < bundle->count) {
-            global uchar* pair =
-                record + gather_record_index(bundle_packet(bundle, packet), vpl, vpl_count, lane);
+            global uchar* pair = record + gather_record_index(bundle->first + packet, vpl, vpl_count, lane);
             *pair = before ? (open ? GATHER_RECORD_VISIBLE : 0)
                            : (*pair != 0 && !open ? GATHER_RECORD_OCCLUDED : *pair);
         }
@@ -86,12 +85,12 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 /// from 0.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* packets, BUNDLE_PARAMETERS, uint first_bundle, uint end_bundle,
-    float clamp_radius_squared,
+    uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
-    const Bundle bundle = bundle_at(index, BUNDLE_ARGUMENTS);
+    const Bundle bundle = bundle_at(index, packet_count, run_packets);
     const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
     if (index >= end_bundle || first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
         return;

@@ -23,18 +23,18 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
 /// end_vpl). Chunks and launches as in gather_packets.
 kernel void gather_rays(
     const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* receivers, BUNDLE_PARAMETERS, uint first_bundle,
-    uint end_bundle, float clamp_radius_squared,
+    uint end_vpl, const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
     const uint index = first_bundle + item / NEARLIGHT_PACKET_SIZE / NEARLIGHT_BUNDLE_PACKETS;
     const uint member = item / NEARLIGHT_PACKET_SIZE % NEARLIGHT_BUNDLE_PACKETS;
-    const Bundle bundle = bundle_at(index, BUNDLE_ARGUMENTS);
+    const Bundle bundle = bundle_at(index, packet_count, run_packets);
     if (index >= end_bundle || member >= bundle.count) {
         return;
     }
-    const uint packet = bundle_packet(&bundle, member);
+    const uint packet = bundle.first + member;
     const global ReceiverPacket* from = receivers + packet;
     const float3 position = receiver_position(from, lane);
     const float3 normal = receiver_normal(from, lane);

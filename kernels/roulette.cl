@@ -48,7 +48,7 @@ inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* 
                             float clamp_radius_squared) {
     float16 squares = (float16)0.0f;
     for (uint i = 0; i < bundle->count; ++i) {
-        squares += squares_of_packet(vpl, packets + bundle_packet(bundle, i), clamp_radius_squared);
+        squares += squares_of_packet(vpl, packets + bundle->first + i, clamp_radius_squared);
     }
     return sqrt(sum_of_lanes(squares) / (float)(max(bundle->count, 1u) * NEARLIGHT_PACKET_SIZE));
 }
@@ -57,15 +57,16 @@ inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* 
 /// the bundle, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of
 /// `run_length` VPLs of each bundle of [first_bundle, end_bundle).
 kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_length,
-                            const global ReceiverPacket* receivers, BUNDLE_PARAMETERS, uint first_bundle,
-                            uint end_bundle, float clamp_radius_squared, global float* bounds) {
+                            const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+                            uint first_bundle, uint end_bundle, float clamp_radius_squared,
+                            global float* bounds) {
     const uint runs = (vpl_count + run_length - 1) / run_length;
     const uint item = (uint)get_global_id(0);
     const uint listed = item / runs;
     if (listed >= end_bundle - first_bundle) {
         return;
     }
-    const Bundle bundle = bundle_at(first_bundle + listed, BUNDLE_ARGUMENTS);
+    const Bundle bundle = bundle_at(first_bundle + listed, packet_count, run_packets);
     const uint first = item % runs * run_length;
     for (uint i = first; i < min(first + run_length, vpl_count); ++i) {
         const float3 scale = gather_scale(vpls + i);
@@ -79,7 +80,7 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_len
 inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed) {
     uint4 key = (uint4)(seed, 0x726f756cu, 0, 0);
     for (uint i = 0; i < bundle->count; ++i) {
-        const global ReceiverPacket* packet = packets + bundle_packet(bundle, i);
+        const global ReceiverPacket* packet = packets + bundle->first + i;
         for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
             key ^= (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]),
                            lane);
@@ -107,14 +108,14 @@ inline float roulette_limit(const global float* bounds, uint count, float thresh
 /// counts[bundle]) of `chosen` and `weights`, bundles counted from first_bundle as in `bounds`. One work-item
 /// a bundle.
 kernel void roulette_choose(const global float* bounds, uint vpl_count,
-                            const global ReceiverPacket* receivers, BUNDLE_PARAMETERS, uint first_bundle,
-                            uint end_bundle, float threshold, uint seed, global uint* chosen,
-                            global float* weights, global uint* counts) {
+                            const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+                            uint first_bundle, uint end_bundle, float threshold, uint seed,
+                            global uint* chosen, global float* weights, global uint* counts) {
     const uint listed = (uint)get_global_id(0);
     if (listed >= end_bundle - first_bundle) {
         return;
     }
-    const Bundle bundle = bundle_at(first_bundle + listed, BUNDLE_ARGUMENTS);
+    const Bundle bundle = bundle_at(first_bundle + listed, packet_count, run_packets);
     const size_t first = (size_t)listed * vpl_count;
     const float limit = roulette_limit(bounds + first, vpl_count, threshold);
     float sum = bundle_number(receivers, &bundle, seed);

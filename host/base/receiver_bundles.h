@@ -4,47 +4,33 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 
 #include "kernels/shared/types.h"
 
 namespace nearlight {
 
-/// Rows of tiles of packets, tile by tile. A bundle is packet i of up to NEARLIGHT_BUNDLE_PACKETS tiles that
-/// follow one another in a row, so that no division of a picture into bands of rows or batches of samples
-/// divides a bundle.
+/// Packets in runs of the same length. A bundle is up to NEARLIGHT_BUNDLE_PACKETS of a run that follow one
+/// another, counted from the run's first, so that where a picture is cut between runs, or in a run after a
+/// multiple of so many, the bundles are the same.
 struct BundleLayout {
-    uint packet_count = 0;  ///< of all rows; the last row may be incomplete
-    uint tile_packets = 1;
-    uint row_tiles = 1;
-
-    /// So many packets that are simply taken in their order.
-    static constexpr BundleLayout in_order(std::size_t packet_count) {
-        const auto count = static_cast<uint>(packet_count);
-        return {count, 1, std::max(count, 1u)};
-    }
+    uint packet_count = 0;  ///< of all runs; the last may be incomplete
+    uint run_packets = 1;   ///< at least 1
 
     struct Bundle {
         uint first = 0;
-        uint stride = 1;
-        uint count = 0;  ///< may be 0 in an incomplete row
+        uint count = 0;  ///< packets; may be 0 in an incomplete run
     };
-    [[nodiscard]] constexpr uint row_bundles() const {
-        return (row_tiles + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS * tile_packets;
+    [[nodiscard]] constexpr uint run_bundles() const {
+        return (run_packets + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;
     }
     [[nodiscard]] constexpr uint bundle_count() const {
-        const uint row_packets = row_tiles * tile_packets;
-        return (packet_count + row_packets - 1) / row_packets * row_bundles();
+        return (packet_count + run_packets - 1) / run_packets * run_bundles();
     }
     [[nodiscard]] constexpr Bundle bundle(uint index) const {
-        const uint row = index / row_bundles();
-        const uint tile = index % row_bundles() / tile_packets * NEARLIGHT_BUNDLE_PACKETS;
-        const uint end_tile = std::min<uint>(row_tiles, tile + NEARLIGHT_BUNDLE_PACKETS);
-        Bundle result{(row * row_tiles + tile) * tile_packets + index % tile_packets, tile_packets, 0};
-        while (tile + result.count < end_tile && result.first + result.count * tile_packets < packet_count) {
-            ++result.count;
-        }
-        return result;
+        const uint run = index / run_bundles() * run_packets;
+        const uint first = run + index % run_bundles() * NEARLIGHT_BUNDLE_PACKETS;
+        const uint end = std::min({first + NEARLIGHT_BUNDLE_PACKETS, run + run_packets, packet_count});
+        return {first, end > first ? end - first : 0};
     }
 };
 

@@ -57,8 +57,7 @@ bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress
                                     .clamp_radius = picture_.view.clamp_radius,
                                     .roulette = picture_.settings.roulette,
                                     .seed = picture_.settings.seed,
-                                    .tile_packets = batch.sample_count * batch.branch_count,
-                                    .row_tiles = (width + 7) / 8},
+                                    .run_packets = picture_.plan.run_packets(batch, width)},
                                    buffers_.indirect, progress);
 }
 

@@ -15,9 +15,7 @@ namespace {
 constexpr float kClampRadius = 0.05f;
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
-// Of the 20 packets: two rows, with bundles of 4 and of 1 in each.
-constexpr uint kTilePackets = 2;
-constexpr uint kRowTiles = 5;
+constexpr uint kRunPackets = 5;  // of 20: bundles of 4 and of 1
 /// Standard errors that chance does not reach in thousands of cases.
 constexpr double kMostErrors = 5.5;
 
@@ -37,8 +35,7 @@ struct RouletteCase {
                 .clamp_radius = kClampRadius,
                 .roulette = roulette,
                 .seed = seed,
-                .tile_packets = kTilePackets,
-                .row_tiles = kRowTiles};
+                .run_packets = kRunPackets};
     }
 };
 

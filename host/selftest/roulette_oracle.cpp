@@ -27,7 +27,7 @@ double bound(const Vpl& vpl, std::span<const ReceiverPacket> receivers, const Bu
              float clamp_radius) {
     double squares = 0;
     for (uint i = 0; i < bundle.count; ++i) {
-        const ReceiverPacket& packet = receivers[bundle.first + i * bundle.stride];
+        const ReceiverPacket& packet = receivers[bundle.first + i];
         for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
             const double term = open_term(vpl, receiver_at(packet, lane), clamp_radius);
             squares += term * term;

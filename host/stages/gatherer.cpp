@@ -117,7 +117,7 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
     const auto launch_on = [&](std::size_t local_size, const auto& nodes, const auto& triangles) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
                       static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
-                      layout.tile_packets, layout.row_tiles, static_cast<cl_uint>(part.first_bundle),
+                      layout.run_packets, static_cast<cl_uint>(part.first_bundle),
                       static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
                       irradiance, more...);
     };

@@ -2,6 +2,7 @@
 // The gather: irradiance that a VPL set sends to receivers, with visibility tested for every pair.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -38,17 +39,14 @@ struct GatherInput {
     /// same.
     float roulette = 0.0f;
     uint seed = 0;  ///< of the roulette
-    /// Where a picture's receivers are gathered with roulette, how they lie (BundleLayout): the result
-    /// depends on which receivers decide together. 0: all in their order.
-    uint tile_packets = 0;
-    uint row_tiles = 0;
+    /// Packets of which roulette's bundles are formed together (BundleLayout): the result depends on which
+    /// receivers decide together. 0: all of them.
+    uint run_packets = 0;
 
-    /// What goes through the tree together. Without roulette that is the packets in their order, which are
-    /// nearest to each other; the result does not depend on it.
+    /// What goes through the tree together. Without roulette runs do not matter to the result.
     [[nodiscard]] BundleLayout bundles() const {
-        return roulette > 0.0f && tile_packets > 0
-                   ? BundleLayout{static_cast<uint>(packet_count), tile_packets, row_tiles}
-                   : BundleLayout::in_order(packet_count);
+        const auto count = static_cast<uint>(packet_count);
+        return {count, roulette > 0.0f && run_packets > 0 ? run_packets : std::max(count, 1u)};
     }
 };
 

@@ -41,11 +41,11 @@ const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t firs
     const auto end = static_cast<uint>(end_bundle);
     const uint run = device_->is_cpu() ? kCpuRun : 1;
     bounds_kernel_.launch_items(bundles * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
-                                task.receivers, layout.packet_count, layout.tile_packets, layout.row_tiles,
-                                first, end, task.clamp_radius * task.clamp_radius, bounds_);
+                                task.receivers, layout.packet_count, layout.run_packets, first, end,
+                                task.clamp_radius * task.clamp_radius, bounds_);
     choose_kernel_.launch_items(bundles, bounds_, vpl_count, task.receivers, layout.packet_count,
-                                layout.tile_packets, layout.row_tiles, first, end, task.threshold, task.seed,
-                                lists_.vpls, lists_.weights, lists_.counts);
+                                layout.run_packets, first, end, task.threshold, task.seed, lists_.vpls,
+                                lists_.weights, lists_.counts);
     return lists_;
 }
 

@@ -6,29 +6,19 @@
 
 #include "shared/types.h"
 
-/// `count` packets, each `stride` after the one before; 0: none.
+/// `count` packets that follow one another; 0: none.
 typedef struct Bundle {
-    uint first, stride, count;
+    uint first, count;
 } Bundle;
 
-/// The packets are rows of `row_tiles` tiles of `tile_packets` packets; the last row may be incomplete.
-#define BUNDLE_PARAMETERS uint packet_count, uint tile_packets, uint row_tiles
-#define BUNDLE_ARGUMENTS packet_count, tile_packets, row_tiles
-
-inline Bundle bundle_at(uint index, BUNDLE_PARAMETERS) {
-    const uint row_bundles =
-        (row_tiles + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS * tile_packets;
-    const uint row = index / row_bundles;
-    const uint tile = index % row_bundles / tile_packets * NEARLIGHT_BUNDLE_PACKETS;
-    const uint first = (row * row_tiles + tile) * tile_packets + index % tile_packets;
-    const uint there = first < packet_count ? (packet_count - first + tile_packets - 1) / tile_packets : 0;
-    const Bundle bundle = {first, tile_packets,
-                           min(min(row_tiles - tile, there), (uint)NEARLIGHT_BUNDLE_PACKETS)};
+/// Bundle number `index` of packets that come in runs of `run_packets`; the last run may be incomplete.
+inline Bundle bundle_at(uint index, uint packet_count, uint run_packets) {
+    const uint run_bundles = (run_packets + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;
+    const uint offset = index % run_bundles * NEARLIGHT_BUNDLE_PACKETS;
+    const uint first = index / run_bundles * run_packets + offset;
+    const uint there = first < packet_count ? packet_count - first : 0;
+    const Bundle bundle = {first, min(min(run_packets - offset, there), (uint)NEARLIGHT_BUNDLE_PACKETS)};
     return bundle;
-}
-
-inline uint bundle_packet(const Bundle* bundle, uint index) {
-    return bundle->first + index * bundle->stride;
 }
 
 #endif

@@ -41,7 +41,7 @@ inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, 
         const uint lane = first + 16 * group;
         const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
         const global ReceiverPacket* packet =
-            packets + bundle_packet(bundle, there ? lane / NEARLIGHT_PACKET_SIZE : 0);
+            packets + bundle->first + (there ? lane / NEARLIGHT_PACKET_SIZE : 0);
         const uint at = lane % NEARLIGHT_PACKET_SIZE / 16;
         const float16 absent = (float16)0.0f;
         to->x[group] = vload16(at, packet->px);
