@@ -24,6 +24,8 @@
 #include "lib/gather.cl"
 #include "lib/wide_traverse.cl"
 
+#define ITEMS_PER_BUNDLE (BUNDLE_SIZE / GATHER_PACKET_WIDTH)
+
 typedef struct Accumulator {
     float16 r[GATHER_GROUPS], g[GATHER_GROUPS], b[GATHER_GROUPS];
 } Accumulator;
@@ -44,14 +46,14 @@ inline void clear(Accumulator* sum) {
     }
 }
 
-/// irradiance (+)= sum, where `replace` says not to add. Lane i has receiver first + order[i].
-inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first, uint end_packet,
+/// irradiance (+)= sum, where `replace` says not to add. Lane i has receiver first + order[i] of the bundle.
+inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle* bundle, uint first,
                               const uchar* order, const Accumulator* sum, bool replace) {
     for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
-        if (packet < end_packet) {
-            global IrradiancePacket* to = irradiance + packet;
+        if (packet < bundle->count) {
+            global IrradiancePacket* to = irradiance + bundle->first + packet;
             to->r[lane] = ((const float*)sum->r)[i] + (replace ? 0.0f : to->r[lane]);
             to->g[lane] = ((const float*)sum->g)[i] + (replace ? 0.0f : to->g[lane]);
             to->b[lane] = ((const float*)sum->b)[i] + (replace ? 0.0f : to->b[lane]);
@@ -61,14 +63,14 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, uint first, u
 
 #ifdef GATHER_RECORD
 /// Notes which segments are open: `before` tracing, and then which of those are not any more.
-inline void record_open(global uchar* record, uint vpl, uint vpl_count, uint first, uint end_packet,
+inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bundle* bundle, uint first,
                         const uchar* order, const Segments* s, bool before) {
     for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
         const bool open = ((const float*)s->t_max)[i] > 0.0f;
-        if (packet < end_packet) {
-            global uchar* pair = record + gather_record_index(packet, vpl, vpl_count, lane);
+        if (packet < bundle->count) {
+            global uchar* pair = record + gather_record_index(bundle->first + packet, vpl, vpl_count, lane);
             *pair = before ? (open ? GATHER_RECORD_VISIBLE : 0)
                            : (*pair != 0 && !open ? GATHER_RECORD_OCCLUDED : *pair);
         }
@@ -76,42 +78,44 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, uint fir
 }
 #endif
 
-/// One work-item for each GATHER_PACKET_WIDTH receivers of the packets [first_packet, end_packet), over the
+/// BUNDLE_SIZE / GATHER_PACKET_WIDTH work-items for each of the bundles [first_bundle, end_bundle), over the
 /// VPLs [first_vpl, end_vpl). Each GATHER_CHUNK of VPLs, counted from VPL 0, is summed by itself and then
 /// added to the irradiance, so that the result does not depend on how launches divide the work; first_vpl
-/// must be a multiple of GATHER_CHUNK. Launches over the VPLs of one packet must follow one another in order,
-/// from 0. With roulette, GATHER_PACKET_WIDTH is at most NEARLIGHT_PACKET_SIZE, because each packet has a list.
+/// must be a multiple of GATHER_CHUNK. Launches over the VPLs of one bundle must follow one another in order,
+/// from 0.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* packets, uint first_packet, uint end_packet,
-    float clamp_radius_squared,
+    uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
-    const uint first = first_packet * NEARLIGHT_PACKET_SIZE + (uint)get_global_id(0) * GATHER_PACKET_WIDTH;
-    const uint packet = first / NEARLIGHT_PACKET_SIZE;
-    if (packet >= end_packet) {
+    const uint item = (uint)get_global_id(0);
+    const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
+    const Bundle bundle = bundle_at(index, packet_count, run_packets);
+    const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
+    if (index >= end_bundle || first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
         return;
     }
     Receivers receivers;
     PacketBounds bounds;
-    gather_receivers(&receivers, &bounds, packets, first, end_packet);
+    gather_receivers(&receivers, &bounds, packets, &bundle, first);
     Segments segments;
     Accumulator sum;
-    const uint end = GATHER_END(packet, end_vpl);
+    const uint end = GATHER_END(index, end_vpl);
     for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += GATHER_CHUNK) {
         clear(&sum);
         for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
-            const uint i = GATHER_VPL(packet, k);
+            const uint i = GATHER_VPL(index, k);
             connect(&segments, vpls + i, &receivers, clamp_radius_squared);
 #ifdef GATHER_RECORD
-            record_open(record, i, record_vpl_count, first, end_packet, receivers.order, &segments, true);
+            record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, true);
 #endif
             trace_segments(&segments, &bounds, nodes, blocks);
 #ifdef GATHER_RECORD
-            record_open(record, i, record_vpl_count, first, end_packet, receivers.order, &segments, false);
+            record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
 #endif
-            add_visible(&sum, &segments, gather_scale(vpls + i) * GATHER_WEIGHT(packet, k),
+            add_visible(&sum, &segments, gather_scale(vpls + i) * GATHER_WEIGHT(index, k),
                         gather_squared(vpls + i));
         }
-        add_to_irradiance(irradiance, first, end_packet, receivers.order, &sum, chunk == 0);
+        add_to_irradiance(irradiance, &bundle, first, receivers.order, &sum, chunk == 0);
     }
 }

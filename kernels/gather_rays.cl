@@ -19,29 +19,32 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
     return cos_vpl > 0.0f && cos_receiver > 0.0f && term < INFINITY ? term : 0.0f;
 }
 
-/// One work-item for each receiver of the packets [first_packet, end_packet), over the VPLs [first_vpl,
+/// One work-item for each receiver of the bundles [first_bundle, end_bundle), over the VPLs [first_vpl,
 /// end_vpl). Chunks and launches as in gather_packets.
 kernel void gather_rays(
     const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-    float clamp_radius_squared,
+    uint end_vpl, const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
-    const uint packet = first_packet + item / NEARLIGHT_PACKET_SIZE;
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
-    if (packet >= end_packet) {
+    const uint index = first_bundle + item / NEARLIGHT_PACKET_SIZE / NEARLIGHT_BUNDLE_PACKETS;
+    const uint member = item / NEARLIGHT_PACKET_SIZE % NEARLIGHT_BUNDLE_PACKETS;
+    const Bundle bundle = bundle_at(index, packet_count, run_packets);
+    if (index >= end_bundle || member >= bundle.count) {
         return;
     }
+    const uint packet = bundle.first + member;
     const global ReceiverPacket* from = receivers + packet;
     const float3 position = receiver_position(from, lane);
     const float3 normal = receiver_normal(from, lane);
     global IrradiancePacket* to = irradiance + packet;
     float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
-    const uint end = GATHER_END(packet, end_vpl);
+    const uint end = GATHER_END(index, end_vpl);
     for (uint chunk = first_vpl; chunk < end; chunk += GATHER_CHUNK) {
         float3 sum = (float3)0.0f;
         for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
-            const uint i = GATHER_VPL(packet, k);
+            const uint i = GATHER_VPL(index, k);
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
@@ -49,7 +52,7 @@ kernel void gather_rays(
             const bool open = term > 0.0f;
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
-            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(packet, k);
+            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, k);
             sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
 #ifdef GATHER_RECORD
             record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Russian roulette over the VPLs of a gather: which of them a packet of receivers asks about, and how much
+// Russian roulette over the VPLs of a gather: which of them a bundle of receivers asks about, and how much
 // each then counts. Unbiased: a VPL that is chosen with probability p counts 1/p.
 //
-// A whole packet decides together, so that packets stay full: by what a VPL could bring to its receivers if
-// nothing were in the way (root mean square, which for a given number of packets traced leaves the least
-// error). In one packet the choice is systematic along the order of the VPLs: with VPLs along a Morton curve,
-// of those that are near each other always about the right number is chosen, which is far less noise than
-// independent draws. host/stages/roulette.h is the interface.
+// A whole bundle decides together (lib/bundle.cl), as it goes through the tree together, and stays full: by
+// what a VPL could bring to its receivers if nothing were in the way (root mean square, which for a given
+// number of bundles traced leaves the least error). In one bundle the choice is systematic along the order of
+// the VPLs: with VPLs along a Morton curve, of those that are near each other always about the right number
+// is chosen, which is far less noise than independent draws. host/stages/roulette.h is the interface.
 
+#include "lib/bundle.cl"
 #include "lib/gather.cl"
 #include "lib/random.cl"
 
@@ -21,9 +22,9 @@ inline float sum_of_lanes(float16 v) {
     return c.x + c.y;
 }
 
-/// Root mean square, over the receivers of the packet, of the geometry term without visibility.
-inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* packet,
-                            float clamp_radius_squared) {
+/// Squares of the geometry term without visibility, summed over receivers of the packet.
+inline float16 squares_of_packet(const global Vpl* vpl, const global ReceiverPacket* packet,
+                                 float clamp_radius_squared) {
     const float3 origin = load3(vpl->position);
     const float3 vpl_normal = load3(vpl->normal);
     float16 squares = (float16)0.0f;
@@ -39,36 +40,52 @@ inline float term_of_packet(const global Vpl* vpl, const global ReceiverPacket* 
         const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (term < INFINITY);
         squares += open ? term * term : (float16)0.0f;
     }
-    return sqrt(sum_of_lanes(squares) / NEARLIGHT_PACKET_SIZE);
+    return squares;
 }
 
-/// bounds[(packet − first_packet)·vpl_count + vpl] = the irradiance that the VPL could bring to receivers of
-/// the packet, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of
-/// `run_length` VPLs of each packet of [first_packet, end_packet).
+/// Root mean square over the receivers of the bundle.
+inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* packets, const Bundle* bundle,
+                            float clamp_radius_squared) {
+    float16 squares = (float16)0.0f;
+    for (uint i = 0; i < bundle->count; ++i) {
+        squares += squares_of_packet(vpl, packets + bundle->first + i, clamp_radius_squared);
+    }
+    return sqrt(sum_of_lanes(squares) / (float)(max(bundle->count, 1u) * NEARLIGHT_PACKET_SIZE));
+}
+
+/// bounds[(bundle − first_bundle)·vpl_count + vpl] = the irradiance that the VPL could bring to receivers of
+/// the bundle, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of
+/// `run_length` VPLs of each bundle of [first_bundle, end_bundle).
 kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_length,
-                            const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-                            float clamp_radius_squared, global float* bounds) {
+                            const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+                            uint first_bundle, uint end_bundle, float clamp_radius_squared,
+                            global float* bounds) {
     const uint runs = (vpl_count + run_length - 1) / run_length;
     const uint item = (uint)get_global_id(0);
-    const uint packet = item / runs;
-    if (packet >= end_packet - first_packet) {
+    const uint listed = item / runs;
+    if (listed >= end_bundle - first_bundle) {
         return;
     }
+    const Bundle bundle = bundle_at(first_bundle + listed, packet_count, run_packets);
     const uint first = item % runs * run_length;
     for (uint i = first; i < min(first + run_length, vpl_count); ++i) {
         const float3 scale = gather_scale(vpls + i);
-        const float term = term_of_packet(vpls + i, receivers + first_packet + packet, clamp_radius_squared);
-        bounds[(size_t)packet * vpl_count + i] = term * fmax(scale.x, fmax(scale.y, scale.z));
+        const float term = term_of_bundle(vpls + i, receivers, &bundle, clamp_radius_squared);
+        bounds[(size_t)listed * vpl_count + i] = term * fmax(scale.x, fmax(scale.y, scale.z));
     }
 }
 
-/// Uniform in [0, 1): a hash of where the packet's receivers are, so that no division of a picture changes
+/// Uniform in [0, 1): a hash of where the bundle's receivers are, so that no division of a picture changes
 /// it.
-inline float packet_number(const global ReceiverPacket* packet, uint seed) {
+inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed) {
     uint4 key = (uint4)(seed, 0x726f756cu, 0, 0);
-    for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        key ^= (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]), lane);
-        key = random_uint4(key);
+    for (uint i = 0; i < bundle->count; ++i) {
+        const global ReceiverPacket* packet = packets + bundle->first + i;
+        for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            key ^= (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]),
+                           lane);
+            key = random_uint4(key);
+        }
     }
     return to_unit_float(key.x);
 }
@@ -87,20 +104,21 @@ inline float roulette_limit(const global float* bounds, uint count, float thresh
     return limit < INFINITY ? limit : 0.0f;  // 0: nothing is left to chance
 }
 
-/// Lists the chosen VPLs of each packet in their order, with 1/p: entries [packet·vpl_count, +
-/// counts[packet]) of `chosen` and `weights`, packets counted from first_packet as in `bounds`. One work-item
-/// a packet.
+/// Lists the chosen VPLs of each bundle in their order, with 1/p: entries [bundle·vpl_count, +
+/// counts[bundle]) of `chosen` and `weights`, bundles counted from first_bundle as in `bounds`. One work-item
+/// a bundle.
 kernel void roulette_choose(const global float* bounds, uint vpl_count,
-                            const global ReceiverPacket* receivers, uint first_packet, uint end_packet,
-                            float threshold, uint seed, global uint* chosen, global float* weights,
-                            global uint* counts) {
-    const uint packet = (uint)get_global_id(0);
-    if (packet >= end_packet - first_packet) {
+                            const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
+                            uint first_bundle, uint end_bundle, float threshold, uint seed,
+                            global uint* chosen, global float* weights, global uint* counts) {
+    const uint listed = (uint)get_global_id(0);
+    if (listed >= end_bundle - first_bundle) {
         return;
     }
-    const size_t first = (size_t)packet * vpl_count;
+    const Bundle bundle = bundle_at(first_bundle + listed, packet_count, run_packets);
+    const size_t first = (size_t)listed * vpl_count;
     const float limit = roulette_limit(bounds + first, vpl_count, threshold);
-    float sum = packet_number(receivers + first_packet + packet, seed);
+    float sum = bundle_number(receivers, &bundle, seed);
     uint count = 0;
     for (uint i = 0; i < vpl_count; ++i) {
         const float bound = bounds[first + i];
@@ -115,5 +133,5 @@ kernel void roulette_choose(const global float* bounds, uint vpl_count,
             ++count;
         }
     }
-    counts[packet] = count;
+    counts[listed] = count;
 }

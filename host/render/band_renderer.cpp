@@ -42,7 +42,9 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
 }
 
 /// Indirect light of a batch's receivers. False if cancelled.
-bool BandRenderer::gather_indirect(std::size_t packets, const GatherProgress& progress) {
+bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
+    const uint width = picture_.view.camera.width;
+    const std::size_t packets = packet_count(batch, width);
     if (picture_.local) {
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
                                          buffers_.indirect, progress);
@@ -54,7 +56,8 @@ bool BandRenderer::gather_indirect(std::size_t packets, const GatherProgress& pr
                                     .packet_count = packets,
                                     .clamp_radius = picture_.view.clamp_radius,
                                     .roulette = picture_.settings.roulette,
-                                    .seed = picture_.settings.seed},
+                                    .seed = picture_.settings.seed,
+                                    .run_packets = picture_.plan.run_packets(batch, width)},
                                    buffers_.indirect, progress);
 }
 
@@ -71,7 +74,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
         stages_.direct_light.run(scene_, buffers_.receivers, packets, direct_samples_per_sample(settings),
                                  settings.seed, buffers_.direct);
     }
-    const bool finished = gather_indirect(packets, progress);
+    const bool finished = gather_indirect(batch, progress);
     if (finished) {
         stages_.film.add(buffers_.receivers, buffers_.vertices, buffers_.direct, buffers_.indirect, batch,
                          width, row_count, buffers_.sums);

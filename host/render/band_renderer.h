@@ -65,7 +65,7 @@ class BandRenderer {
     };
 
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
-    bool gather_indirect(std::size_t packets, const GatherProgress& progress);
+    bool gather_indirect(const CameraBand& batch, const GatherProgress& progress);
 
     BandStages& stages_;
     const DeviceScene& scene_;

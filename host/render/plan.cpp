@@ -18,6 +18,11 @@ std::size_t receivers_per_batch(const Device& device) {
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
 }
 
+/// Samples of a tile that fill a bundle, or all of them. Batches have multiples of so many.
+uint samples_per_bundle(uint samples_per_pixel, uint branch_count) {
+    return std::min(samples_per_pixel, NEARLIGHT_BUNDLE_PACKETS / branch_count);
+}
+
 }  // namespace
 
 std::vector<CameraBand> RenderPlan::batches(uint index) const {
@@ -32,6 +37,12 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
                           .branch_count = branch_count});
     }
     return result;
+}
+
+uint RenderPlan::run_packets(const CameraBand& batch, uint width) const {
+    const uint tile_packets = batch.sample_count * branch_count;
+    return samples_per_pixel * branch_count < NEARLIGHT_BUNDLE_PACKETS ? tile_packets * ((width + 7) / 8)
+                                                                       : tile_packets;
 }
 
 std::size_t RenderPlan::max_packets(uint width) const {
@@ -53,8 +64,9 @@ RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint he
     plan.tile_row_count = (height + 7) / 8;
     plan.samples_per_pixel = samples_per_pixel;
     plan.branch_count = branch_count;
-    plan.samples_per_batch =
-        static_cast<uint>(std::clamp<std::size_t>(budget / per_row_sample, 1, samples_per_pixel));
+    const uint bundled = samples_per_bundle(samples_per_pixel, branch_count);
+    const std::size_t fitting = std::max<std::size_t>(budget / per_row_sample / bundled, 1) * bundled;
+    plan.samples_per_batch = static_cast<uint>(std::min<std::size_t>(fitting, samples_per_pixel));
     plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(
         budget / (per_row_sample * plan.samples_per_batch), 1, std::max(plan.tile_row_count, 1u)));
     if (devices.size() > 1) {

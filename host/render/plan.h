@@ -25,6 +25,10 @@ struct RenderPlan {
     }
     /// The batches of band `index`, in order.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
+    /// Packets of a batch that Russian roulette may decide about together (BundleLayout): those of a tile,
+    /// whose samples are cut so that its bundles stay whole, or where these do not fill one, those of a row
+    /// of tiles.
+    [[nodiscard]] uint run_packets(const CameraBand& batch, uint width) const;
     /// Most packets that any batch has.
     [[nodiscard]] std::size_t max_packets(uint width) const;
 };

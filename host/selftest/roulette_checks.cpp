@@ -15,6 +15,7 @@ namespace {
 constexpr float kClampRadius = 0.05f;
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
+constexpr uint kRunPackets = 5;  // of 20: bundles of 4 and of 1
 /// Standard errors that chance does not reach in thousands of cases.
 constexpr double kMostErrors = 5.5;
 
@@ -33,7 +34,8 @@ struct RouletteCase {
                 .packet_count = receivers.size(),
                 .clamp_radius = kClampRadius,
                 .roulette = roulette,
-                .seed = seed};
+                .seed = seed,
+                .run_packets = kRunPackets};
     }
 };
 
@@ -52,37 +54,39 @@ RouletteCase make_case(Device& device) {
     return data;
 }
 
-/// Packet by packet, VPL by VPL.
+/// Bundle by bundle, VPL by VPL.
 void check_choices(Device& device, const RouletteCase& data, CheckResult& result) {
-    std::vector<uint> chosen(data.receivers.size() * data.vpls.size());
+    const BundleLayout layout = data.input(kThreshold, 0).bundles();
+    std::vector<uint> chosen(layout.bundle_count() * data.vpls.size());
     std::vector<float> chosen_weights(chosen.size());
     Roulette roulette(device);
     for (uint seed = 0; seed < kSeeds; ++seed) {
         const RouletteLists& lists = roulette.choose({.vpls = data.vpl_buffer,
                                                       .vpl_count = data.vpls.size(),
                                                       .receivers = data.receiver_buffer,
+                                                      .bundles = layout,
                                                       .clamp_radius = kClampRadius,
                                                       .threshold = kThreshold,
                                                       .seed = seed},
-                                                     0, data.receivers.size());
+                                                     0, layout.bundle_count());
         const std::vector<uint> vpls = lists.vpls.download();
         const std::vector<float> weights = lists.weights.download();
         const std::vector<uint> counts = lists.counts.download();
-        for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
-            const std::size_t first = packet * data.vpls.size();
-            for (std::size_t k = first; k < first + counts[packet]; ++k) {
+        for (uint bundle = 0; bundle < layout.bundle_count(); ++bundle) {
+            const std::size_t first = bundle * data.vpls.size();
+            for (std::size_t k = first; k < first + counts[bundle]; ++k) {
                 ++chosen[first + vpls[k]];
                 chosen_weights[first + vpls[k]] = weights[k];
             }
         }
     }
-    for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
-        const std::vector<double> probabilities =
-            roulette_probabilities(data.vpls, data.receivers[packet], kClampRadius, kThreshold);
+    for (uint bundle = 0; bundle < layout.bundle_count(); ++bundle) {
+        const std::vector<double> probabilities = roulette_probabilities(
+            data.vpls, data.receivers, layout.bundle(bundle), kClampRadius, kThreshold);
         for (std::size_t vpl = 0; vpl < probabilities.size(); ++vpl) {
             const double p = probabilities[vpl];
-            const double count = chosen[packet * data.vpls.size() + vpl];
-            const double weight = chosen_weights[packet * data.vpls.size() + vpl];
+            const double count = chosen[bundle * data.vpls.size() + vpl];
+            const double weight = chosen_weights[bundle * data.vpls.size() + vpl];
             // A bound that is almost 0 or almost the limit may be on either side of it for rounding.
             const double chance = kMostErrors * std::sqrt(kSeeds * p * (1 - p)) + (p > 0 && p < 1 ? 2 : 0);
             result.expect(std::abs(count - p * kSeeds) <= chance &&

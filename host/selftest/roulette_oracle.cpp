@@ -23,22 +23,29 @@ double open_term(const Vpl& vpl, const ReceiverPoint& receiver, double clamp_rad
                : 0.0;
 }
 
-double bound(const Vpl& vpl, const ReceiverPacket& receivers, float clamp_radius) {
+double bound(const Vpl& vpl, std::span<const ReceiverPacket> receivers, const BundleLayout::Bundle& bundle,
+             float clamp_radius) {
     double squares = 0;
-    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const double term = open_term(vpl, receiver_at(receivers, lane), clamp_radius);
-        squares += term * term;
+    for (uint i = 0; i < bundle.count; ++i) {
+        const ReceiverPacket& packet = receivers[bundle.first + i];
+        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            const double term = open_term(vpl, receiver_at(packet, lane), clamp_radius);
+            squares += term * term;
+        }
     }
-    return std::sqrt(squares / NEARLIGHT_PACKET_SIZE) * max_component(vpl.power) / static_cast<double>(kPi);
+    return std::sqrt(squares / (bundle.count * NEARLIGHT_PACKET_SIZE)) * max_component(vpl.power) /
+           static_cast<double>(kPi);
 }
 
 }  // namespace
 
-std::vector<double> roulette_probabilities(std::span<const Vpl> vpls, const ReceiverPacket& receivers,
-                                           float clamp_radius, float threshold) {
+std::vector<double> roulette_probabilities(std::span<const Vpl> vpls,
+                                           std::span<const ReceiverPacket> receivers,
+                                           const BundleLayout::Bundle& bundle, float clamp_radius,
+                                           float threshold) {
     std::vector<double> result;
     for (const Vpl& vpl : vpls) {
-        result.push_back(bound(vpl, receivers, clamp_radius));
+        result.push_back(bound(vpl, receivers, bundle, clamp_radius));
     }
     const double mean =
         std::accumulate(result.begin(), result.end(), 0.0) / static_cast<double>(result.size());

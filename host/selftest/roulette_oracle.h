@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// With which probability a packet of receivers must ask about each VPL, in double precision.
+// With which probability a bundle of receivers must ask about each VPL, in double precision.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "host/base/math.h"
+#include "host/base/receiver_bundles.h"
 
 namespace nearlight {
 
-/// min(1, b / (threshold · mean of b)), one for each VPL; b is the root mean square, over the receivers, of
-/// what the VPL could bring to them in its strongest channel if nothing were in the way.
-std::vector<double> roulette_probabilities(std::span<const Vpl> vpls, const ReceiverPacket& receivers,
-                                           float clamp_radius, float threshold);
+/// min(1, b / (threshold · mean of b)), one for each VPL; b is the root mean square, over the receivers of
+/// the bundle, of what the VPL could bring to them in its strongest channel if nothing were in the way.
+std::vector<double> roulette_probabilities(std::span<const Vpl> vpls,
+                                           std::span<const ReceiverPacket> receivers,
+                                           const BundleLayout::Bundle& bundle, float clamp_radius,
+                                           float threshold);
 
 }  // namespace nearlight

@@ -15,10 +15,12 @@ namespace {
 /// it.
 constexpr std::size_t kChunk = 256;
 
-/// Packets of a launch: enough to keep every core or lane busy until the end; more VPLs are better than more
-/// packets, because a packet's start costs something.
-constexpr std::size_t kCpuPackets = 1024;
-constexpr std::size_t kGpuPackets = 16384;
+constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
+
+/// Bundles of a launch: enough to keep every core or lane busy until the end; more VPLs are better than more
+/// bundles, because a bundle's start costs something.
+constexpr std::size_t kCpuBundles = 256;
+constexpr std::size_t kGpuBundles = 4096;
 
 /// Pairs of a launch at most, however fast the device is.
 constexpr double kMostLaunchPairs = 0x1p40;
@@ -34,15 +36,19 @@ GatherConfig resolved(GatherConfig config, const Device& device) {
 
 }  // namespace
 
-/// One launch: packets [first_packet, end_packet) against VPLs [first_vpl, end_vpl).
+/// One launch: bundles [first_bundle, end_bundle) against VPLs [first_vpl, end_vpl).
 struct Gatherer::Part {
-    std::size_t first_packet = 0;
-    std::size_t end_packet = 0;
+    std::size_t first_bundle = 0;
+    std::size_t end_bundle = 0;
     std::size_t first_vpl = 0;
     std::size_t end_vpl = 0;
 
-    [[nodiscard]] std::uint64_t pairs() const {
-        return std::uint64_t{end_packet - first_packet} * (end_vpl - first_vpl) * NEARLIGHT_PACKET_SIZE;
+    [[nodiscard]] std::uint64_t pairs(const BundleLayout& layout) const {
+        std::uint64_t packets = 0;
+        for (std::size_t i = first_bundle; i < end_bundle; ++i) {
+            packets += layout.bundle(static_cast<uint>(i)).count;
+        }
+        return packets * (end_vpl - first_vpl) * NEARLIGHT_PACKET_SIZE;
     }
 };
 
@@ -78,33 +84,23 @@ Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
     if (config_.kernel == GatherKernel::rays) {
         return {Program(*device_, "gather_rays.cl", defines), "gather_rays"};
     }
-    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(item_width(roulette)));
+    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(config_.packet_width));
     return {Program(*device_, "gather_packets.cl", defines), "gather_packets"};
 }
 
-/// Receivers of a work-item. With roulette each packet of 64 asks about VPLs of its own.
-uint Gatherer::item_width(bool roulette) const {
-    if (config_.kernel == GatherKernel::rays) {
-        return 1;
-    }
-    return roulette ? std::min<uint>(config_.packet_width, NEARLIGHT_PACKET_SIZE) : config_.packet_width;
-}
-
-/// The part after `done`: the same packets against further VPLs, or, when those are through, further packets.
-Gatherer::Part Gatherer::next_part(std::size_t vpl_count, bool roulette, const Part& done,
-                                   std::size_t end_packet, std::uint64_t pair_budget) const {
-    constexpr std::uint64_t kChunkPairs = std::uint64_t{kChunk} * NEARLIGHT_PACKET_SIZE;
+/// The part after `done`: the same bundles against further VPLs, or, when those are through, further bundles.
+Gatherer::Part Gatherer::next_part(std::size_t vpl_count, const Part& done, std::size_t end_bundle,
+                                   std::uint64_t pair_budget) const {
+    constexpr std::uint64_t kChunkPairs = kChunk * kBundleSize;
     Part part = done;
     if (done.end_vpl >= vpl_count) {
-        const std::size_t most = device_->is_cpu() ? kCpuPackets : kGpuPackets;
-        const std::size_t packets = std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, most);
-        part.first_packet = done.end_packet;
-        // Whole work-items, so that the next begins where it would without a division into launches.
-        const std::size_t whole = std::max<std::size_t>(1, item_width(roulette) / NEARLIGHT_PACKET_SIZE);
-        part.end_packet = std::min(end_packet, part.first_packet + (packets + whole - 1) / whole * whole);
+        const std::size_t most = device_->is_cpu() ? kCpuBundles : kGpuBundles;
+        const std::size_t bundles = std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, most);
+        part.first_bundle = done.end_bundle;
+        part.end_bundle = std::min(end_bundle, part.first_bundle + bundles);
         part.end_vpl = 0;
     }
-    const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_packet - part.first_packet));
+    const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_bundle - part.first_bundle));
     part.first_vpl = part.end_vpl;
     part.end_vpl = std::min<std::uint64_t>(
         vpl_count, part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
@@ -115,14 +111,15 @@ template <typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part,
                       Buffer<IrradiancePacket>& irradiance, const More&... more) {
     const bool rays = config_.kernel == GatherKernel::rays;
-    const std::size_t width = item_width(input.roulette > 0.0f);
-    const std::size_t lanes = (part.end_packet - part.first_packet) * NEARLIGHT_PACKET_SIZE;
-    const std::size_t items = (lanes + width - 1) / width;
+    const BundleLayout layout = input.bundles();
+    const std::size_t item_width = rays ? 1 : config_.packet_width;
+    const std::size_t items = (part.end_bundle - part.first_bundle) * kBundleSize / item_width;
     const auto launch_on = [&](std::size_t local_size, const auto& nodes, const auto& triangles) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
-                      static_cast<cl_uint>(part.end_vpl), input.receivers,
-                      static_cast<cl_uint>(part.first_packet), static_cast<cl_uint>(part.end_packet),
-                      input.clamp_radius * input.clamp_radius, irradiance, more...);
+                      static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
+                      layout.run_packets, static_cast<cl_uint>(part.first_bundle),
+                      static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
+                      irradiance, more...);
     };
     if (rays) {
         launch_on(device_->local_size(), input.tree.nodes, input.tree.triangles);
@@ -131,25 +128,25 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
     }
 }
 
-/// Packets [first_packet, end_packet), launch by launch. False if cancelled.
+/// Bundles [first_bundle, end_bundle), launch by launch. False if cancelled.
 template <typename... More>
-bool Gatherer::gather_packets(Kernel& kernel, const GatherInput& input, std::size_t first_packet,
-                              std::size_t end_packet, Buffer<IrradiancePacket>& irradiance, Course& course,
+bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::size_t first_bundle,
+                              std::size_t end_bundle, Buffer<IrradiancePacket>& irradiance, Course& course,
                               const More&... more) {
     Part part;
-    part.end_packet = first_packet;
+    part.end_bundle = first_bundle;
     part.end_vpl = input.vpl_count;
-    while (part.end_packet < end_packet || part.end_vpl < input.vpl_count) {
-        part = next_part(input.vpl_count, input.roulette > 0.0f, part, end_packet,
-                         static_cast<std::uint64_t>(course.budget));
+    while (part.end_bundle < end_bundle || part.end_vpl < input.vpl_count) {
+        part = next_part(input.vpl_count, part, end_bundle, static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
         launch(kernel, input, part, irradiance, more...);
         device_->finish();
         // At most four times as much, because neighbouring parts may differ in cost.
+        const std::uint64_t pairs = part.pairs(input.bundles());
         const double fitting =
-            static_cast<double>(part.pairs()) * config_.launch_seconds / std::max(1e-6, watch.seconds());
+            static_cast<double>(pairs) * config_.launch_seconds / std::max(1e-6, watch.seconds());
         course.budget = std::clamp(fitting, 1.0, std::min(course.budget * 4.0, kMostLaunchPairs));
-        course.done += part.pairs();
+        course.done += pairs;
         if (course.progress && !course.progress(course.done, course.total)) {
             return false;
         }
@@ -157,7 +154,7 @@ bool Gatherer::gather_packets(Kernel& kernel, const GatherInput& input, std::siz
     return true;
 }
 
-/// Calls work(kernel, first_packet, end_packet, further arguments of the kernel …) for all packets in turn,
+/// Calls work(kernel, first_bundle, end_bundle, further arguments of the kernel …) for all bundles in turn,
 /// in runs as long as the roulette's lists fit into memory. False as soon as `work` is.
 template <typename Work>
 bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work& work) {
@@ -165,9 +162,10 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
         throw Error(ExitCode::runtime, "gather_packets needs a wide tree: upload the tree for that kernel");
     }
     const bool roulette = input.roulette > 0.0f;
+    const std::size_t bundle_count = input.bundles().bundle_count();
     Kernel& kernel = kernel_of(roulette, recording);
     if (!roulette) {
-        return work(kernel, 0, input.packet_count);
+        return work(kernel, 0, bundle_count);
     }
     if (!roulette_) {
         roulette_.emplace(*device_);
@@ -175,14 +173,15 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
     const RouletteTask task{.vpls = input.vpls,
                             .vpl_count = input.vpl_count,
                             .receivers = input.receivers,
+                            .bundles = input.bundles(),
                             .clamp_radius = input.clamp_radius,
                             .threshold = input.roulette,
                             .seed = input.seed};
-    const std::size_t most = Roulette::most_packets(input.vpl_count);
-    for (std::size_t first = 0; first < input.packet_count; first += most) {
-        const std::size_t end = std::min(input.packet_count, first + most);
+    const std::size_t most = Roulette::most_bundles(input.vpl_count);
+    for (std::size_t first = 0; first < bundle_count; first += most) {
+        const std::size_t end = std::min(bundle_count, first + most);
         const RouletteLists& lists = roulette_->choose(task, first, end);
-        if (!work(kernel, first, end, lists.vpls, lists.weights, lists.counts, lists.first_packet,
+        if (!work(kernel, first, end, lists.vpls, lists.weights, lists.counts, lists.first_bundle,
                   lists.stride)) {
             return false;
         }
@@ -196,7 +195,7 @@ bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradi
                   std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)};
     return for_each_run(input, false,
                         [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
-                            return gather_packets(kernel, input, first, end, irradiance, course, lists...);
+                            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
                         });
 }
 

@@ -2,6 +2,7 @@
 // The gather: irradiance that a VPL set sends to receivers, with visibility tested for every pair.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -18,9 +19,8 @@ namespace nearlight {
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
-    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal; with roulette at most 64. The result
-    /// does not depend on it.
-    uint packet_width = 4 * NEARLIGHT_PACKET_SIZE;
+    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it.
+    uint packet_width = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
     /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
     /// time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
@@ -39,6 +39,15 @@ struct GatherInput {
     /// same.
     float roulette = 0.0f;
     uint seed = 0;  ///< of the roulette
+    /// Packets of which roulette's bundles are formed together (BundleLayout): the result depends on which
+    /// receivers decide together. 0: all of them.
+    uint run_packets = 0;
+
+    /// What goes through the tree together. Without roulette runs do not matter to the result.
+    [[nodiscard]] BundleLayout bundles() const {
+        const auto count = static_cast<uint>(packet_count);
+        return {count, roulette > 0.0f && run_packets > 0 ? run_packets : std::max(count, 1u)};
+    }
 };
 
 /// Called between launches with the number of (receiver, VPL) pairs done so far and of all; false cancels.
@@ -79,15 +88,14 @@ class Gatherer {
     struct Course;
     [[nodiscard]] Kernel make_kernel(bool roulette, bool recording) const;
     Kernel& kernel_of(bool roulette, bool recording);
-    [[nodiscard]] uint item_width(bool roulette) const;
-    [[nodiscard]] Part next_part(std::size_t vpl_count, bool roulette, const Part& done,
-                                 std::size_t end_packet, std::uint64_t pair_budget) const;
+    [[nodiscard]] Part next_part(std::size_t vpl_count, const Part& done, std::size_t end_bundle,
+                                 std::uint64_t pair_budget) const;
     template <typename... More>
     void launch(Kernel& kernel, const GatherInput& input, const Part& part,
                 Buffer<IrradiancePacket>& irradiance, const More&... more);
     template <typename... More>
-    bool gather_packets(Kernel& kernel, const GatherInput& input, std::size_t first_packet,
-                        std::size_t end_packet, Buffer<IrradiancePacket>& irradiance, Course& course,
+    bool gather_bundles(Kernel& kernel, const GatherInput& input, std::size_t first_bundle,
+                        std::size_t end_bundle, Buffer<IrradiancePacket>& irradiance, Course& course,
                         const More&... more);
     template <typename Work>
     bool for_each_run(const GatherInput& input, bool recording, const Work& work);

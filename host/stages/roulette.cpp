@@ -21,28 +21,31 @@ Roulette::Roulette(Device& device)
       bounds_kernel_(program_, "roulette_bounds"),
       choose_kernel_(program_, "roulette_choose") {}
 
-std::size_t Roulette::most_packets(std::size_t vpl_count) {
+std::size_t Roulette::most_bundles(std::size_t vpl_count) {
     return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
 }
 
-const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t first_packet,
-                                      std::size_t end_packet) {
-    const std::size_t packets = end_packet - first_packet;
-    const std::size_t entries = packets * task.vpl_count;
-    if (bounds_.count() < entries || lists_.counts.count() < packets) {
+const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t first_bundle,
+                                      std::size_t end_bundle) {
+    const std::size_t bundles = end_bundle - first_bundle;
+    const std::size_t entries = bundles * task.vpl_count;
+    if (bounds_.count() < entries || lists_.counts.count() < bundles) {
         bounds_ = Buffer<float>(*device_, entries);
         lists_.vpls = Buffer<uint>(*device_, entries);
         lists_.weights = Buffer<float>(*device_, entries);
-        lists_.counts = Buffer<uint>(*device_, packets);
+        lists_.counts = Buffer<uint>(*device_, bundles);
     }
+    const BundleLayout& layout = task.bundles;
     const auto vpl_count = lists_.stride = static_cast<uint>(task.vpl_count);
-    const auto first = lists_.first_packet = static_cast<uint>(first_packet);
-    const auto end = lists_.end_packet = static_cast<uint>(end_packet);
+    const auto first = lists_.first_bundle = static_cast<uint>(first_bundle);
+    const auto end = static_cast<uint>(end_bundle);
     const uint run = device_->is_cpu() ? kCpuRun : 1;
-    bounds_kernel_.launch_items(packets * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
-                                task.receivers, first, end, task.clamp_radius * task.clamp_radius, bounds_);
-    choose_kernel_.launch_items(packets, bounds_, vpl_count, task.receivers, first, end, task.threshold,
-                                task.seed, lists_.vpls, lists_.weights, lists_.counts);
+    bounds_kernel_.launch_items(bundles * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
+                                task.receivers, layout.packet_count, layout.run_packets, first, end,
+                                task.clamp_radius * task.clamp_radius, bounds_);
+    choose_kernel_.launch_items(bundles, bounds_, vpl_count, task.receivers, layout.packet_count,
+                                layout.run_packets, first, end, task.threshold, task.seed, lists_.vpls,
+                                lists_.weights, lists_.counts);
     return lists_;
 }
 

@@ -3,20 +3,21 @@
 // roulette.cl.
 #pragma once
 
+#include "host/base/receiver_bundles.h"
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight {
 
-/// Which VPLs each packet of [first_packet, end_packet) asks about. Entry k of a packet, k < counts[packet],
-/// is at (packet − first_packet)·stride + k of `vpls` (an index) and `weights` (1/p, what the VPL counts).
+/// Which VPLs each bundle of [first_bundle, end_bundle) asks about. Entry k of a bundle, k < counts[bundle −
+/// first_bundle], is at (bundle − first_bundle)·stride + k of `vpls` (an index) and `weights` (1/p, what the
+/// VPL counts).
 struct RouletteLists {
     Buffer<uint> vpls;
     Buffer<float> weights;
     Buffer<uint> counts;
-    uint first_packet = 0;
-    uint end_packet = 0;
+    uint first_bundle = 0;
     uint stride = 0;
 };
 
@@ -24,8 +25,9 @@ struct RouletteTask {
     const Buffer<Vpl>& vpls;
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;
+    BundleLayout bundles;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    /// A packet always asks about a VPL that could bring its receivers (root mean square, as if nothing were
+    /// A bundle always asks about a VPL that could bring its receivers (root mean square, as if nothing were
     /// in the way) at least `threshold` times the mean over all VPLs; about others with a probability in
     /// proportion to what they could bring. Above 0.
     float threshold = 1.0f;
@@ -36,12 +38,12 @@ class Roulette {
   public:
     explicit Roulette(Device& device);
 
-    /// Packets whose lists fit into memory together, for so many VPLs; at least 1.
-    [[nodiscard]] static std::size_t most_packets(std::size_t vpl_count);
+    /// Bundles whose lists fit into memory together, for so many VPLs; at least 1.
+    [[nodiscard]] static std::size_t most_bundles(std::size_t vpl_count);
 
-    /// The lists of packets [first_packet, end_packet), at most most_packets() of them; valid until the next
+    /// The lists of bundles [first_bundle, end_bundle), at most most_bundles() of them; valid until the next
     /// call.
-    const RouletteLists& choose(const RouletteTask& task, std::size_t first_packet, std::size_t end_packet);
+    const RouletteLists& choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle);
 
   private:
     Device* device_;

@@ -6,6 +6,7 @@
 #ifndef NEARLIGHT_LIB_GATHER
 #define NEARLIGHT_LIB_GATHER
 
+#include "lib/bundle.cl"
 #include "lib/math.cl"
 
 #ifndef GATHER_CHUNK
@@ -24,20 +25,20 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_RECORD_PARAMETERS
 #endif
 
-// With GATHER_ROULETTE defined, each packet goes through a list of VPLs instead of all of them (roulette.cl).
-// Below, `k` is a place in that list, or simply a VPL.
+// With GATHER_ROULETTE defined, each bundle of packets goes through a list of VPLs instead of all of them
+// (roulette.cl). Below, `k` is a place in that list, or simply a VPL.
 #ifdef GATHER_ROULETTE
 #define GATHER_ROULETTE_PARAMETERS                                                                     \
     , const global uint *chosen, const global float *chosen_weights, const global uint *chosen_counts, \
         uint first_listed, uint list_stride
-#define GATHER_END(packet, end) min(end, chosen_counts[(packet)-first_listed])
-#define GATHER_VPL(packet, k) chosen[(size_t)((packet)-first_listed) * list_stride + (k)]
-#define GATHER_WEIGHT(packet, k) chosen_weights[(size_t)((packet)-first_listed) * list_stride + (k)]
+#define GATHER_END(bundle, end) min(end, chosen_counts[(bundle)-first_listed])
+#define GATHER_VPL(bundle, k) chosen[(size_t)((bundle)-first_listed) * list_stride + (k)]
+#define GATHER_WEIGHT(bundle, k) chosen_weights[(size_t)((bundle)-first_listed) * list_stride + (k)]
 #else
 #define GATHER_ROULETTE_PARAMETERS
-#define GATHER_END(packet, end) (end)
-#define GATHER_VPL(packet, k) (k)
-#define GATHER_WEIGHT(packet, k) 1.0f
+#define GATHER_END(bundle, end) (end)
+#define GATHER_VPL(bundle, k) (k)
+#define GATHER_WEIGHT(bundle, k) 1.0f
 #endif
 
 /// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.

@@ -3,12 +3,14 @@
 #ifndef NEARLIGHT_LIB_PACKET_RECEIVERS
 #define NEARLIGHT_LIB_PACKET_RECEIVERS
 
+#include "lib/bundle.cl"
 #include "lib/lanes.cl"
 
 // Receivers that go through the tree together: 16, 32, 64, 128 or 256, in groups of 16 lanes. They form 16
 // clusters, each of neighbouring lanes of one group.
+#define BUNDLE_SIZE (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
 #ifndef GATHER_PACKET_WIDTH
-#define GATHER_PACKET_WIDTH (4 * NEARLIGHT_PACKET_SIZE)
+#define GATHER_PACKET_WIDTH BUNDLE_SIZE
 #endif
 #define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
 #define CLUSTERS 16
@@ -32,12 +34,14 @@ typedef struct Places {
     float at[3][GATHER_PACKET_WIDTH];
 } Places;
 
-/// Loads the receivers from `first` (counted in lanes) on; those beyond the last packet are absent.
-inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, uint first, uint end_packet) {
+/// Loads the receivers of a bundle from `first` on; those beyond its last packet are absent.
+inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, const Bundle* bundle,
+                           uint first) {
     for (uint group = 0; group < GATHER_GROUPS; ++group) {
         const uint lane = first + 16 * group;
-        const bool there = lane / NEARLIGHT_PACKET_SIZE < end_packet;
-        const global ReceiverPacket* packet = packets + (there ? lane : first) / NEARLIGHT_PACKET_SIZE;
+        const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
+        const global ReceiverPacket* packet =
+            packets + bundle->first + (there ? lane / NEARLIGHT_PACKET_SIZE : 0);
         const uint at = lane % NEARLIGHT_PACKET_SIZE / 16;
         const float16 absent = (float16)0.0f;
         to->x[group] = vload16(at, packet->px);
@@ -129,9 +133,9 @@ inline void permute(float16* lanes, const uchar* order) {
 
 /// Loads receivers in the order of their clusters, with their bounds.
 inline void gather_receivers(Receivers* receivers, PacketBounds* bounds, const global ReceiverPacket* packets,
-                             uint first, uint end_packet) {
+                             const Bundle* bundle, uint first) {
     Places places;
-    load_receivers(receivers, packets, first, end_packet);
+    load_receivers(receivers, packets, bundle, first);
     place_receivers(&places, receivers);
     find_clusters(&places, receivers->order);
     bounds->low = (float3)INFINITY;

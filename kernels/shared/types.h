@@ -217,6 +217,7 @@ typedef struct SurfaceSample {
 /// component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
 /// position stands off its surface by the ray epsilon.
 #define NEARLIGHT_PACKET_SIZE 64
+#define NEARLIGHT_BUNDLE_PACKETS 4  // that go through the tree together (lib/bundle.cl)
 typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];

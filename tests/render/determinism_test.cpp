@@ -2,6 +2,8 @@
 // Same seed, same bits: however the picture is cut into bands and batches.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "host/render/plan.h"
 #include "host/scene/material_model.h"
 #include "tests/render/rendering.h"
@@ -42,16 +44,19 @@ class Determinism : public test::DeviceTest {};
 
 TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
     on_each_device([](Device& device) {
-        // Of those whose work on the picture itself differs.
-        for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
-            const RenderSettings settings = terrace_settings(1, sampler);
+        // Of those whose work on the picture itself differs; close-range also with roulette.
+        for (const auto& [sampler, roulette] :
+             {std::pair{SamplerKind::close_range, 0.0f}, std::pair{SamplerKind::close_range, 2.0f},
+              std::pair{SamplerKind::local, 0.0f}}) {
+            RenderSettings settings = terrace_settings(1, sampler);
+            settings.roulette = roulette;
             const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
             for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
                 DeviceEntry entry = device.entry();
                 entry.max_allocation_bytes = largest;  // 60 000 receivers do not fit: the picture is cut
                 Device small(entry, device.options());
                 EXPECT_EQ(test::render_image(small, terrace(), settings).report.image_hash, whole)
-                    << to_string(sampler) << ", " << largest;
+                    << to_string(sampler) << ", roulette " << roulette << ", " << largest;
             }
         }
     });

@@ -213,7 +213,7 @@ TEST_F(GathererTest, ProgressCountsPairsAndCancels) {
                                         steps.push_back(done);
                                         return true;
                                     }));
-        EXPECT_EQ(steps.size(), 5u * 4u);  // packets × chunks of 256
+        EXPECT_EQ(steps.size(), 2u * 4u);  // bundles × chunks of 256
         EXPECT_EQ(steps.back(), all);
         int calls = 0;
         EXPECT_FALSE(gatherer.gather(uploaded.input(), uploaded.irradiance(),

@@ -49,7 +49,7 @@ double most_errors(const std::vector<std::vector<double>>& runs, const std::vect
     return most;
 }
 
-/// What the lists say about each pair of packet and VPL, over all seeds.
+/// What the lists say about each pair of bundle and VPL, over all seeds.
 struct Choices {
     std::vector<int> chosen;     ///< how often
     std::vector<float> weights;  ///< when it was; 0: never
@@ -57,26 +57,27 @@ struct Choices {
 
 class RouletteTest : public DeviceTest {
   protected:
-    static Choices choose_often(Device& device, const GatherCase& data, float threshold) {
+    static Choices choose_often(Device& device, const GatherCase& data, const BundleLayout& layout) {
         const Buffer<Vpl> vpls(device, data.vpls);
         const Buffer<ReceiverPacket> receivers(device, data.receivers);
-        const std::size_t pairs = data.vpls.size() * data.receivers.size();
+        const std::size_t pairs = data.vpls.size() * layout.bundle_count();
         Choices result{std::vector<int>(pairs), std::vector<float>(pairs)};
         Roulette roulette(device);
         for (uint seed = 0; seed < kSeeds; ++seed) {
             const RouletteLists& lists = roulette.choose({.vpls = vpls,
                                                           .vpl_count = data.vpls.size(),
                                                           .receivers = receivers,
+                                                          .bundles = layout,
                                                           .clamp_radius = data.clamp_radius,
-                                                          .threshold = threshold,
+                                                          .threshold = kThreshold,
                                                           .seed = seed},
-                                                         0, data.receivers.size());
+                                                         0, layout.bundle_count());
             const std::vector<uint> chosen = lists.vpls.download();
             const std::vector<float> weights = lists.weights.download();
             const std::vector<uint> counts = lists.counts.download();
-            for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
-                const std::size_t first = packet * data.vpls.size();
-                for (std::size_t k = first; k < first + counts[packet]; ++k) {
+            for (std::size_t bundle = 0; bundle < layout.bundle_count(); ++bundle) {
+                const std::size_t first = bundle * data.vpls.size();
+                for (std::size_t k = first; k < first + counts[bundle]; ++k) {
                     EXPECT_TRUE(k == first || chosen[k] > chosen[k - 1]);
                     ++result.chosen[first + chosen[k]];
                     result.weights[first + chosen[k]] = weights[k];
@@ -88,28 +89,30 @@ class RouletteTest : public DeviceTest {
 };
 
 TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
-    const GatherCase data = room();
+    const GatherCase data = room_of_boxes(40, 300, 20, 21);
+    const BundleLayout layout{20, 5};  // bundles of 4 and of 1
+    ASSERT_EQ(layout.bundle_count(), 8u);
     on_each_device([&](Device& device) {
-        const Choices choices = choose_often(device, data, kThreshold);
+        const Choices choices = choose_often(device, data, layout);
         std::size_t certain = 0;
         std::size_t by_chance = 0;
-        for (std::size_t packet = 0; packet < data.receivers.size(); ++packet) {
-            const std::vector<double> probabilities =
-                roulette_probabilities(data.vpls, data.receivers[packet], data.clamp_radius, kThreshold);
+        for (uint bundle = 0; bundle < layout.bundle_count(); ++bundle) {
+            const std::vector<double> probabilities = roulette_probabilities(
+                data.vpls, data.receivers, layout.bundle(bundle), data.clamp_radius, kThreshold);
             for (std::size_t vpl = 0; vpl < probabilities.size(); ++vpl) {
                 const double p = probabilities[vpl];
-                const int count = choices.chosen[packet * probabilities.size() + vpl];
+                const int count = choices.chosen[bundle * probabilities.size() + vpl];
                 if (p == 0.0 || p == 1.0) {
                     EXPECT_EQ(count, p == 0.0 ? 0 : static_cast<int>(kSeeds))
-                        << "packet " << packet << " VPL " << vpl;
+                        << "bundle " << bundle << " VPL " << vpl;
                     certain += p == 1.0 ? 1 : 0;
                     continue;
                 }
                 ++by_chance;
                 EXPECT_LE(std::abs(count - p * kSeeds), kMostErrors * std::sqrt(kSeeds * p * (1.0 - p)) + 2.0)
-                    << "packet " << packet << " VPL " << vpl << ", probability " << p;
+                    << "bundle " << bundle << " VPL " << vpl << ", probability " << p;
                 if (count > 0) {
-                    EXPECT_NEAR(choices.weights[packet * probabilities.size() + vpl] * p, 1.0, 1e-3);
+                    EXPECT_NEAR(choices.weights[bundle * probabilities.size() + vpl] * p, 1.0, 1e-3);
                 }
             }
         }
@@ -169,6 +172,59 @@ TEST_F(RouletteTest, SameBitsForAnyDivision) {
             EXPECT_TRUE(same_bits(whole, Uploaded(device, data).gather(step_by_step, kThreshold, 5)));
             whole.erase(whole.begin(), whole.end() - 2);
             EXPECT_TRUE(same_bits(whole, Uploaded(device, last).gather(gatherer, kThreshold, 5)));
+        }
+    });
+}
+
+std::vector<IrradiancePacket> gather_runs(Device& device, Gatherer& gatherer, const GatherCase& data,
+                                          std::span<const ReceiverPacket> packets, uint run_packets) {
+    GatherCase part = data;
+    part.receivers.assign(packets.begin(), packets.end());
+    Uploaded uploaded(device, part);
+    GatherInput input = uploaded.input();
+    input.roulette = kThreshold;
+    input.run_packets = run_packets;
+    EXPECT_TRUE(gatherer.gather(input, uploaded.irradiance()));
+    return uploaded.irradiance().download();
+}
+
+// As a picture's plan cuts it: between tiles, and within tiles after whole bundles of samples.
+TEST_F(RouletteTest, SameBitsForAnyBandAndBatch) {
+    constexpr uint kRun = 6;
+    constexpr uint kFirstBatch = NEARLIGHT_BUNDLE_PACKETS;
+    const GatherCase data = room_of_boxes(40, 300, 6 * kRun, 23);
+    const std::span<const ReceiverPacket> packets(data.receivers);
+    on_each_device([&](Device& device) {
+        Gatherer gatherer(device);
+        const auto whole = gather_runs(device, gatherer, data, packets, kRun);
+        auto bands = gather_runs(device, gatherer, data, packets.first(kRun), kRun);
+        const auto rest = gather_runs(device, gatherer, data, packets.subspan(kRun), kRun);
+        bands.insert(bands.end(), rest.begin(), rest.end());
+        EXPECT_TRUE(same_bits(bands, whole));
+        EXPECT_FALSE(same_bits(gather_runs(device, gatherer, data, packets, 0), whole));
+        for (const bool first : {true, false}) {
+            std::vector<ReceiverPacket> batch;
+            std::vector<IrradiancePacket> expected;
+            for (std::size_t i = 0; i < packets.size(); ++i) {
+                if ((i % kRun < kFirstBatch) == first) {
+                    batch.push_back(packets[i]);
+                    expected.push_back(whole[i]);
+                }
+            }
+            const uint run = first ? kFirstBatch : kRun - kFirstBatch;
+            EXPECT_TRUE(same_bits(gather_runs(device, gatherer, data, batch, run), expected));
+        }
+    });
+}
+
+TEST_F(RouletteTest, PacketWidthDoesNotChangeABit) {
+    const GatherCase data = room_of_boxes(40, 300, 7, 24);
+    on_each_device([&](Device& device) {
+        Gatherer wide(device, {.kernel = GatherKernel::packets});
+        const auto expected = Uploaded(device, data).gather(wide, kThreshold, 3);
+        for (const uint width : {16u, 64u}) {
+            Gatherer gatherer(device, {.kernel = GatherKernel::packets, .packet_width = width});
+            EXPECT_TRUE(same_bits(Uploaded(device, data).gather(gatherer, kThreshold, 3), expected));
         }
     });
 }
