@@ -18,7 +18,8 @@ typedef int LanesInt8 __attribute__((__vector_size__(32)));
 typedef int LanesInt16 __attribute__((__vector_size__(64)));
 #endif
 
-/// For what inner loops call: left to itself the compiler makes calls of large functions, and every call spills.
+/// For what inner loops call: left to itself the compiler makes calls of large functions, and every call
+/// spills.
 #define LANES_INLINE inline __attribute__((always_inline))
 
 // The spelled-out comparisons compile to one instruction each; fmin() and fmax() have to look after NaN.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of four triangles against segments that meet their box: for groups of which many lanes do, triangle by
-// triangle, if the shaft may hit it; for others, up to four lanes with all four triangles in one vector.
+// Blocks of four triangles against segments that meet their box: for groups of which many lanes do, triangle
+// by triangle, if the shaft may hit it; for others, up to four lanes with all four triangles in one vector.
 #ifndef NEARLIGHT_LIB_PACKET_BLOCKS
 #define NEARLIGHT_LIB_PACKET_BLOCKS
 
@@ -12,8 +12,8 @@ typedef struct Axis4 {
 
 /// For each triangle of a block, which are turned towards the origin so that the sign of t is the same for
 /// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
-/// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its own:
-/// a sliver would reach far beyond its short edge.
+/// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its
+/// own: a sliver would reach far beyond its short edge.
 typedef struct BlockAxes {
     Axis4 u, v, w, n;
     float4 t;
@@ -77,8 +77,8 @@ LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) 
     return lane_bits8((int8)(may, (int4)0));
 }
 
-// Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the compiler
-// is left to choose.
+// Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the
+// compiler is left to choose.
 #if defined(FP_FAST_FMAF) || defined(__FMA__)
 #define FUSED(a, b, c) fma(a, b, c)
 #else

@@ -29,7 +29,8 @@ typedef struct PacketBounds {
     float16 cluster_low[3], cluster_high[3];
 } PacketBounds;
 
-/// Positions by lane; +∞ where a receiver is absent or not finite: it is culled, and must not widen any bounds.
+/// Positions by lane; +∞ where a receiver is absent or not finite: it is culled, and must not widen any
+/// bounds.
 typedef struct Places {
     float at[3][GATHER_PACKET_WIDTH];
 } Places;
@@ -105,7 +106,8 @@ inline float component(float3 v, uint axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// Finds clusters: four slices along the longest side of the box, each cut in four along its own longest side.
+/// Finds clusters: four slices along the longest side of the box, each cut in four along its own longest
+/// side.
 inline void find_clusters(const Places* places, uchar* order) {
     for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
         order[i] = (uchar)i;

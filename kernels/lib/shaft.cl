@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shafts from a VPL to boxes around receivers, which hold all their segments: one of the whole packet, for the
-// eight children of a node at once, and one of each cluster, for one child and all clusters at once.
+// Shafts from a VPL to boxes around receivers, which hold all their segments: one of the whole packet, for
+// the eight children of a node at once, and one of each cluster, for one child and all clusters at once.
 #ifndef NEARLIGHT_LIB_SHAFT
 #define NEARLIGHT_LIB_SHAFT
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the wide tree by a packet of segments: any hit.
 //
-// Nodes come from a stack, a few at a time, and the leaves that they lead to are looked at after them. That makes
-// long runs of work that does not depend on the step before, which hides latencies, and asks for memory well
-// before it is used.
+// Nodes come from a stack, a few at a time, and the leaves that they lead to are looked at after them. That
+// makes long runs of work that does not depend on the step before, which hides latencies, and asks for memory
+// well before it is used.
 #ifndef NEARLIGHT_LIB_WIDE_TRAVERSE
 #define NEARLIGHT_LIB_WIDE_TRAVERSE
 
 #include "lib/packet_blocks.cl"
 
 #define NODES_AT_ONCE 4
-// Entries lie deeper in the tree the nearer they are to the top, so that when nodes of a level are taken, nothing
-// is left of the level below: no level ever has more entries than one taking adds.
+// Entries lie deeper in the tree the nearer they are to the top, so that when nodes of a level are taken,
+// nothing is left of the level below: no level ever has more entries than one taking adds.
 #define GATHER_STACK_SIZE (NEARLIGHT_WIDE_CHILDREN * NODES_AT_ONCE * (NEARLIGHT_MAX_BVH_DEPTH + 1))
 
 /// An inner node, and the clusters that may meet it.
