@@ -17,6 +17,12 @@ constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
 /// The same where a row of numbers is kept of each.
 constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 14u;
 
+/// As many, at most, as one allocation has room for.
+std::size_t chunk_size(const Device& device, std::size_t wanted, std::size_t bytes_each) {
+    const std::size_t room = device.entry().max_allocation_bytes / std::max(bytes_each, 2 * sizeof(Vpl));
+    return std::clamp<std::size_t>(room, 1, wanted);
+}
+
 /// Adds to `weights`, which sum up to something else than 0 unless the view sees none of the candidates.
 void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
     double seen = 0;
@@ -39,8 +45,7 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
                                   std::span<const Vpl> candidates, ContributionNorm norm) {
     std::vector<float> weights;
     weights.reserve(candidates.size());
-    const std::size_t chunk =
-        std::min(kMostInChunk, stages.device.entry().max_allocation_bytes / (2 * sizeof(Vpl)));
+    const std::size_t chunk = chunk_size(stages.device, kMostInChunk, sizeof(Vpl));
     for (std::size_t first = 0; first < candidates.size(); first += chunk) {
         const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
         const Buffer<Vpl> vpls(stages.device, part);
@@ -60,9 +65,9 @@ Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::spa
     std::erase_if(order, [&](uint index) { return probabilities.of[index] <= 0; });
     const std::size_t row_length = 3 * task.view.importon_groups.size();
     BalancedChoice choice(row_length, probabilities.tau, random);
-    for (std::size_t first = 0; first < order.size(); first += kMostRowsInChunk) {
-        const std::span part =
-            std::span(order).subspan(first, std::min(kMostRowsInChunk, order.size() - first));
+    const std::size_t chunk = chunk_size(stages.device, kMostRowsInChunk, row_length * sizeof(float));
+    for (std::size_t first = 0; first < order.size(); first += chunk) {
+        const std::span part = std::span(order).subspan(first, std::min(chunk, order.size() - first));
         std::vector<Vpl> vpls;
         vpls.reserve(part.size());
         std::ranges::transform(part, std::back_inserter(vpls), [&](uint index) { return candidates[index]; });
