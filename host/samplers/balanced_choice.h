@@ -31,7 +31,7 @@ class BalancedChoice {
     BalancedChoice(std::size_t row_length, double usual_length, Pcg32 random);
 
     /// The next candidate along the curve. One whose probability is not above 0 is never drawn, one of 1 or
-    /// more for certain. Numbers that are not finite count as 0.
+    /// more for certain; these two need no row. Numbers that are not finite count as 0.
     void offer(uint index, double probability, std::span<const float> row);
 
     /// Settles what is still open, and empties the choice.

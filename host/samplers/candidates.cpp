@@ -61,10 +61,16 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
 Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
                        std::span<const float> weights, std::size_t wanted, Pcg32 random) {
     const Probabilities probabilities = choice_probabilities(weights, wanted);
-    std::vector<uint> order = stages.vpl_order.order(candidates);
-    std::erase_if(order, [&](uint index) { return probabilities.of[index] <= 0; });
     const std::size_t row_length = 3 * task.view.importon_groups.size();
     BalancedChoice choice(row_length, probabilities.tau, random);
+    std::vector<uint> order;  // of those that chance decides about: the others need no rows
+    for (const uint index : stages.vpl_order.order(candidates)) {
+        if (probabilities.of[index] >= 1) {
+            choice.offer(index, 1.0, {});
+        } else if (probabilities.of[index] > 0) {
+            order.push_back(index);
+        }
+    }
     const std::size_t chunk = chunk_size(stages.device, kMostRowsInChunk, row_length * sizeof(float));
     for (std::size_t first = 0; first < order.size(); first += chunk) {
         const std::span part = std::span(order).subspan(first, std::min(chunk, order.size() - first));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -21,24 +22,21 @@ Key key_of(const Vpl& importon, float normal_scale) {
     return {importon.position.x, importon.position.y, importon.position.z, n.x, n.y, n.z};
 }
 
-struct Spread {
-    Key low, high;
-    Key extent{};
-};
-
-Spread spread_of(std::span<const Vpl> importons, float normal_scale) {
-    Spread spread;
-    spread.low.fill(std::numeric_limits<float>::infinity());
-    spread.high.fill(-std::numeric_limits<float>::infinity());
+Key extent_of(std::span<const Vpl> importons, float normal_scale) {
+    Key low;
+    Key high;
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
     for (const Vpl& importon : importons) {
         const Key key = key_of(importon, normal_scale);
         for (std::size_t axis = 0; axis < key.size(); ++axis) {
-            spread.low[axis] = std::min(spread.low[axis], key[axis]);
-            spread.high[axis] = std::max(spread.high[axis], key[axis]);
-            spread.extent[axis] = spread.high[axis] - spread.low[axis];
+            low[axis] = std::min(low[axis], key[axis]);
+            high[axis] = std::max(high[axis], key[axis]);
         }
     }
-    return spread;
+    Key extent;
+    std::ranges::transform(high, low, extent.begin(), std::minus());
+    return extent;
 }
 
 void split(std::span<Vpl> importons, std::size_t wanted, float normal_scale,
@@ -47,7 +45,7 @@ void split(std::span<Vpl> importons, std::size_t wanted, float normal_scale,
         groups.emplace_back(importons.begin(), importons.end());
         return;
     }
-    const Key extent = spread_of(importons, normal_scale).extent;
+    const Key extent = extent_of(importons, normal_scale);
     const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
     const std::size_t wanted_below = wanted / 2;
     const std::size_t below = importons.size() * wanted_below / wanted;
@@ -61,7 +59,7 @@ void split(std::span<Vpl> importons, std::size_t wanted, float normal_scale,
 
 std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::size_t wanted) {
     std::vector<std::vector<Vpl>> groups;
-    const Key extent = spread_of(importons, 0.0f).extent;
+    const Key extent = extent_of(importons, 0.0f);
     const float diagonal = length({extent[0], extent[1], extent[2]});
     if (!importons.empty() && wanted > 0) {
         split(importons, std::min(wanted, importons.size()), 0.5f * kNormalDistance * diagonal, groups);

@@ -32,14 +32,6 @@ Scene yard() {
     return scene;
 }
 
-RenderSettings small_settings(SamplerKind sampler = SamplerKind::close_range) {
-    return {.sampler = sampler,
-            .vpl_count = 60,
-            .samples_per_pixel = 2,
-            .direct_samples_per_pixel = 4,
-            .seed = 5};
-}
-
 RenderSettings with_passes(RenderSettings settings, uint passes) {
     settings.passes = passes;
     return settings;
@@ -74,10 +66,10 @@ TEST_F(Passes, OneIsThePictureBitForBit) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
         Renderer renderer(device, scene);
-        const test::Rendering plain = test::render_image(renderer, small_settings());
-        const test::Rendering one = test::render_image(renderer, with_passes(small_settings(), 1));
+        const test::Rendering plain = test::render_image(renderer, test::few_vpls());
+        const test::Rendering one = test::render_image(renderer, with_passes(test::few_vpls(), 1));
         EXPECT_EQ(one.report.image_hash, plain.report.image_hash);
-        RenderSettings hurried = small_settings();
+        RenderSettings hurried = test::few_vpls();
         hurried.seconds = 0;  // the first pass is made all the same, and is the only one
         const test::Rendering first = test::render_image(renderer, hurried);
         EXPECT_EQ(first.report.passes, 1u);
@@ -92,7 +84,7 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
         Renderer renderer(device, scene);
         for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
             constexpr uint kPasses = 3;
-            RenderSettings settings = small_settings(sampler);
+            RenderSettings settings = test::few_vpls(sampler);
             const test::Rendering averaged = test::render_image(renderer, with_passes(settings, kPasses));
             settings.range = averaged.report.range;
             settings.clamp_radius = averaged.report.clamp_radius;
@@ -128,7 +120,7 @@ TEST_F(Passes, StopWhereTheTimeIsUsedOrEnoughAreMade) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
         Renderer renderer(device, scene);
-        RenderSettings settings = small_settings();
+        RenderSettings settings = test::few_vpls();
         settings.seconds = 1e9;
         settings.passes = 2;
         EXPECT_EQ(test::render_image(renderer, settings).report.passes, 2u);
@@ -142,17 +134,9 @@ TEST_F(Passes, AnInterruptedOneLeavesTheMeanOfThoseBefore) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
         Renderer renderer(device, scene);
-        const RenderSettings settings = with_passes(small_settings(), 4);
-        test::Rendering stopped;
-        stopped.report = renderer.render(
-            settings,
-            [&](const RenderReport& report, const View&, const VplSet&) {
-                stopped.image = {report.width, report.height, layer_channels(), {}};
-            },
-            [&](std::span<const float> rows) {
-                stopped.image.values.insert(stopped.image.values.end(), rows.begin(), rows.end());
-            },
-            [](const std::string&, double fraction) { return fraction < 0.25; });
+        const RenderSettings settings = with_passes(test::few_vpls(), 4);
+        const test::Rendering stopped = test::render_image(
+            renderer, settings, [](const std::string&, double fraction) { return fraction < 0.25; });
         EXPECT_TRUE(stopped.report.interrupted);
         // When the second pass begins, unless this thread was late. One band is the whole picture here, and
         // the last pass has not finished it.

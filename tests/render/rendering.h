@@ -15,7 +15,18 @@ struct Rendering {
     RenderReport report;
 };
 
-inline Rendering render_image(Renderer& renderer, const RenderSettings& settings) {
+/// Cheap, and every kind of light and random number.
+inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
+    return {.sampler = sampler,
+            .vpl_count = 60,
+            .samples_per_pixel = 2,
+            .direct_samples_per_pixel = 4,
+            .seed = 5};
+}
+
+inline Rendering render_image(
+    Renderer& renderer, const RenderSettings& settings,
+    const RenderProgress& progress = [](const std::string&, double) { return true; }) {
     Rendering rendering;
     rendering.report = renderer.render(
         settings,
@@ -25,7 +36,7 @@ inline Rendering render_image(Renderer& renderer, const RenderSettings& settings
         [&](std::span<const float> rows) {
             rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
         },
-        [](const std::string&, double) { return true; });
+        progress);
     return rendering;
 }
 inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {

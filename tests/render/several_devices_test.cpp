@@ -33,14 +33,6 @@ Scene lit_floor() {
     return scene;
 }
 
-RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
-    return {.sampler = sampler,
-            .vpl_count = 60,
-            .samples_per_pixel = 2,
-            .direct_samples_per_pixel = 4,
-            .seed = 5};
-}
-
 uint bands_of(const RenderReport& report) {
     return std::accumulate(report.shares.begin(), report.shares.end(), 0u,
                            [](uint sum, const BandShare& share) { return sum + share.bands; });
@@ -90,8 +82,8 @@ test::Rendering render_on(std::vector<Device*> devices, const RenderSettings& se
 
 TEST_F(SeveralDevices, GiveTheBitsOfOne) {
     for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
-        const test::Rendering one = render_on({&device(0)}, few_vpls(sampler));
-        const test::Rendering two = render_on({&device(0), &device(1)}, few_vpls(sampler));
+        const test::Rendering one = render_on({&device(0)}, test::few_vpls(sampler));
+        const test::Rendering two = render_on({&device(0), &device(1)}, test::few_vpls(sampler));
         EXPECT_EQ(two.report.image_hash, one.report.image_hash) << to_string(sampler);
         EXPECT_EQ(two.image.values, one.image.values) << "in a layer other than the beauty";
         EXPECT_EQ(two.report.local_lights, one.report.local_lights);
@@ -107,14 +99,14 @@ TEST_F(SeveralDevices, PartsOfOneGiveItsBitsToo) {
     if (whole.max_parts < 2) {
         GTEST_SKIP() << "the device has one compute unit";
     }
-    const test::Rendering one = render_on({&device(0)}, few_vpls());
+    const test::Rendering one = render_on({&device(0)}, test::few_vpls());
     std::vector<Device*> parts;
     for (const DeviceEntry& entry : choose_devices(list_devices(), std::to_string(whole.index) + "/2")) {
         EXPECT_EQ(entry.compute_units, whole.compute_units / 2);
         parts.push_back(&open(entry));
     }
     ASSERT_EQ(parts.size(), 2u);
-    const test::Rendering two = render_on(parts, few_vpls());
+    const test::Rendering two = render_on(parts, test::few_vpls());
     EXPECT_EQ(two.report.image_hash, one.report.image_hash);
     EXPECT_EQ(bands_of(two.report), 25u) << "one row of tiles a band";
 }
@@ -124,8 +116,8 @@ TEST_F(SeveralDevices, TheOthersFinishForOneThatFails) {
     write_kernels_without_film(folder.path());
     // Its first band fails when it comes to the film; it does not lead, so that VPLs are made.
     Device& broken = open(device(1).entry(), folder.path());
-    const test::Rendering alone = render_on({&device(0)}, few_vpls());
-    const test::Rendering with_broken = render_on({&device(0), &broken}, few_vpls());
+    const test::Rendering alone = render_on({&device(0)}, test::few_vpls());
+    const test::Rendering with_broken = render_on({&device(0), &broken}, test::few_vpls());
     EXPECT_EQ(with_broken.report.image_hash, alone.report.image_hash);
     EXPECT_TRUE(with_broken.report.shares.at(1).failed);
     EXPECT_EQ(with_broken.report.shares.at(1).bands, 0u);
@@ -138,16 +130,16 @@ TEST_F(SeveralDevices, AFailedOneIsLeftOutOfLaterPictures) {
     Device& broken = open(device(1).entry(), folder.path());
     const Scene scene = lit_floor();
     Renderer renderer(std::vector{&device(0), &broken}, scene);
-    EXPECT_EQ(test::render_image(renderer, few_vpls()).report.shares.size(), 2u);
-    EXPECT_EQ(test::render_image(renderer, few_vpls()).report.shares.size(), 1u);
+    EXPECT_EQ(test::render_image(renderer, test::few_vpls()).report.shares.size(), 2u);
+    EXPECT_EQ(test::render_image(renderer, test::few_vpls()).report.shares.size(), 1u);
 }
 
 TEST_F(SeveralDevices, AnotherLeadsWhereTheFirstHasNoRoomForTheScene) {
     DeviceEntry entry = device(0).entry();
     entry.max_allocation_bytes = 64;
     Device& tiny = open(entry);
-    const test::Rendering alone = render_on({&device(1)}, few_vpls());
-    const test::Rendering both = render_on({&tiny, &device(1)}, few_vpls());
+    const test::Rendering alone = render_on({&device(1)}, test::few_vpls());
+    const test::Rendering both = render_on({&tiny, &device(1)}, test::few_vpls());
     EXPECT_EQ(both.report.image_hash, alone.report.image_hash);
     EXPECT_EQ(both.report.shares.size(), 1u);
 }
@@ -158,7 +150,7 @@ TEST_F(SeveralDevices, WhenAllFailItIsAnError) {
     Device& tiny = open(entry);
     Device& tiny_too = open(entry);
     EXPECT_EQ(test::error_of([&] {
-                  render_on({&tiny, &tiny_too}, few_vpls());
+                  render_on({&tiny, &tiny_too}, test::few_vpls());
               }).code(),
               ExitCode::out_of_memory);
 }
@@ -168,7 +160,7 @@ TEST_F(SeveralDevices, StopWhenTheCallerWantsNoMore) {
     Renderer renderer(std::vector{&device(0), &device(1)}, scene);
     std::size_t rows = 0;
     const RenderReport report = renderer.render(
-        few_vpls(), [](const RenderReport&, const View&, const VplSet&) {},
+        test::few_vpls(), [](const RenderReport&, const View&, const VplSet&) {},
         [&](std::span<const float> finished) { rows += finished.size() / (200 * NEARLIGHT_LAYER_CHANNELS); },
         [](const std::string&, double fraction) { return fraction < 0.3; });
     EXPECT_TRUE(report.interrupted);
