@@ -2,8 +2,10 @@
 #include "host/bvh/wide_bvh.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
@@ -11,11 +13,121 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Subtrees of no more triangles are widened by one thread each.
+constexpr uint kPartTriangles = 1u << 14u;
+
 /// A child of a binary node.
 struct Child {
     uint reference = 0;
     Aabb box;
+    float half_area = 0.0f;
 };
+
+/// Those of a wide node, at most.
+struct Children {
+    std::array<Child, NEARLIGHT_WIDE_CHILDREN> children;
+    std::size_t count = 0;
+
+    void add(uint reference, const Aabb& box) { children[count++] = {reference, box, box.half_area()}; }
+    void remove(std::size_t index) {
+        std::move(children.begin() + index + 1, children.begin() + count, children.begin() + index);
+        --count;
+    }
+    /// By growing surface; of equal ones, those stay in front that were.
+    void sort() {
+        for (std::size_t i = 1; i < count; ++i) {
+            const Child child = children[i];
+            std::size_t at = i;
+            for (; at > 0 && child.half_area < children[at - 1].half_area; --at) {
+                children[at] = children[at - 1];
+            }
+            children[at] = child;
+        }
+    }
+};
+
+/// A tree of one leaf refers to it twice.
+bool has_right(const BvhNode& node) {
+    return node.right != node.left;
+}
+
+/// The binary tree, and how many triangles are below each node.
+class BinaryTree {
+  public:
+    explicit BinaryTree(const Bvh& bvh) : bvh_(bvh), triangle_counts_(bvh.nodes.size()) { count(0, 0); }
+
+    [[nodiscard]] const Bvh& bvh() const { return bvh_; }
+    [[nodiscard]] uint triangle_count(uint reference) const {
+        return is_leaf(reference) ? leaf_count(reference) : triangle_counts_[reference];
+    }
+    [[nodiscard]] bool becomes_leaf(uint reference) const {
+        return is_leaf(reference) || triangle_counts_[reference] <= NEARLIGHT_BLOCK_TRIANGLES;
+    }
+
+    /// The children of the wide node that stands for a binary one and what is below it.
+    [[nodiscard]] Children collapse(uint node_index) const {
+        Children result;
+        add_children(node_index, result);
+        while (result.count < NEARLIGHT_WIDE_CHILDREN) {
+            std::size_t widest = result.count;
+            for (std::size_t i = 0; i < result.count; ++i) {
+                const Child& child = result.children[i];
+                if (!becomes_leaf(child.reference) &&
+                    (widest == result.count || child.half_area > result.children[widest].half_area)) {
+                    widest = i;
+                }
+            }
+            if (widest == result.count) {
+                break;
+            }
+            const uint opened = result.children[widest].reference;
+            result.remove(widest);
+            add_children(opened, result);
+        }
+        result.sort();
+        return result;
+    }
+
+  private:
+    uint count(uint reference, int level) {
+        if (is_leaf(reference)) {
+            return leaf_count(reference);
+        }
+        const BvhNode& node = bvh_.nodes[reference];
+        uint left = 0;
+        uint right = 0;
+        invoke_at_level(
+            level, [&] { left = count(node.left, level + 1); },
+            [&] { right = has_right(node) ? count(node.right, level + 1) : 0; });
+        return triangle_counts_[reference] = left + right;
+    }
+
+    void add_children(uint node_index, Children& children) const {
+        const BvhNode& node = bvh_.nodes[node_index];
+        children.add(node.left, {node.left_min, node.left_max});
+        if (has_right(node)) {
+            children.add(node.right, {node.right_min, node.right_max});
+        }
+    }
+
+    const Bvh& bvh_;
+    std::vector<uint> triangle_counts_;
+};
+
+/// Without references to children.
+WideNode make_node(const Children& children) {
+    WideNode node{};
+    std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
+    std::fill_n(&node.high[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, -kInfinity);
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const Aabb& box = children.children[i].box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.low[axis][i] = (&box.min.x)[axis];
+            node.high[axis][i] = (&box.max.x)[axis];
+        }
+    }
+    return node;
+}
 
 void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v) {
     rows[0][column] = v.x;
@@ -23,125 +135,143 @@ void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v
     rows[2][column] = v.z;
 }
 
+/// Widens one subtree, in depth-first order.
 class Widener {
   public:
-    explicit Widener(const Bvh& bvh) : bvh_(bvh), triangle_counts_(bvh.nodes.size()) {}
-
-    WideBvh widen() && {
-        count_triangles(0);
-        wide_.nodes.reserve(bvh_.triangles.size() / 8 + 1);
-        wide_.blocks.reserve(bvh_.triangles.size() / 3 + 1);
-        add_node(0);
-        return std::move(wide_);
+    Widener(const BinaryTree& tree, uint triangle_count) : tree_(tree) {
+        wide_.nodes.reserve(triangle_count / 8 + 1);
+        wide_.blocks.reserve(triangle_count / 3 + 1);
     }
 
-  private:
-    uint count_triangles(uint reference) {
-        if (is_leaf(reference)) {
-            return leaf_count(reference);
-        }
-        const BvhNode& node = bvh_.nodes[reference];
-        uint count = count_triangles(node.left);
-        count += has_right(node) ? count_triangles(node.right) : 0;
-        return triangle_counts_[reference] = count;
+    /// Reference to what stands for the binary one.
+    uint add(uint reference) {
+        return tree_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
     }
-    /// A tree of one leaf refers to it twice.
-    static bool has_right(const BvhNode& node) { return node.right != node.left; }
-
-    [[nodiscard]] bool becomes_leaf(uint reference) const {
-        return is_leaf(reference) || triangle_counts_[reference] <= NEARLIGHT_BLOCK_TRIANGLES;
-    }
-
-    void append_children(uint node_index, std::vector<Child>& children) const {
-        const BvhNode& node = bvh_.nodes[node_index];
-        children.push_back({node.left, {node.left_min, node.left_max}});
-        if (has_right(node)) {
-            children.push_back({node.right, {node.right_min, node.right_max}});
-        }
-    }
-
-    [[nodiscard]] std::vector<Child> collapse(uint node_index) const {
-        std::vector<Child> children;
-        append_children(node_index, children);
-        while (children.size() < NEARLIGHT_WIDE_CHILDREN) {
-            auto widest = children.end();
-            for (auto child = children.begin(); child != children.end(); ++child) {
-                if (!becomes_leaf(child->reference) &&
-                    (widest == children.end() || child->box.half_area() > widest->box.half_area())) {
-                    widest = child;
-                }
-            }
-            if (widest == children.end()) {
-                break;
-            }
-            const uint opened = widest->reference;
-            children.erase(widest);
-            append_children(opened, children);
-        }
-        std::stable_sort(children.begin(), children.end(), [](const Child& a, const Child& b) {
-            return a.box.half_area() < b.box.half_area();
-        });
-        return children;
-    }
-
+    /// The same as an inner node, however few triangles there are.
     uint add_node(uint node_index) {
-        const std::vector<Child> children = collapse(node_index);
+        const Children children = tree_.collapse(node_index);
         const std::size_t index = wide_.nodes.size();
-        wide_.nodes.emplace_back();
-        WideNode node{};
-        std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
-        std::fill_n(&node.high[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, -kInfinity);
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            const Aabb& box = children[i].box;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.low[axis][i] = (&box.min.x)[axis];
-                node.high[axis][i] = (&box.max.x)[axis];
-            }
-            const uint reference = children[i].reference;
-            node.child[i] = becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
+        wide_.nodes.push_back(make_node(children));
+        for (std::size_t i = 0; i < children.count; ++i) {
+            const uint child = add(children.children[i].reference);
+            wide_.nodes[index].child[i] = child;
         }
-        wide_.nodes[index] = node;
         return static_cast<uint>(index);
     }
 
-    void append_triangles(uint reference, std::vector<uint>& triangles) const {
+    WideBvh take() && { return std::move(wide_); }
+
+  private:
+    uint add_leaf(uint reference) {
+        const std::size_t first = wide_.blocks.size();
+        std::size_t count = 0;
+        add_triangles(reference, count);
+        return leaf_reference(static_cast<uint>(first), static_cast<uint>(wide_.blocks.size() - first));
+    }
+
+    void add_triangles(uint reference, std::size_t& count) {
         if (!is_leaf(reference)) {
-            append_triangles(bvh_.nodes[reference].left, triangles);
-            append_triangles(bvh_.nodes[reference].right, triangles);
+            add_triangles(tree_.bvh().nodes[reference].left, count);
+            add_triangles(tree_.bvh().nodes[reference].right, count);
             return;
         }
         for (uint i = 0; i < leaf_count(reference); ++i) {
-            triangles.push_back(leaf_first(reference) + i);
-        }
-    }
-
-    uint add_leaf(uint reference) {
-        std::vector<uint> triangles;
-        append_triangles(reference, triangles);
-        const std::size_t first = wide_.blocks.size();
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            const std::size_t column = i % NEARLIGHT_BLOCK_TRIANGLES;
+            const BvhTriangle& triangle = tree_.bvh().triangles[leaf_first(reference) + i];
+            const std::size_t column = count++ % NEARLIGHT_BLOCK_TRIANGLES;
             if (column == 0) {
                 wide_.blocks.emplace_back();
             }
             TriangleBlock& block = wide_.blocks.back();
-            const BvhTriangle& triangle = bvh_.triangles[triangles[i]];
             put(block.v0, column, triangle.v0);
             put(block.edge1, column, triangle.edge1);
             put(block.edge2, column, triangle.edge2);
         }
-        return leaf_reference(static_cast<uint>(first), static_cast<uint>(wide_.blocks.size() - first));
     }
 
-    const Bvh& bvh_;
-    std::vector<uint> triangle_counts_;  // below each binary node
+    const BinaryTree& tree_;
     WideBvh wide_;
 };
+
+/// What a thread makes: a subtree, or one node above such, whose children are later parts.
+struct Part {
+    uint reference = 0;
+    std::vector<std::size_t> children;  ///< of a single node; empty: a subtree
+    WideBvh made;
+    uint root = 0;  ///< of a subtree: reference to it, counted from its own start
+    std::size_t node_offset = 0, block_offset = 0;  ///< where it comes to stand
+};
+
+/// Appends the parts of a subtree in depth-first order, and returns the first one's index.
+std::size_t list_parts(const BinaryTree& tree, uint reference, std::vector<Part>& parts) {
+    const std::size_t index = parts.size();
+    parts.push_back({.reference = reference, .children = {}, .made = {}});
+    if (tree.becomes_leaf(reference) || tree.triangle_count(reference) <= kPartTriangles) {
+        return index;
+    }
+    const Children children = tree.collapse(reference);
+    parts[index].made.nodes = {make_node(children)};
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const std::size_t child = list_parts(tree, children.children[i].reference, parts);
+        parts[index].children.push_back(child);
+    }
+    return index;
+}
+
+/// A reference of a part, as the whole tree has it.
+uint moved(uint reference, const Part& part) {
+    return reference + static_cast<uint>(is_leaf(reference) ? part.block_offset : part.node_offset);
+}
+
+void copy_part(const Part& part, std::span<const Part> parts, WideBvh& wide) {
+    for (std::size_t i = 0; i < part.made.nodes.size(); ++i) {
+        WideNode node = part.made.nodes[i];
+        for (std::size_t k = 0; k < NEARLIGHT_WIDE_CHILDREN && node.low[0][k] < kInfinity; ++k) {
+            if (part.children.empty()) {
+                node.child[k] = moved(node.child[k], part);
+            } else {
+                const Part& child = parts[part.children[k]];
+                node.child[k] = moved(child.root, child);
+            }
+        }
+        wide.nodes[part.node_offset + i] = node;
+    }
+    std::ranges::copy(part.made.blocks, wide.blocks.begin() + static_cast<std::ptrdiff_t>(part.block_offset));
+}
+
+template <typename Body>
+void for_each_part(std::vector<Part>& parts, const Body& body) {
+    parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+        std::for_each(parts.begin() + static_cast<std::ptrdiff_t>(first),
+                      parts.begin() + static_cast<std::ptrdiff_t>(last), body);
+    });
+}
 
 }  // namespace
 
 WideBvh widen(const Bvh& bvh) {
-    return Widener(bvh).widen();
+    const BinaryTree tree(bvh);
+    std::vector<Part> parts;
+    list_parts(tree, 0, parts);
+    for_each_part(parts, [&](Part& part) {
+        if (part.children.empty()) {
+            Widener widener(tree, tree.triangle_count(part.reference));
+            part.root = &part == parts.data() ? widener.add_node(0) : widener.add(part.reference);
+            part.made = std::move(widener).take();
+        }
+    });
+    std::size_t node_count = 0;
+    std::size_t block_count = 0;
+    for (Part& part : parts) {
+        part.node_offset = node_count;
+        part.block_offset = block_count;
+        node_count += part.made.nodes.size();
+        block_count += part.made.blocks.size();
+    }
+    WideBvh wide;
+    wide.nodes.resize(node_count);
+    wide.blocks.resize(block_count);
+    for_each_part(parts, [&](const Part& part) { copy_part(part, parts, wide); });
+    return wide;
 }
 
 }  // namespace nearlight
