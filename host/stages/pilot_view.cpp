@@ -16,6 +16,7 @@ constexpr double kPixelCount = 1024;
 /// They only steer a choice, and are asked by many candidates (bench/RESULTS.md).
 constexpr std::size_t kSquaredImportons = 1024;
 constexpr std::size_t kFewSquaredImportons = 32;
+constexpr std::size_t kGroupedImportons = 512;
 constexpr std::size_t kImportonGroups = 64;
 
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
@@ -55,11 +56,12 @@ Importons squared(Device& device, std::vector<Vpl> importons) {
     return upload(device, importons);
 }
 
-std::vector<Importons> grouped(Device& device, std::vector<Vpl> importons) {
+std::vector<Importons> grouped(Device& device, std::vector<Vpl> importons, std::size_t squared_count) {
+    const float stood_for = static_cast<float>(squared_count) / static_cast<float>(importons.size());
     std::vector<Importons> groups;
     for (std::vector<Vpl>& group : group_importons(std::move(importons), kImportonGroups)) {
         for (Vpl& importon : group) {
-            importon.power *= 1.0f / std::sqrt(static_cast<float>(group.size()));
+            importon.power *= std::sqrt(stood_for / static_cast<float>(group.size()));
         }
         groups.push_back(upload(device, group));
     }
@@ -90,7 +92,7 @@ void set_importons(Device& device, PilotView& view, std::span<const Vpl> importo
     view.importons = upload(device, importons);
     view.squared_importons = squared(device, some_of(importons, kSquaredImportons));
     view.few_squared_importons = squared(device, some_of(importons, kFewSquaredImportons));
-    view.importon_groups = grouped(device, some_of(importons, kSquaredImportons));
+    view.importon_groups = grouped(device, some_of(importons, kGroupedImportons), view.squared_importons.count);
 }
 
 const Importons& PilotView::importons_of(ContributionNorm norm) const {

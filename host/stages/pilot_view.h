@@ -32,8 +32,9 @@ struct PilotView {
     Importons importons;
     Importons squared_importons;      ///< some of them
     Importons few_squared_importons;  ///< still fewer, evenly spread too
-    /// As many as the squared ones, by parts of the picture. Powers are divided by the root of a group's
-    /// size, so that squares of sums over a group compare with sums of squares.
+    /// Some of them, by parts of the picture. Powers are multiplied by the root of (squared importons ÷
+    /// importons in all groups ÷ those of a group), so that squares of sums over a group compare with sums of
+    /// squares.
     std::vector<Importons> importon_groups;
     std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
 
