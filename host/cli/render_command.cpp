@@ -137,9 +137,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_outputs(options.picture);
     const Stopwatch total;
     // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
-    const DeviceList list = list_devices();
+    set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
-        auto opened = open_devices(options.device, list);
+        auto opened = open_devices(options.device, list_devices());
         begin_compiling(plain(opened), settings);
         return opened;
     });
