@@ -14,6 +14,7 @@ namespace {
 constexpr float kFar = 1e30f;
 constexpr std::size_t kFetchGrain = 1u << 12u;
 constexpr Vec3 kFarPoint{kFar, kFar, kFar};
+constexpr BvhTriangle kNoTriangle{kFarPoint, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 
 struct Counts {
     uint nodes = 0;
@@ -82,10 +83,20 @@ double half_area(Vec3 low, Vec3 high) {
 
 }  // namespace
 
+void fetch_triangles(Bvh& bvh, const Scene& scene) {
+    bvh.triangles.resize(bvh.triangle_ids.size());
+    parallel_for(bvh.triangles.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const uint id = bvh.triangle_ids[i];
+            bvh.triangles[i] = id == ~0u ? kNoTriangle : fetch_triangle(scene, scene.triangles[id]);
+        }
+    });
+}
+
 Bvh empty_bvh() {
     Bvh bvh;
     bvh.nodes = {root_of_one_leaf({kFarPoint, kFarPoint}, leaf_reference(0, 1))};
-    bvh.triangles = {{kFarPoint, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    bvh.triangles = {kNoTriangle};
     bvh.triangle_ids = {~0u};
     bvh.depth = 1;
     return bvh;
@@ -103,12 +114,7 @@ Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
         bvh.depth = 1;
     }
     tree = {};  // before the triangles need memory
-    bvh.triangles.resize(bvh.triangle_ids.size());
-    parallel_for(bvh.triangles.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            bvh.triangles[i] = fetch_triangle(scene, scene.triangles[bvh.triangle_ids[i]]);
-        }
-    });
+    fetch_triangles(bvh, scene);
     bvh.sah_cost = sah_cost(bvh, config);
     return bvh;
 }

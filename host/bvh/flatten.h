@@ -10,6 +10,9 @@ namespace nearlight {
 /// parent, fetches the triangles, and fills in depth and cost. Takes the tree's memory.
 Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config);
 
+/// Fills in the triangles that triangle_ids names.
+void fetch_triangles(Bvh& bvh, const Scene& scene);
+
 /// A tree without triangles: one leaf that holds a single degenerate triangle far away. Its id is ~0u.
 Bvh empty_bvh();
 

@@ -197,10 +197,16 @@ std::string to_string(DeviceKind kind) {
     return kind == DeviceKind::cpu ? "cpu" : kind == DeviceKind::gpu ? "gpu" : "other";
 }
 
-DeviceList list_devices() {
+void set_driver_defaults() {
     // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the group
     // size of a launch. The second is no faster (bench/RESULTS.md), and users would wait for it.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+}
+
+DeviceList list_devices() {
+    if (std::getenv("POCL_WORK_GROUP_SPECIALIZATION") == nullptr) {
+        set_driver_defaults();
+    }
     DeviceList list;
     std::vector<cl::Platform> platforms;
     try {

@@ -38,8 +38,10 @@ struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;
 };
-/// Never throws for what drivers do wrong. Sets an environment variable for PoCL: call it before there are
-/// threads.
+/// Environment variables that drivers read, where they are not set: list_devices() does it too, but must not
+/// be the first to where there are threads already.
+void set_driver_defaults();
+/// Never throws for what drivers do wrong.
 DeviceList list_devices();
 
 /// By `choice`, a comma-separated list of: an index, "cpu", "gpu", "all", or part of a name (any case), each

@@ -20,7 +20,8 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
         ->type_name("DIR");
     command
         .add_option("--cache-dir", choice.options.cache_dir,
-                    "Keep compiled kernels here (default: ~/.cache/nearlight); `none` keeps nothing")
+                    "Keep compiled kernels, trees and tunables here (default: ~/.cache/nearlight); `none` "
+                    "keeps nothing")
         ->type_name("DIR");
 }
 

@@ -137,9 +137,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_outputs(options.picture);
     const Stopwatch total;
     // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
-    const DeviceList list = list_devices();
+    set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
-        auto opened = open_devices(options.device, list);
+        auto opened = open_devices(options.device, list_devices());
         begin_compiling(plain(opened), settings);
         return opened;
     });
@@ -155,13 +155,17 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     catch_interrupts();
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
+    FirstRows first_rows;
     const RenderReport report = render(
         plain(devices), scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             files.open(started.width, started.height,
                        render_metadata(scene, settings, started, view, devices));
         },
-        [&](std::span<const float> rows) { files.write_rows(rows); },
+        [&](std::span<const float> rows) {
+            first_rows.note(total);
+            files.write_rows(rows);
+        },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
             return !interrupted();
@@ -170,7 +174,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     files.commit(total.seconds());
     if (global.json) {
         print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report,
-                               load_seconds, devices));
+                               load_seconds, first_rows, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {

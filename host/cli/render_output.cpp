@@ -2,6 +2,7 @@
 #include "host/cli/render_output.h"
 
 #include <algorithm>
+#include <ctime>
 
 #include "host/base/hash.h"
 #include "host/base/log.h"
@@ -54,9 +55,19 @@ Metadata render_metadata(const Scene& scene, const RenderSettings& settings, con
     return metadata;
 }
 
+void FirstRows::note(const Stopwatch& since_begin) {
+    if (seconds == 0.0) {
+        timespec now{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+        seconds = since_begin.seconds();
+        processor_seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    }
+}
+
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, const RenderReport& report,
-                                   double load_seconds, const std::vector<std::unique_ptr<Device>>& devices) {
+                                   double load_seconds, const FirstRows& first_rows,
+                                   const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
     json["scene"] = scene_file;
     json["width"] = report.width;
@@ -96,7 +107,9 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
                        {"compile", report.seconds.compile},
                        {"generate", report.seconds.generate},
                        {"gather", report.seconds.gather},
+                       {"first_rows", first_rows.seconds},
                        {"total", load_seconds + report.seconds.total}};
+    json["processor_seconds"] = {{"first_rows", first_rows.processor_seconds}};
     json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
     json["outputs"] = outputs;
     json["image_hash"] = hex_digits(report.image_hash);

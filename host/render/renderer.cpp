@@ -6,6 +6,7 @@
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
+#include "host/bvh/bvh_cache.h"
 #include "host/render/band_renderer.h"
 #include "host/render/passes.h"
 
@@ -112,7 +113,8 @@ Renderer::State::State(std::span<Device* const> on_devices, const Scene& of_scen
     }
     samplers.emplace(leader(), gather_config);
     Stopwatch watch;
-    const SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = bvh_quality});
+    const SceneBvhs bvhs =
+        find_or_build_scene_bvhs(scene, {.quality = bvh_quality}, {.folder = leader().options().cache_dir});
     seconds.build_bvh = watch.lap();
     upload(bvhs);
     seconds.generate = watch.lap();

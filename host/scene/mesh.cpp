@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mesh.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/base/error.h"
@@ -68,10 +69,18 @@ std::vector<Vec3> world_normals(const Mesh& mesh, const MeshPlacement& placement
     return normals;
 }
 
+// For one of many meshes: room for exactly that would have all earlier ones moved each time.
+template <typename T>
+void make_room(std::vector<T>& values, std::size_t more) {
+    if (values.size() + more > values.capacity()) {
+        values.reserve(std::max(values.size() + more, 2 * values.capacity()));
+    }
+}
+
 // Vertices that no kept triangle uses may still be NaN; nobody looks at them, but they must not spoil hashes.
 void append_vertices(Scene& scene, const Mesh& mesh, std::span<const Vec3> positions,
                      std::span<const Vec3> normals, bool flip) {
-    scene.vertices.reserve(scene.vertices.size() + positions.size());
+    make_room(scene.vertices, positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         Vertex vertex{};
         vertex.position = is_finite(positions[i]) ? positions[i] : Vec3{0, 0, 0};
@@ -126,7 +135,7 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
     append_vertices(scene, mesh, positions, normals, placement.flip_normals);
 
     std::size_t dropped = 0;
-    scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
+    make_room(scene.triangles, mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         Indices t = mesh.triangles[i];
         if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) {

@@ -212,6 +212,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
     if (!present[0] || !present[1] || !present[2]) {
         fail(mesh.source, "PLY vertices have no x, y and z");
     }
+    mesh.positions.reserve(element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
         std::array<float, 8> values{};
         for (std::size_t p = 0; p < slots.size(); ++p) {
@@ -242,6 +243,7 @@ uint read_index(PlyReader& reader, Scalar type, const Mesh& mesh) {
 }
 
 void read_faces(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
+    mesh.triangles.reserve(element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties) {
             if (!property.is_list || (property.name != "vertex_indices" && property.name != "vertex_index")) {

@@ -132,11 +132,6 @@ TEST(BvhQuality, HitsAreThoseOfTheFastTree) {
     expect_same_hits(test::aligned_squares(6), 44);
 }
 
-template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 TEST(BvhQuality, ThreadsDoNotChangeTheResult) {
     Scene scene = random_soup(100000, 0.1f, 10);
     for (std::size_t i = 0; i < scene.vertices.size(); i += 50) {
@@ -150,7 +145,7 @@ TEST(BvhQuality, ThreadsDoNotChangeTheResult) {
     EXPECT_GT(one.triangles.size(), scene.triangles.size());
     for (int repeat = 0; repeat < 2; ++repeat) {
         const Bvh four = build_with(4);
-        EXPECT_TRUE(same_bits(one.nodes, four.nodes));
+        EXPECT_TRUE(test::same_bits(one.nodes, four.nodes));
         EXPECT_EQ(one.triangle_ids, four.triangle_ids);
     }
 }
@@ -180,7 +175,7 @@ TEST(ChildOrder, KeepsTheTreeSoundAndIsTheSameEachTime) {
     Bvh again = bvh;
     order_children(bvh, scene, all_ids(scene));
     order_children(again, scene, all_ids(scene));
-    EXPECT_TRUE(same_bits(bvh.nodes, again.nodes));
+    EXPECT_TRUE(test::same_bits(bvh.nodes, again.nodes));
     EXPECT_THAT(check_bvh(bvh, scene, all_ids(scene)), IsEmpty());
     EXPECT_NEAR(sah_cost(bvh, {}), cost, 1e-9 * cost);
 }

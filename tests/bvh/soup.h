@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <vector>
 
@@ -30,6 +31,11 @@ inline Vec3 random_point(Pcg32& random, float size) {
     const float y = random.uniform() - 0.5f;
     const float z = random.uniform() - 0.5f;
     return Vec3{x, y, z} * size;
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 /// Triangles of about `size` anywhere in a cube of 10.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bvh/bvh_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "host/scene/material_model.h"
+#include "tests/bvh/soup.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight {
+namespace {
+
+class BvhCache : public testing::Test {
+  protected:
+    BvhCache() {
+        scene_.materials.push_back(scene_.materials.front());
+        scene_.materials.back().lobe = NEARLIGHT_LOBE_DIELECTRIC;
+        for (std::size_t i = 0; i < scene_.triangles.size(); i += 5) {
+            scene_.triangles[i].material = 1;
+        }
+    }
+    SceneBvhs get(const BvhConfig& config = {}) const {
+        return find_or_build_scene_bvhs(
+            scene_, config, {.folder = folder_.path(), .least_triangles = 1, .most_bytes = most_bytes_});
+    }
+    void expect_right(const SceneBvhs& bvhs, const BvhConfig& config = {}) const {
+        const SceneBvhs built = build_scene_bvhs(scene_, config);
+        EXPECT_EQ(bvhs.has_glass, built.has_glass);
+        for (const auto& [one, other] :
+             {std::pair{&bvhs.opaque, &built.opaque}, {&bvhs.glass, &built.glass}}) {
+            EXPECT_TRUE(test::same_bits(one->nodes, other->nodes));
+            EXPECT_TRUE(test::same_bits(one->triangles, other->triangles));
+            EXPECT_EQ(one->triangle_ids, other->triangle_ids);
+            EXPECT_EQ(one->sah_cost, other->sah_cost);
+            EXPECT_EQ(one->depth, other->depth);
+        }
+    }
+    [[nodiscard]] std::filesystem::path only_file() const {
+        return std::filesystem::directory_iterator(folder_.path())->path();
+    }
+
+    TemporaryFolder folder_;
+    Scene scene_ = test::random_soup(600, 0.3f, 5);
+    std::uintmax_t most_bytes_ = 1u << 30u;
+};
+
+TEST_F(BvhCache, GivesWhatWouldBeBuilt) {
+    const BvhConfig quality{.quality = BvhQuality::quality};
+    for (const BvhConfig& config : {BvhConfig{}, quality}) {
+        expect_right(get(config), config);
+        expect_right(get(config), config);
+    }
+    EXPECT_EQ(folder_.file_count(), 2u);
+}
+
+TEST_F(BvhCache, ReallyReadsTheFile) {
+    get();
+    const auto before = std::filesystem::last_write_time(only_file()) - std::chrono::hours(1);
+    std::filesystem::last_write_time(only_file(), before);
+    get();
+    EXPECT_GT(std::filesystem::last_write_time(only_file()), before) << "not marked as used";
+    EXPECT_EQ(folder_.file_count(), 1u);
+}
+
+TEST_F(BvhCache, AnotherSceneHasAnotherTree) {
+    get();
+    scene_.vertices[17].position.x += 1e-3f;
+    expect_right(get());
+    scene_.triangles[3].material = 1;
+    expect_right(get());
+    std::swap(scene_.triangles[5], scene_.triangles[6]);
+    expect_right(get());
+    scene_.triangles.pop_back();
+    expect_right(get());
+    EXPECT_EQ(folder_.file_count(), 5u);
+}
+
+TEST_F(BvhCache, WithoutGlassToo) {
+    for (Triangle& triangle : scene_.triangles) {
+        triangle.material = 0;
+    }
+    get();
+    expect_right(get());
+}
+
+TEST_F(BvhCache, DamagedFilesAreBuiltAgain) {
+    get();
+    const std::filesystem::path file = only_file();
+    std::ifstream stream(file, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    for (std::size_t i = 0; i < whole.size(); i += i < 200 ? 1 : 997) {
+        std::string damaged = whole;
+        damaged[i] = static_cast<char>(damaged[i] ^ 1);
+        std::ofstream(file, std::ios::binary) << (i % 2 == 0 ? damaged : whole.substr(0, i));
+        expect_right(get());
+    }
+    std::ofstream(file, std::ios::binary) << whole + "more";
+    expect_right(get());
+}
+
+TEST_F(BvhCache, ForgetsWhatWasNotUsedForLongest) {
+    get();
+    const std::filesystem::path first = only_file();
+    std::filesystem::last_write_time(first, std::filesystem::last_write_time(first) - std::chrono::hours(1));
+    most_bytes_ = std::filesystem::file_size(first) * 3 / 2;
+    get({.quality = BvhQuality::quality});
+    EXPECT_EQ(folder_.file_count(), 1u);
+    EXPECT_FALSE(std::filesystem::exists(first));
+}
+
+TEST_F(BvhCache, KeepsNothingWhereThereIsNoFolderOrLittleToBuild) {
+    for (const char* folder : {"", "none"}) {
+        expect_right(find_or_build_scene_bvhs(scene_, {}, {.folder = folder, .least_triangles = 1}));
+    }
+    expect_right(find_or_build_scene_bvhs(scene_, {}, {.folder = folder_.path()}));
+    EXPECT_EQ(folder_.file_count(), 0u);
+    EXPECT_FALSE(std::filesystem::exists("none"));
+}
+
+}  // namespace
+}  // namespace nearlight
