@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/bvh/collapse_plan.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// A child of a binary node.
-struct Child {
-    uint reference = 0;
-    Aabb box;
-};
 
 void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v) {
     rows[0][column] = v.x;
@@ -25,10 +20,9 @@ void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v
 
 class Widener {
   public:
-    explicit Widener(const Bvh& bvh) : bvh_(bvh), triangle_counts_(bvh.nodes.size()) {}
+    explicit Widener(const Bvh& bvh) : bvh_(bvh), plan_(bvh) {}
 
     WideBvh widen() && {
-        count_triangles(0);
         wide_.nodes.reserve(bvh_.triangles.size() / 8 + 1);
         wide_.blocks.reserve(bvh_.triangles.size() / 3 + 1);
         add_node(0);
@@ -36,56 +30,11 @@ class Widener {
     }
 
   private:
-    uint count_triangles(uint reference) {
-        if (is_leaf(reference)) {
-            return leaf_count(reference);
-        }
-        const BvhNode& node = bvh_.nodes[reference];
-        uint count = count_triangles(node.left);
-        count += has_right(node) ? count_triangles(node.right) : 0;
-        return triangle_counts_[reference] = count;
-    }
-    /// A tree of one leaf refers to it twice.
-    static bool has_right(const BvhNode& node) { return node.right != node.left; }
-
-    [[nodiscard]] bool becomes_leaf(uint reference) const {
-        return is_leaf(reference) || triangle_counts_[reference] <= NEARLIGHT_BLOCK_TRIANGLES;
-    }
-
-    void append_children(uint node_index, std::vector<Child>& children) const {
-        const BvhNode& node = bvh_.nodes[node_index];
-        children.push_back({node.left, {node.left_min, node.left_max}});
-        if (has_right(node)) {
-            children.push_back({node.right, {node.right_min, node.right_max}});
-        }
-    }
-
-    [[nodiscard]] std::vector<Child> collapse(uint node_index) const {
-        std::vector<Child> children;
-        append_children(node_index, children);
-        while (children.size() < NEARLIGHT_WIDE_CHILDREN) {
-            auto widest = children.end();
-            for (auto child = children.begin(); child != children.end(); ++child) {
-                if (!becomes_leaf(child->reference) &&
-                    (widest == children.end() || child->box.half_area() > widest->box.half_area())) {
-                    widest = child;
-                }
-            }
-            if (widest == children.end()) {
-                break;
-            }
-            const uint opened = widest->reference;
-            children.erase(widest);
-            append_children(opened, children);
-        }
-        std::stable_sort(children.begin(), children.end(), [](const Child& a, const Child& b) {
+    uint add_node(uint node_index) {
+        std::vector<WideChild> children = plan_.children(node_index);
+        std::stable_sort(children.begin(), children.end(), [](const WideChild& a, const WideChild& b) {
             return a.box.half_area() < b.box.half_area();
         });
-        return children;
-    }
-
-    uint add_node(uint node_index) {
-        const std::vector<Child> children = collapse(node_index);
         const std::size_t index = wide_.nodes.size();
         wide_.nodes.emplace_back();
         WideNode node{};
@@ -98,7 +47,7 @@ class Widener {
                 node.high[axis][i] = (&box.max.x)[axis];
             }
             const uint reference = children[i].reference;
-            node.child[i] = becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
+            node.child[i] = plan_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
         }
         wide_.nodes[index] = node;
         return static_cast<uint>(index);
@@ -134,7 +83,7 @@ class Widener {
     }
 
     const Bvh& bvh_;
-    std::vector<uint> triangle_counts_;  // below each binary node
+    CollapsePlan plan_;
     WideBvh wide_;
 };
 

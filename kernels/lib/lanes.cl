@@ -74,12 +74,13 @@ LANES_INLINE float16 reciprocal16(float16 d) {
     return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
 }
 
-/// Asks for the first three cache lines of what lies at `at`.
+/// Asks for the first four cache lines of what lies at `at`.
 LANES_INLINE void prefetch_lines(const global void* at) {
 #ifdef LANES_PREFETCH
     __builtin_prefetch(at);
     __builtin_prefetch((const global char*)at + 64);
     __builtin_prefetch((const global char*)at + 128);
+    __builtin_prefetch((const global char*)at + 192);
 #endif
 }
 

@@ -26,7 +26,7 @@ typedef struct LeafVisit {
 } LeafVisit;
 
 // Lanes of a group, at most, that are tested one after the other.
-#define FEW_LANES 4
+#define FEW_LANES 8
 
 LANES_INLINE Axis4 load_axis(const global float* rows) {
     const Axis4 axis = {vload4(0, rows), vload4(1, rows), vload4(2, rows)};

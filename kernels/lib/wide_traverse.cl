@@ -27,7 +27,7 @@ typedef struct Traversal {
     uint leaf_count;
 } Traversal;
 
-/// Asks for the memory of a node or of a leaf's first block, which take three cache lines or more.
+/// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
 LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
                                  uint child) {
     const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
