@@ -75,7 +75,7 @@ LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) 
     const int4 may = (greatest_in_shaft(u, shaft) >= -slack) & (greatest_in_shaft(v, shaft) >= -slack) &
                      (greatest_in_shaft(w, shaft) >= -slack) &
                      (axes->t * (1.0f - SHAFT_SLACK) < greatest_in_shaft(n, shaft) + slack);
-    return lane_bits8((int8)(may, (int4)0));
+    return lane_bits4(may);
 }
 
 // Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the
@@ -133,7 +133,7 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
             min4(min4(dot4(axes->u, dx, dy, dz), dot4(axes->v, dx, dy, dz)), dot4(axes->w, dx, dy, dz));
         const int4 hit = (least >= 0.0f) & (axes->t > NEARLIGHT_SEGMENT_T_MIN * det) &
                          (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
-        hit_lanes |= lane_bits8((int8)(hit, (int4)0)) != 0 ? lanes & -lanes : 0;
+        hit_lanes |= lane_bits4(hit) != 0 ? lanes & -lanes : 0;
     }
     if (hit_lanes != 0) {
         set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);

@@ -88,6 +88,7 @@ LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const globa
     const float origin[3] = {from.x, from.y, from.z};
     float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
     float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
+#pragma unroll
     for (uint axis = 0; axis < 3; ++axis) {
         const global float* planes = node->low[axis];
         if (!shaft->straddles) {
@@ -120,6 +121,7 @@ LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft
     const float origin[3] = {from.x, from.y, from.z};
     float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
     float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
+#pragma unroll
     for (uint axis = 0; axis < 3; ++axis) {
         const global float* planes = node->low[axis];
         const uint near = shaft->near[axis];
