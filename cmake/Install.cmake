@@ -47,5 +47,9 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/nearlight-config-version
 install(FILES "${PROJECT_BINARY_DIR}/nearlight-config.cmake" "${PROJECT_BINARY_DIR}/nearlight-config-version.cmake"
   DESTINATION "${package_dir}" COMPONENT Development)
 
+# Both the program and the libraries load it.
+foreach(component Development Runtime)
+  install(TARGETS nearlight_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
+endforeach()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)

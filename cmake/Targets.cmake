@@ -12,6 +12,11 @@ if(NEARLIGHT_SANITIZE)
   target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE})
 endif()
 
+# Modules that programs load when they need them, found by their run path.
+set(NEARLIGHT_MODULE_DIR "${PROJECT_BINARY_DIR}/modules")
+set(CMAKE_BUILD_RPATH "${NEARLIGHT_MODULE_DIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/nearlight")
+
 # nearlight_library(NAME SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/.
 function(nearlight_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

@@ -14,6 +14,7 @@
 #include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
 #include "host/cli/selftest_command.h"
+#include "host/cli/tune_command.h"
 
 namespace {
 
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
         nearlight::add_selftest_command(line);
         nearlight::add_devices_command(line);
         nearlight::add_info_command(line);
+        nearlight::add_tune_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
         return fail(error.what(), error.code());

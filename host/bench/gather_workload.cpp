@@ -87,17 +87,20 @@ Vpl make_vpl(const ReceiverPoint& point, uint depth) {
     return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
 }
 
-struct WalkStart {
-    Vec3 origin;
-    Vec3 direction;
-};
+RayQuery endless_ray(Vec3 origin, Vec3 direction) {
+    return {origin, 0.0f, direction, kInfinity};
+}
 
-WalkStart start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
+BvhHit closest_hit(const Bvh& bvh, const RayQuery& ray) {
+    return closest_hit(bvh, ray.origin, ray.direction, ray.t_min, ray.t_max);
+}
+
+RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
     if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         const ReceiverPoint point = points.on_front(scene.triangles[emitter.triangle], random);
-        return {point.position, cosine_direction(point.normal, random)};
+        return endless_ray(point.position, cosine_direction(point.normal, random));
     }
-    return {emitter.position, sphere_direction(random)};
+    return endless_ray(emitter.position, sphere_direction(random));
 }
 
 /// Emitters that walks start from; the environment is left out.
@@ -111,40 +114,60 @@ std::vector<Emitter> lamps(const EmitterTable& table) {
     return result;
 }
 
-void deposit_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, const WalkStart& start,
-                  std::size_t count, Pcg32& random, std::vector<Vpl>& vpls) {
-    Vec3 origin = start.origin;
-    Vec3 direction = start.direction;
-    for (uint depth = 1; depth <= kMaxDepth && vpls.size() < count; ++depth) {
-        const BvhHit hit = closest_hit(bvh, origin, direction, 0.0f, kInfinity);
+/// Calls visit(ray, deposit or nullptr) for each ray of a walk until it answers false. True if it never did.
+template <typename Visit>
+bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, RayQuery ray, Pcg32& random,
+                 const Visit& visit) {
+    for (uint depth = 1; depth <= kMaxDepth; ++depth) {
+        const BvhHit hit = closest_hit(bvh, ray);
         if (hit.triangle == ~0u) {
-            return;
+            return visit(ray, nullptr);
         }
-        const ReceiverPoint point = points.at_hit(hit, direction);
-        vpls.push_back(make_vpl(point, depth));
+        const ReceiverPoint point = points.at_hit(hit, ray.direction);
+        const Vpl deposit = make_vpl(point, depth);
+        if (!visit(ray, &deposit)) {
+            return false;
+        }
         const Material& material = scene.materials[scene.triangles[hit.triangle].material];
         if (random.uniform() >= max_component(light_albedo(scene, material, 0.0f, 0.0f))) {
-            return;
+            return true;
         }
-        origin = point.position;
-        direction = cosine_direction(point.normal, random);
+        ray = endless_ray(point.position, cosine_direction(point.normal, random));
     }
+    return true;
 }
 
-std::vector<Vpl> trace_walks(const Scene& scene, const Bvh& bvh, std::span<const Emitter> emitters,
-                             std::size_t count, Pcg32& random) {
+/// The same for at most so many walks from the lamps; nothing where there are none.
+template <typename Visit>
+void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t most_walks, Pcg32& random,
+                  const Visit& visit) {
+    const std::vector<Emitter> emitters = lamps(build_emitter_table(scene));
+    if (emitters.empty()) {
+        return;
+    }
     const PointMaker points(scene);
     std::vector<double> weights;
     for (const Emitter& emitter : emitters) {
         weights.push_back(emitter.probability);
     }
     const std::vector<float> cdf = cumulative_distribution(weights);
+    for (std::size_t walk = 0; walk < most_walks; ++walk) {
+        const Emitter& emitter = emitters[select(cdf, random.uniform())];
+        if (!follow_walk(scene, bvh, points, start_walk(scene, points, emitter, random), random, visit)) {
+            return;
+        }
+    }
+}
+
+std::vector<Vpl> trace_walks(const Scene& scene, const Bvh& bvh, std::size_t count, Pcg32& random) {
     std::vector<Vpl> vpls;
     // A lamp in the open may hit nothing at all.
-    for (std::size_t walk = 0; walk < 100 * count && vpls.size() < count; ++walk) {
-        const Emitter& emitter = emitters[select(cdf, random.uniform())];
-        deposit_walk(scene, bvh, points, start_walk(scene, points, emitter, random), count, random, vpls);
-    }
+    follow_walks(scene, bvh, 100 * count, random, [&](const RayQuery&, const Vpl* deposit) {
+        if (deposit != nullptr) {
+            vpls.push_back(*deposit);
+        }
+        return vpls.size() < count;
+    });
     return vpls;
 }
 
@@ -219,14 +242,43 @@ std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh&
 
 std::vector<Vpl> make_traced_vpls(const Scene& scene, const Bvh& bvh, std::size_t count, std::uint64_t seed) {
     Pcg32 random(seed);
-    const std::vector<Emitter> emitters = lamps(build_emitter_table(scene));
-    std::vector<Vpl> vpls =
-        emitters.empty() ? std::vector<Vpl>{} : trace_walks(scene, bvh, emitters, count, random);
+    std::vector<Vpl> vpls = trace_walks(scene, bvh, count, random);
     if (vpls.empty()) {
         vpls = spread_over_surfaces(scene, count, random);
     }
     sort_along_morton_curve(scene, vpls);
     return vpls;
+}
+
+std::vector<RayQuery> make_camera_rays(const Scene& scene, int width, int height) {
+    const Vec3 origin = transform_point(scene.camera.to_world, {0, 0, 0});
+    std::vector<RayQuery> rays;
+    for (const Tile& tile : tiles_in_morton_order(width, height)) {
+        for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+            const int x = tile.x + i % kTile;
+            const int y = tile.y + i / kTile;
+            if (x < width && y < height) {
+                rays.push_back(endless_ray(origin, camera_direction(scene.camera, width, height, x, y)));
+            }
+        }
+    }
+    return rays;
+}
+
+std::vector<RayQuery> make_walk_rays(const Scene& scene, const Bvh& bvh, std::size_t count,
+                                     std::uint64_t seed) {
+    Pcg32 random(seed);
+    std::vector<RayQuery> rays;
+    follow_walks(scene, bvh, count, random, [&](const RayQuery& ray, const Vpl*) {
+        rays.push_back(ray);
+        return rays.size() < count;
+    });
+    if (rays.empty()) {
+        for (const Vpl& vpl : spread_over_surfaces(scene, count, random)) {
+            rays.push_back(endless_ray(vpl.position, cosine_direction(vpl.normal, random)));
+        }
+    }
+    return rays;
 }
 
 void sort_along_morton_curve(const Scene& scene, std::vector<Vpl>& vpls) {

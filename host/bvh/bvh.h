@@ -39,7 +39,7 @@ struct BvhConfig {
 /// triangles of the scene that `ids` names, in parallel; `quality` adds spatial splits (spatial_split.h) and
 /// an order of children for shadow rays (child_order.h). The result does not depend on the number of threads.
 /// Boxes are two ulps of their largest coordinate larger than need be, so that slab tests never miss a flat
-/// one. Needs 100 bytes a triangle while building, `quality` 130. Error(out_of_memory) beyond 2^27 − 1
+/// one. Needs 100 bytes a triangle while building, `quality` 170. Error(out_of_memory) beyond 2^27 − 1
 /// triangles, where max_duplication counts as if it were used.
 Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config = {});
 

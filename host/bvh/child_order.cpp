@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "host/base/random.h"
+#include "host/bvh/parallel.h"
 #include "host/bvh/ray_tests.h"
 #include "host/bvh/sah_builder.h"
 #include "host/scene/ray_epsilon.h"
@@ -18,23 +20,31 @@ constexpr int kTries = 4 * kSegments;  // of pairs of points, of which many face
 constexpr std::uint64_t kSeed = 7;
 /// What areas say counts as much as this many segments.
 constexpr double kPrior = 8.0;
+/// Parts that are traced by a thread each: every one has records of all nodes.
+constexpr std::size_t kSurveyParts = 4;
+constexpr std::size_t kNodeGrain = 1u << 12u;
 
 /// What a segment that meets a box does below it.
 struct Passage {
     bool hit = false;
-    float cost = 0.0f;  ///< nodes and triangles
+    uint cost = 0;  ///< nodes and triangles
 };
 
-/// Sums over segments that met one child.
+/// Sums over segments that met one child: whole numbers, so that any order gives the same.
 struct Record {
-    float visits = 0.0f;
-    float hits = 0.0f;
-    float cost = 0.0f;
+    uint visits = 0;
+    uint hits = 0;
+    uint cost = 0;
 
     void add(const Passage& passage) {
-        visits += 1.0f;
-        hits += passage.hit ? 1.0f : 0.0f;
+        visits += 1;
+        hits += passage.hit ? 1 : 0;
         cost += passage.cost;
+    }
+    void add(const Record& other) {
+        visits += other.visits;
+        hits += other.hits;
+        cost += other.cost;
     }
 };
 struct Records {
@@ -45,25 +55,34 @@ struct Records {
 /// A segment that visits everything on its way, hits or not: every box it meets counts.
 class Survey {
   public:
-    explicit Survey(const Bvh& bvh) : bvh_(bvh), records_(bvh.nodes.size()) {}
+    Survey() = default;
+    explicit Survey(const Bvh& bvh) : bvh_(&bvh), records_(bvh.nodes.size()) {}
 
     void trace(const TestRay& ray) { visit(0, ray); }
-    [[nodiscard]] const std::vector<Records>& records() const { return records_; }
+    [[nodiscard]] std::vector<Records> take() && { return std::move(records_); }
+    void add(const Survey& other) {
+        parallel_for(records_.size(), kNodeGrain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                records_[i].left.add(other.records_[i].left);
+                records_[i].right.add(other.records_[i].right);
+            }
+        });
+    }
 
   private:
     Passage visit(uint reference, const TestRay& ray) {
         if (is_leaf(reference)) {
             return visit_leaf(reference, ray);
         }
-        const BvhNode& node = bvh_.nodes[reference];
-        Passage sum{false, 1.0f};
+        const BvhNode& node = bvh_->nodes[reference];
+        Passage sum{false, 1};
         const auto visit_child = [&](uint child, Vec3 low, Vec3 high, Record& record) {
             if (std::isinf(enter_box(ray, 1.0f, low, high))) {
                 return;
             }
             const Passage passage = visit(child, ray);
             record.add(passage);
-            sum.cost += sum.hit ? 0.0f : passage.cost;
+            sum.cost += sum.hit ? 0 : passage.cost;
             sum.hit = sum.hit || passage.hit;
         };
         visit_child(node.left, node.left_min, node.left_max, records_[reference].left);
@@ -76,13 +95,13 @@ class Survey {
         for (uint i = leaf_first(leaf); i < leaf_first(leaf) + leaf_count(leaf) && !sum.hit; ++i) {
             BvhHit hit;
             hit.t = NEARLIGHT_SEGMENT_T_MAX;
-            sum.cost += 1.0f;
-            sum.hit = intersect(bvh_.triangles[i], ray, hit);
+            sum.cost += 1;
+            sum.hit = intersect(bvh_->triangles[i], ray, hit);
         }
         return sum;
     }
 
-    const Bvh& bvh_;
+    const Bvh* bvh_ = nullptr;
     std::vector<Records> records_;
 };
 
@@ -96,11 +115,13 @@ class Surfaces {
   public:
     Surfaces(const Scene& scene, std::span<const uint> ids)
         : scene_(scene), ids_(ids), extent_(max_component(bounds(scene).size())) {
-        cumulative_.reserve(ids.size());
-        double area = 0.0;
-        for (const uint id : ids) {
-            cumulative_.push_back(area += triangle_area(scene, scene.triangles[id]));
-        }
+        cumulative_.resize(ids.size());
+        parallel_for(ids.size(), kNodeGrain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                cumulative_[i] = triangle_area(scene, scene.triangles[ids[i]]);
+            }
+        });
+        std::partial_sum(cumulative_.begin(), cumulative_.end(), cumulative_.begin());
     }
     [[nodiscard]] bool usable() const {
         return !cumulative_.empty() && cumulative_.back() > 0.0 && std::isfinite(cumulative_.back());
@@ -125,21 +146,36 @@ class Surfaces {
     float extent_;
 };
 
-std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
-    Survey result(bvh);
-    const Surfaces surfaces(scene, ids);
+std::vector<TestRay> make_segments(const Surfaces& surfaces) {
+    std::vector<TestRay> segments;
     Pcg32 random(kSeed);
-    int traced = 0;
-    for (int i = 0; surfaces.usable() && i < kTries && traced < kSegments; ++i) {
+    for (int i = 0; surfaces.usable() && i < kTries && segments.size() < kSegments; ++i) {
         const SurfacePoint from = surfaces.pick(random);
         const SurfacePoint to = surfaces.pick(random);
         const Vec3 direction = to.position - from.position;
         if (dot(direction, from.normal) > 0.0f && dot(direction, to.normal) < 0.0f) {
-            result.trace(make_test_ray(from.position, direction, NEARLIGHT_SEGMENT_T_MIN));
-            ++traced;
+            segments.push_back(make_test_ray(from.position, direction, NEARLIGHT_SEGMENT_T_MIN));
         }
     }
-    return result.records();
+    return segments;
+}
+
+/// In a few parts, each with records of its own.
+std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
+    const std::vector<TestRay> segments = make_segments(Surfaces(scene, ids));
+    std::vector<Survey> parts(kSurveyParts);
+    parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            parts[i] = Survey(bvh);
+            for (std::size_t k = i; k < segments.size(); k += parts.size()) {
+                parts[i].trace(segments[k]);
+            }
+        }
+    });
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        parts.front().add(parts[i]);
+    }
+    return std::move(parts.front()).take();
 }
 
 /// Of a ray that meets a box.
@@ -152,15 +188,18 @@ class Orderer {
   public:
     Orderer(Bvh& bvh, std::span<const Records> records) : bvh_(bvh), records_(records) {}
 
-    Expectation order(uint reference, double area) {
+    Expectation order(uint reference, double area, int level = 0) {
         if (is_leaf(reference)) {
             return expect_leaf(reference, area);
         }
         BvhNode& node = bvh_.nodes[reference];
         const double left_area = Aabb{node.left_min, node.left_max}.half_area();
         const double right_area = Aabb{node.right_min, node.right_max}.half_area();
-        Expectation first = blend(order(node.left, left_area), records_[reference].left);
-        Expectation second = blend(order(node.right, right_area), records_[reference].right);
+        Expectation first;
+        Expectation second;
+        invoke_at_level(
+            level, [&] { first = blend(order(node.left, left_area, level + 1), records_[reference].left); },
+            [&] { second = blend(order(node.right, right_area, level + 1), records_[reference].right); });
         double meets_first = share(left_area, area);
         double meets_second = share(right_area, area);
         if (second.chance * first.cost > first.chance * second.cost) {
@@ -195,17 +234,29 @@ class Orderer {
     std::span<const Records> records_;
 };
 
-/// Appends the subtree of `index` in depth-first order.
-uint append(const std::vector<BvhNode>& nodes, uint index, std::vector<BvhNode>& ordered) {
+/// Puts the subtree of `index`, which has `count` nodes, from `place` on in depth-first order. `nodes` were
+/// in that order before children changed sides: of two that are inner nodes the lower index came first.
+uint move_subtree(const std::vector<BvhNode>& nodes, uint index, uint count, uint place,
+                  std::vector<BvhNode>& ordered, int level) {
     if (is_leaf(index)) {
         return index;
     }
-    const auto place = static_cast<uint>(ordered.size());
-    ordered.push_back(nodes[index]);
-    const uint left = append(nodes, nodes[index].left, ordered);
-    const uint right = append(nodes, nodes[index].right, ordered);
-    ordered[place].left = left;
-    ordered[place].right = right;
+    BvhNode node = nodes[index];
+    uint left_count = is_leaf(node.left) ? 0 : count - 1;
+    if (!is_leaf(node.left) && !is_leaf(node.right)) {
+        left_count = node.left < node.right ? node.right - node.left : count - 1 - (node.left - node.right);
+    }
+    uint left = 0;
+    uint right = 0;
+    invoke_at_level(
+        level, [&] { left = move_subtree(nodes, node.left, left_count, place + 1, ordered, level + 1); },
+        [&] {
+            right = move_subtree(nodes, node.right, count - 1 - left_count, place + 1 + left_count, ordered,
+                                 level + 1);
+        });
+    node.left = left;
+    node.right = right;
+    ordered[place] = node;
     return place;
 }
 
@@ -218,11 +269,11 @@ void order_children(Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
     }
     Aabb box{root.left_min, root.left_max};
     box.extend({root.right_min, root.right_max});
-    const std::vector<Records> records = survey(bvh, scene, ids);
-    Orderer(bvh, records).order(0, box.half_area());
+    std::vector<Records> records;
     std::vector<BvhNode> ordered;
-    ordered.reserve(bvh.nodes.size());
-    append(bvh.nodes, 0, ordered);
+    parallel_invoke([&] { records = survey(bvh, scene, ids); }, [&] { ordered.resize(bvh.nodes.size()); });
+    Orderer(bvh, records).order(0, box.half_area());
+    move_subtree(bvh.nodes, 0, static_cast<uint>(bvh.nodes.size()), 0, ordered, 0);
     bvh.nodes = std::move(ordered);
 }
 

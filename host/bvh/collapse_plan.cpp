@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
@@ -23,10 +24,10 @@ bool has_right(const BvhNode& node) {
 }  // namespace
 
 CollapsePlan::CollapsePlan(const Bvh& bvh) : bvh_(&bvh), plans_(bvh.nodes.size()) {
-    plan(0, 0.0f);  // the surface of the root does not matter
+    plan(0, 0.0f, 0);  // the surface of the root does not matter
 }
 
-uint CollapsePlan::triangles(uint reference) const {
+uint CollapsePlan::triangle_count(uint reference) const {
     return is_leaf(reference) ? leaf_count(reference) : plans_[reference].triangles;
 }
 
@@ -34,15 +35,17 @@ float CollapsePlan::cost(const WideChild& child, std::size_t most) const {
     return is_leaf(child.reference) ? 0.0f : plans_[child.reference].cost[most];
 }
 
-void CollapsePlan::plan(uint node_index, float half_area) {
+void CollapsePlan::plan(uint node_index, float half_area, int level) {
     const BvhNode& node = bvh_->nodes[node_index];
     Plan plan;
-    for (const WideChild& child : {left_child(node), right_child(node)}) {
+    const auto plan_below = [&](const WideChild& child) {
         if (!is_leaf(child.reference)) {
-            this->plan(child.reference, child.box.half_area());
+            this->plan(child.reference, child.box.half_area(), level + 1);
         }
-    }
-    plan.triangles = triangles(node.left) + (has_right(node) ? triangles(node.right) : 0);
+    };
+    invoke_at_level(
+        level, [&] { plan_below(left_child(node)); }, [&] { plan_below(right_child(node)); });
+    plan.triangles = triangle_count(node.left) + (has_right(node) ? triangle_count(node.right) : 0);
     plan.is_leaf = plan.triangles <= NEARLIGHT_BLOCK_TRIANGLES;
     if (!plan.is_leaf) {
         divide(plan, node, half_area);
@@ -74,10 +77,10 @@ bool CollapsePlan::becomes_leaf(uint reference) const {
     return is_leaf(reference) || plans_[reference].is_leaf;
 }
 
-void CollapsePlan::take(const WideChild& child, std::size_t most, std::vector<WideChild>& children) const {
+void CollapsePlan::take(const WideChild& child, std::size_t most, WideChildren& children) const {
     const std::size_t left = is_leaf(child.reference) ? 0 : plans_[child.reference].left[most];
     if (left == 0) {
-        children.push_back(child);
+        children.children[children.count++] = child;
         return;
     }
     const BvhNode& node = bvh_->nodes[child.reference];
@@ -85,17 +88,22 @@ void CollapsePlan::take(const WideChild& child, std::size_t most, std::vector<Wi
     take(right_child(node), most - left, children);
 }
 
-std::vector<WideChild> CollapsePlan::children(uint node_index) const {
+WideChildren CollapsePlan::children(uint node_index) const {
     const BvhNode& node = bvh_->nodes[node_index];
-    std::vector<WideChild> children;
+    WideChildren result;
     if (!has_right(node)) {
-        return {left_child(node)};
+        take(left_child(node), 1, result);
+        return result;
     }
     // A root that holds no more than a block divides all the same.
     const std::size_t left = std::max<std::size_t>(1, plans_[node_index].left_of_all);
-    take(left_child(node), left, children);
-    take(right_child(node), kMost - left, children);
-    return children;
+    take(left_child(node), left, result);
+    take(right_child(node), kMost - left, result);
+    const auto end = result.children.begin() + static_cast<std::ptrdiff_t>(result.count);
+    std::stable_sort(result.children.begin(), end, [](const WideChild& a, const WideChild& b) {
+        return a.box.half_area() < b.box.half_area();
+    });
+    return result;
 }
 
 }  // namespace nearlight

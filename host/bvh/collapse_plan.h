@@ -16,19 +16,27 @@ struct WideChild {
     Aabb box;
 };
 
+/// All of a node's.
+struct WideChildren {
+    std::array<WideChild, NEARLIGHT_WIDE_CHILDREN> children;
+    std::size_t count = 0;
+};
+
 /// What holds no more than a block of triangles is a leaf; of what is above, the collapse whose nodes have
 /// the least surface in all, by dynamic programming [Ylitie et al., Efficient Incoherent Ray Traversal on
 /// GPUs Through Compressed Wide BVHs, 2017].
 class CollapsePlan {
   public:
-    /// Needs 60 bytes a binary node. `bvh` must outlive it.
+    /// In parallel. Needs 60 bytes a binary node. `bvh` must outlive it.
     explicit CollapsePlan(const Bvh& bvh);
 
     /// Whether what the reference names is a leaf of the wide tree, with all triangles below it.
     [[nodiscard]] bool becomes_leaf(uint reference) const;
-    /// The children, at most eight, of the wide node that a binary node becomes; in the order of the binary
-    /// tree.
-    [[nodiscard]] std::vector<WideChild> children(uint node) const;
+    /// Triangles below a reference.
+    [[nodiscard]] uint triangle_count(uint reference) const;
+    /// The children of the wide node that a binary node becomes, by growing surface.
+    [[nodiscard]] WideChildren children(uint node) const;
+    [[nodiscard]] const Bvh& bvh() const { return *bvh_; }
 
   private:
     static constexpr std::size_t kMost = NEARLIGHT_WIDE_CHILDREN;
@@ -43,11 +51,10 @@ class CollapsePlan {
         uint triangles = 0;
     };
 
-    void plan(uint node, float half_area);
+    void plan(uint node, float half_area, int level);
     void divide(Plan& plan, const BvhNode& node, float half_area) const;
-    [[nodiscard]] uint triangles(uint reference) const;
     [[nodiscard]] float cost(const WideChild& child, std::size_t most) const;
-    void take(const WideChild& child, std::size_t most, std::vector<WideChild>& children) const;
+    void take(const WideChild& child, std::size_t most, WideChildren& children) const;
 
     const Bvh* bvh_;
     std::vector<Plan> plans_;  ///< of each binary node

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/flatten.h"
 
-#include <utility>
+#include <algorithm>
+#include <numeric>
+#include <span>
 
 #include "host/bvh/parallel.h"
 
@@ -13,21 +15,50 @@ constexpr float kFar = 1e30f;
 constexpr std::size_t kFetchGrain = 1u << 12u;
 constexpr Vec3 kFarPoint{kFar, kFar, kFar};
 
-/// Appends the subtree in depth-first order, its leaves' triangles too, and returns the reference to it.
-uint append(const SahTree& tree, uint reference, Bvh& bvh) {
+struct Counts {
+    uint nodes = 0;
+    uint triangles = 0;
+};
+
+/// Of a subtree; of each left one a note is left in its parent's free words.
+Counts count_below(SahTree& tree, uint reference, int level) {
     if (is_leaf(reference)) {
-        const auto first = static_cast<uint>(bvh.triangle_ids.size());
-        const auto begin = tree.order.begin() + leaf_first(reference);
-        bvh.triangle_ids.insert(bvh.triangle_ids.end(), begin, begin + leaf_count(reference));
-        return leaf_reference(first, leaf_count(reference));
+        return {0, leaf_count(reference)};
     }
-    const auto index = static_cast<uint>(bvh.nodes.size());
-    bvh.nodes.push_back(tree.slots[reference]);
-    const uint left = append(tree, tree.slots[reference].left, bvh);
-    const uint right = append(tree, tree.slots[reference].right, bvh);
-    bvh.nodes[index].left = left;
-    bvh.nodes[index].right = right;
-    return index;
+    BvhNode& slot = tree.slots[reference];
+    Counts left;
+    Counts right;
+    invoke_at_level(
+        level, [&] { left = count_below(tree, slot.left, level + 1); },
+        [&] { right = count_below(tree, slot.right, level + 1); });
+    slot.pad0 = left.nodes;
+    slot.pad1 = left.triangles;
+    return {left.nodes + right.nodes + 1, left.triangles + right.triangles};
+}
+
+/// Puts the subtree at the places that it has in depth-first order, its leaves' triangles too, and returns
+/// the reference to it.
+uint place(const SahTree& tree, uint reference, Counts before, Bvh& bvh, int level) {
+    if (is_leaf(reference)) {
+        std::copy_n(tree.order.begin() + leaf_first(reference), leaf_count(reference),
+                    bvh.triangle_ids.begin() + before.triangles);
+        return leaf_reference(before.triangles, leaf_count(reference));
+    }
+    BvhNode node = tree.slots[reference];
+    const Counts before_right{before.nodes + 1 + node.pad0, before.triangles + node.pad1};
+    node.pad0 = node.pad1 = 0;
+    uint left = 0;
+    uint right = 0;
+    invoke_at_level(
+        level,
+        [&] {
+            left = place(tree, node.left, {before.nodes + 1, before.triangles}, bvh, level + 1);
+        },
+        [&] { right = place(tree, node.right, before_right, bvh, level + 1); });
+    node.left = left;
+    node.right = right;
+    bvh.nodes[before.nodes] = node;
+    return before.nodes;
 }
 
 BvhTriangle fetch_triangle(const Scene& scene, const Triangle& triangle) {
@@ -62,15 +93,14 @@ Bvh empty_bvh() {
 
 Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
     Bvh bvh;
-    if (is_leaf(tree.root)) {
-        bvh.nodes = {root_of_one_leaf(tree.root_box, append(tree, tree.root, bvh))};
+    const Counts counts = count_below(tree, tree.root, 0);
+    bvh.nodes.resize(counts.nodes);
+    bvh.triangle_ids.resize(counts.triangles);
+    const uint root = place(tree, tree.root, {}, bvh, 0);
+    bvh.depth = tree.depth;
+    if (is_leaf(root)) {
+        bvh.nodes = {root_of_one_leaf(tree.root_box, root)};
         bvh.depth = 1;
-    } else {
-        bvh.nodes.reserve(tree.inner_count);
-        bvh.triangle_ids.reserve(tree.order.size());
-        append(tree, tree.root, bvh);
-        bvh.triangle_ids.shrink_to_fit();
-        bvh.depth = tree.depth;
     }
     tree = {};  // before the triangles need memory
     bvh.triangles.resize(bvh.triangle_ids.size());
@@ -96,12 +126,18 @@ double sah_cost(const Bvh& bvh, const BvhConfig& config) {
                                            : static_cast<double>(config.traversal_cost);
         return root_area > 0.0 ? cost * half_area(low, high) / root_area : cost;
     };
-    double sum = config.traversal_cost;
-    for (const BvhNode& node : bvh.nodes) {
-        sum += child_cost(node.left, node.left_min, node.left_max);
-        sum += child_cost(node.right, node.right_min, node.right_max);
-    }
-    return sum;
+    // Runs of fixed length are summed by themselves, so that the sum does not depend on the threads.
+    std::vector<double> sums((bvh.nodes.size() + kFetchGrain - 1) / kFetchGrain);
+    parallel_for(sums.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t run = first; run < last; ++run) {
+            const auto nodes = std::span(bvh.nodes).subspan(run * kFetchGrain);
+            for (const BvhNode& node : nodes.first(std::min(nodes.size(), kFetchGrain))) {
+                sums[run] += child_cost(node.left, node.left_min, node.left_max) +
+                             child_cost(node.right, node.right_min, node.right_max);
+            }
+        }
+    });
+    return std::accumulate(sums.begin(), sums.end(), static_cast<double>(config.traversal_cost));
 }
 
 }  // namespace nearlight

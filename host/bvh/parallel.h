@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three ways in which the builder shares work between threads; without oneTBB (NEARLIGHT_SERIAL) one
+// The ways in which the builder shares work between threads; without oneTBB (NEARLIGHT_SERIAL) one
 // thread does it all. Results are the same.
 #pragma once
 
@@ -57,6 +57,18 @@ void parallel_invoke(const First& first, const Second& second) {
 #else
     tbb::parallel_invoke(first, second);
 #endif
+}
+
+/// Both in parallel on the upper levels of a recursion over a tree, one after the other below.
+constexpr int kParallelLevels = 8;
+template <typename First, typename Second>
+void invoke_at_level(int level, const First& first, const Second& second) {
+    if (level < kParallelLevels) {
+        parallel_invoke(first, second);
+    } else {
+        first();
+        second();
+    }
 }
 
 }  // namespace nearlight

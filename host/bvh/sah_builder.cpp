@@ -192,8 +192,8 @@ class SahBuilder {
 };
 
 /// Room for `capacity` references, the first ids.size() of them made.
-std::vector<Reference> make_references(const Scene& scene, std::span<const uint> ids, std::size_t capacity) {
-    std::vector<Reference> references(capacity);
+UnsetVector<Reference> make_references(const Scene& scene, std::span<const uint> ids, std::size_t capacity) {
+    UnsetVector<Reference> references(capacity);
     parallel_for(ids.size(), kLoopGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             references[i] = make_reference(scene, ids[i]);
@@ -223,7 +223,7 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
                     "scene has " + std::to_string(ids.size()) + " triangles, a tree holds " +
                         std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + ": simplify the scene");
     }
-    std::vector<Reference> references = make_references(scene, ids, capacity);
+    UnsetVector<Reference> references = make_references(scene, ids, capacity);
     SahTree tree;
     tree.slots.resize(capacity - 1);
     const auto range = std::span(references).first(ids.size());
@@ -240,10 +240,12 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
     tree.root_box = {root.box.min(), root.box.max()};
     tree.inner_count = root.inner_count;
     tree.depth = root.depth;
-    tree.order.reserve(capacity);
-    for (const Reference& reference : references) {
-        tree.order.push_back(reference.id());
-    }
+    tree.order.resize(capacity);
+    parallel_for(capacity, kLoopGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            tree.order[i] = references[i].id();
+        }
+    });
     return tree;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/bvh/bvh.h"
+#include "host/bvh/unset_vector.h"
 
 namespace nearlight {
 
@@ -14,8 +15,8 @@ namespace nearlight {
 /// which slot, and the tree is the same for any number of them. Slots of no node are left unused, and so are
 /// places in `order` that were kept free for cut triangles.
 struct SahTree {
-    std::vector<BvhNode> slots;
-    std::vector<uint> order;  ///< indices into Scene::triangles, where the leaves refer to
+    UnsetVector<BvhNode> slots;
+    UnsetVector<uint> order;  ///< indices into Scene::triangles, where the leaves refer to
     uint root = 0;            ///< child reference: a slot, or the only leaf
     Aabb root_box;
     std::size_t inner_count = 0;

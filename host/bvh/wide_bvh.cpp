@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/bvh/collapse_plan.h"
+#include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
@@ -12,85 +13,167 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Subtrees of no more triangles are widened by one thread each.
+constexpr uint kPartTriangles = 1u << 14u;
+
+/// Without references to children.
+WideNode make_node(const WideChildren& children) {
+    WideNode node{};
+    std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
+    std::fill_n(&node.high[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, -kInfinity);
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const Aabb& box = children.children[i].box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.low[axis][i] = (&box.min.x)[axis];
+            node.high[axis][i] = (&box.max.x)[axis];
+        }
+    }
+    return node;
+}
+
 void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v) {
     rows[0][column] = v.x;
     rows[1][column] = v.y;
     rows[2][column] = v.z;
 }
 
+/// Widens one subtree, in depth-first order.
 class Widener {
   public:
-    explicit Widener(const Bvh& bvh) : bvh_(bvh), plan_(bvh) {}
-
-    WideBvh widen() && {
-        wide_.nodes.reserve(bvh_.triangles.size() / 8 + 1);
-        wide_.blocks.reserve(bvh_.triangles.size() / 3 + 1);
-        add_node(0);
-        return std::move(wide_);
+    Widener(const CollapsePlan& plan, uint triangle_count) : plan_(plan) {
+        wide_.nodes.reserve(triangle_count / 8 + 1);
+        wide_.blocks.reserve(triangle_count / 3 + 1);
     }
 
-  private:
+    /// Reference to what stands for the binary one.
+    uint add(uint reference) {
+        return plan_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
+    }
+    /// The same as an inner node, however few triangles there are.
     uint add_node(uint node_index) {
-        std::vector<WideChild> children = plan_.children(node_index);
-        std::stable_sort(children.begin(), children.end(), [](const WideChild& a, const WideChild& b) {
-            return a.box.half_area() < b.box.half_area();
-        });
+        const WideChildren children = plan_.children(node_index);
         const std::size_t index = wide_.nodes.size();
-        wide_.nodes.emplace_back();
-        WideNode node{};
-        std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
-        std::fill_n(&node.high[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, -kInfinity);
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            const Aabb& box = children[i].box;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.low[axis][i] = (&box.min.x)[axis];
-                node.high[axis][i] = (&box.max.x)[axis];
-            }
-            const uint reference = children[i].reference;
-            node.child[i] = plan_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
+        wide_.nodes.push_back(make_node(children));
+        for (std::size_t i = 0; i < children.count; ++i) {
+            const uint child = add(children.children[i].reference);
+            wide_.nodes[index].child[i] = child;
         }
-        wide_.nodes[index] = node;
         return static_cast<uint>(index);
     }
 
-    void append_triangles(uint reference, std::vector<uint>& triangles) const {
+    WideBvh take() && { return std::move(wide_); }
+
+  private:
+    uint add_leaf(uint reference) {
+        const std::size_t first = wide_.blocks.size();
+        std::size_t count = 0;
+        add_triangles(reference, count);
+        return leaf_reference(static_cast<uint>(first), static_cast<uint>(wide_.blocks.size() - first));
+    }
+
+    void add_triangles(uint reference, std::size_t& count) {
         if (!is_leaf(reference)) {
-            append_triangles(bvh_.nodes[reference].left, triangles);
-            append_triangles(bvh_.nodes[reference].right, triangles);
+            add_triangles(plan_.bvh().nodes[reference].left, count);
+            add_triangles(plan_.bvh().nodes[reference].right, count);
             return;
         }
         for (uint i = 0; i < leaf_count(reference); ++i) {
-            triangles.push_back(leaf_first(reference) + i);
-        }
-    }
-
-    uint add_leaf(uint reference) {
-        std::vector<uint> triangles;
-        append_triangles(reference, triangles);
-        const std::size_t first = wide_.blocks.size();
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            const std::size_t column = i % NEARLIGHT_BLOCK_TRIANGLES;
+            const BvhTriangle& triangle = plan_.bvh().triangles[leaf_first(reference) + i];
+            const std::size_t column = count++ % NEARLIGHT_BLOCK_TRIANGLES;
             if (column == 0) {
                 wide_.blocks.emplace_back();
             }
             TriangleBlock& block = wide_.blocks.back();
-            const BvhTriangle& triangle = bvh_.triangles[triangles[i]];
             put(block.v0, column, triangle.v0);
             put(block.edge1, column, triangle.edge1);
             put(block.edge2, column, triangle.edge2);
         }
-        return leaf_reference(static_cast<uint>(first), static_cast<uint>(wide_.blocks.size() - first));
     }
 
-    const Bvh& bvh_;
-    CollapsePlan plan_;
+    const CollapsePlan& plan_;
     WideBvh wide_;
 };
+
+/// What a thread makes: a subtree, or one node above such, whose children are later parts.
+struct Part {
+    uint reference = 0;
+    std::vector<std::size_t> children;  ///< of a single node; empty: a subtree
+    WideBvh made;
+    uint root = 0;  ///< of a subtree: reference to it, counted from its own start
+    std::size_t node_offset = 0, block_offset = 0;  ///< where it comes to stand
+};
+
+/// Appends the parts of a subtree in depth-first order, and returns the first one's index.
+std::size_t list_parts(const CollapsePlan& plan, uint reference, std::vector<Part>& parts) {
+    const std::size_t index = parts.size();
+    parts.push_back({.reference = reference, .children = {}, .made = {}});
+    if (plan.becomes_leaf(reference) || plan.triangle_count(reference) <= kPartTriangles) {
+        return index;
+    }
+    const WideChildren children = plan.children(reference);
+    parts[index].made.nodes = {make_node(children)};
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const std::size_t child = list_parts(plan, children.children[i].reference, parts);
+        parts[index].children.push_back(child);
+    }
+    return index;
+}
+
+/// A reference of a part, as the whole tree has it.
+uint moved(uint reference, const Part& part) {
+    return reference + static_cast<uint>(is_leaf(reference) ? part.block_offset : part.node_offset);
+}
+
+void copy_part(const Part& part, std::span<const Part> parts, WideBvh& wide) {
+    for (std::size_t i = 0; i < part.made.nodes.size(); ++i) {
+        WideNode node = part.made.nodes[i];
+        for (std::size_t k = 0; k < NEARLIGHT_WIDE_CHILDREN && node.low[0][k] < kInfinity; ++k) {
+            if (part.children.empty()) {
+                node.child[k] = moved(node.child[k], part);
+            } else {
+                const Part& child = parts[part.children[k]];
+                node.child[k] = moved(child.root, child);
+            }
+        }
+        wide.nodes[part.node_offset + i] = node;
+    }
+    std::ranges::copy(part.made.blocks, wide.blocks.begin() + static_cast<std::ptrdiff_t>(part.block_offset));
+}
+
+template <typename Body>
+void for_each_part(std::vector<Part>& parts, const Body& body) {
+    parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+        std::for_each(parts.begin() + static_cast<std::ptrdiff_t>(first),
+                      parts.begin() + static_cast<std::ptrdiff_t>(last), body);
+    });
+}
 
 }  // namespace
 
 WideBvh widen(const Bvh& bvh) {
-    return Widener(bvh).widen();
+    const CollapsePlan plan(bvh);
+    std::vector<Part> parts;
+    list_parts(plan, 0, parts);
+    for_each_part(parts, [&](Part& part) {
+        if (part.children.empty()) {
+            Widener widener(plan, plan.triangle_count(part.reference));
+            part.root = &part == parts.data() ? widener.add_node(0) : widener.add(part.reference);
+            part.made = std::move(widener).take();
+        }
+    });
+    std::size_t node_count = 0;
+    std::size_t block_count = 0;
+    for (Part& part : parts) {
+        part.node_offset = node_count;
+        part.block_offset = block_count;
+        node_count += part.made.nodes.size();
+        block_count += part.made.blocks.size();
+    }
+    WideBvh wide;
+    wide.nodes.resize(node_count);
+    wide.blocks.resize(block_count);
+    for_each_part(parts, [&](const Part& part) { copy_part(part, parts, wide); });
+    return wide;
 }
 
 }  // namespace nearlight

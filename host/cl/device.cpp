@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "host/base/message.h"
 #include "host/cl/opencl_error.h"
 
 namespace nearlight {
@@ -27,6 +28,10 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
     if (options_.cache_dir.empty()) {
         options_.cache_dir = default_cache_dir();
     }
+    tunables_ = choose_tunables(entry_, options_.cache_dir, options_.kernel_dir);
+    if (!tunables_.warning.empty()) {
+        say_warning(tunables_.warning);
+    }
     if (options_.compiler == nullptr) {
         options_.compiler = std::make_shared<ProgramCompiler>();
     }
@@ -41,8 +46,7 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
 }
 
 std::size_t Device::worker_count() const {
-    // CPUs: a few runs a core, to even out; GPUs: enough to fill their lanes.
-    return is_cpu() ? std::max<std::size_t>(4, 4 * entry_.compute_units) : std::size_t{64} * 64;
+    return std::size_t{tunables().runs_per_unit} * std::max(1u, entry_.compute_units);
 }
 
 std::shared_future<cl::Program> Device::start_build(const std::string& file, std::string source,

@@ -12,13 +12,14 @@
 #include "host/cl/device_list.h"
 #include "host/cl/profiler.h"
 #include "host/cl/program_compiler.h"
+#include "host/cl/tunables.h"
 
 namespace nearlight {
 
 struct DeviceOptions {
     /// Kernels are read from here where set, else from the binary.
     std::filesystem::path kernel_dir;
-    /// Compiled programs are kept here; empty: default_cache_dir(). "none" keeps nothing.
+    /// Compiled programs and tunables are kept here; empty: default_cache_dir(). "none" keeps nothing.
     std::filesystem::path cache_dir;
     /// Compiles for this device; empty: one of its own. Devices of a kind that share one compile once.
     std::shared_ptr<ProgramCompiler> compiler{};
@@ -43,8 +44,11 @@ class Device {
     [[nodiscard]] const cl::CommandQueue& queue() const { return queue_; }
     [[nodiscard]] Profiler& profiler() { return profiler_; }
 
-    /// Work-group size for kernels in which a work-item is independent of its neighbours.
-    [[nodiscard]] std::size_t local_size() const { return is_cpu() ? 8 : 64; }
+    /// How stages divide their work; those of choose_tunables() unless set.
+    [[nodiscard]] const Tunables& tunables() const { return tunables_.values; }
+    [[nodiscard]] const ChosenTunables& chosen_tunables() const { return tunables_; }
+    /// For stages made from now on, and for launches of all.
+    void set_tunables(const Tunables& tunables) { tunables_ = {tunables, "set by the program", false, {}}; }
     /// How many work-items a kernel should have that gives each a long run of elements (scan, sort).
     [[nodiscard]] std::size_t worker_count() const;
 
@@ -64,6 +68,7 @@ class Device {
   private:
     DeviceEntry entry_;
     DeviceOptions options_;
+    ChosenTunables tunables_;
     cl::Context context_;
     cl::CommandQueue queue_;
     Profiler profiler_;

@@ -41,6 +41,7 @@ DeviceEntry describe(const cl::Device& handle, const std::string& platform) {
                  : (type & CL_DEVICE_TYPE_CPU) ? DeviceKind::cpu
                                                : DeviceKind::other;
     entry.compute_units = handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    entry.float_width = handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
     entry.global_bytes = handle.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     const auto ways = handle.getInfo<CL_DEVICE_PARTITION_PROPERTIES>();
     if (std::find(ways.begin(), ways.end(), CL_DEVICE_PARTITION_EQUALLY) != ways.end()) {

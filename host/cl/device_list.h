@@ -22,6 +22,7 @@ struct DeviceEntry {
     std::string driver;
     DeviceKind kind = DeviceKind::other;
     unsigned compute_units = 0;
+    unsigned float_width = 0;  ///< floats of its vectors (CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT)
     std::size_t global_bytes = 0;
     std::size_t max_allocation_bytes = 0;
     unsigned max_parts = 1;        ///< equal parts of one compute unit or more that it can be split in

@@ -42,7 +42,7 @@ class Kernel {
     /// With the device's usual group size.
     template <typename... Arguments>
     void launch_items(std::size_t item_count, const Arguments&... arguments) {
-        launch(item_count, program_.device().local_size(), arguments...);
+        launch(item_count, program_.device().tunables().local_size, arguments...);
     }
 
   private:

@@ -4,6 +4,7 @@
 #include "host/cli/bench_build.h"
 #include "host/cli/bench_gather.h"
 #include "host/cli/bench_sort.h"
+#include "host/cli/bench_trace.h"
 
 namespace nearlight {
 
@@ -13,6 +14,7 @@ void add_bench_command(CommandLine& line) {
     add_bench_build(line, group);
     add_bench_gather(line, group);
     add_bench_sort(line, group);
+    add_bench_trace(line, group);
 }
 
 }  // namespace nearlight

@@ -213,11 +213,18 @@ void add_reference_options(CLI::App& command, CompareSettings& settings) {
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option(
-            "--reference-vpls", settings.reference_vpls,
-            "Take instant radiosity with so many VPLs as reference, as the paper does, at least 200000")
+        .add_option("--reference-vpls", settings.reference_vpls,
+                    "Take so many VPLs as reference; of instant radiosity, as in the paper, at least 200000, "
+                    "of other "
+                    "samplers ten times the largest count compared")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31u))
         ->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--reference-sampler",
+            [&settings](const std::string& name) { settings.reference_sampler = parse_method(name); },
+            "Whose VPLs these are (default: instant-radiosity)")
+        ->type_name("NAME");
     command
         .add_option("--reference", settings.reference_files,
                     "Reference made by `nearlight reference`; may be given several times, one a scene")

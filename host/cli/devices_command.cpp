@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "host/base/log.h"
+#include "host/cl/device.h"
 #include "host/cl/device_list.h"
 #include "host/cli/output.h"
+#include "host/cli/tunables_output.h"
 
 namespace nearlight {
 namespace {
@@ -19,7 +21,17 @@ bool is_used(const std::vector<DeviceEntry>& used, const DeviceEntry& entry) {
                        [&](const DeviceEntry& u) { return u.index == entry.index; });
 }
 
-nlohmann::ordered_json to_json(const DeviceList& list, const std::vector<DeviceEntry>& used) {
+struct DevicesOptions {
+    std::string choice;
+    std::filesystem::path cache_dir;
+};
+
+ChosenTunables tunables_of(const DeviceEntry& entry, const std::filesystem::path& cache_dir) {
+    return choose_tunables(entry, cache_dir.empty() ? default_cache_dir() : cache_dir, {});
+}
+
+nlohmann::ordered_json to_json(const DeviceList& list, const std::vector<DeviceEntry>& used,
+                               const std::filesystem::path& cache_dir) {
     nlohmann::ordered_json devices = nlohmann::ordered_json::array();
     for (const DeviceEntry& entry : list.devices) {
         devices.push_back({{"index", entry.index},
@@ -29,31 +41,43 @@ nlohmann::ordered_json to_json(const DeviceList& list, const std::vector<DeviceE
                            {"version", entry.version},
                            {"driver", entry.driver},
                            {"compute_units", entry.compute_units},
+                           {"float_width", entry.float_width},
                            {"global_bytes", entry.global_bytes},
                            {"max_allocation_bytes", entry.max_allocation_bytes},
                            {"max_parts", entry.max_parts},
                            {"usable", entry.unusable_because.empty()},
                            {"unusable_because", entry.unusable_because},
-                           {"used", is_used(used, entry)}});
+                           {"used", is_used(used, entry)},
+                           {"tunables", to_json(tunables_of(entry, cache_dir))}});
     }
     return {{"devices", devices}, {"problems", list.problems}};
 }
 
-void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used) {
+void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
+                const std::filesystem::path& cache_dir) {
     for (const DeviceEntry& entry : list.devices) {
         print(fmt::format("{} {}: {} [{}]\n", is_used(used, entry) ? "*" : " ", entry.index, entry.name,
                           to_string(entry.kind)));
         print(fmt::format("     platform  {}\n     version   {}\n     driver    {}\n", entry.platform,
                           entry.version, entry.driver));
-        print(fmt::format("     units     {}, memory {}, largest buffer {}\n", entry.compute_units,
-                          memory_text(entry.global_bytes), memory_text(entry.max_allocation_bytes)));
+        print(fmt::format("     units     {} with vectors of {}, memory {}, largest buffer {}\n",
+                          entry.compute_units, entry.float_width, memory_text(entry.global_bytes),
+                          memory_text(entry.max_allocation_bytes)));
         if (entry.max_parts > 1) {
             print(
                 fmt::format("     parts     up to {0}: --device {1}/{0} uses them all, {1}/{0}.0 the first\n",
                             entry.max_parts, entry.index));
         }
+        const ChosenTunables tunables = tunables_of(entry, cache_dir);
+        print(
+            fmt::format("     tunables  {}\n     from      {}\n", to_text(tunables.values), tunables.source));
         if (!entry.unusable_because.empty()) {
             print(fmt::format("     not usable: {}\n", entry.unusable_because));
+        }
+    }
+    for (const DeviceEntry& entry : list.devices) {
+        if (const std::string warning = tunables_of(entry, cache_dir).warning; !warning.empty()) {
+            print(fmt::format("  problem: {}\n", warning));
         }
     }
     for (const std::string& problem : list.problems) {
@@ -65,13 +89,13 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used) {
         "all, or 0,1), else the first GPU, else the first device.\n");
 }
 
-ExitCode run_devices(const std::string& choice, const GlobalOptions& global) {
+ExitCode run_devices(const DevicesOptions& options, const GlobalOptions& global) {
     const DeviceList list = list_devices();
-    const std::vector<DeviceEntry> used = choose_devices(list, choice);
+    const std::vector<DeviceEntry> used = choose_devices(list, options.choice);
     if (global.json) {
-        print_json(to_json(list, used));
+        print_json(to_json(list, used, options.cache_dir));
     } else {
-        print_text(list, used);
+        print_text(list, used, options.cache_dir);
     }
     return ExitCode::done;
 }
@@ -79,11 +103,15 @@ ExitCode run_devices(const std::string& choice, const GlobalOptions& global) {
 }  // namespace
 
 void add_devices_command(CommandLine& line) {
-    auto choice = std::make_shared<std::string>();
+    auto options = std::make_shared<DevicesOptions>();
     CLI::App& command =
         line.add_command("devices", "List OpenCL platforms and devices, and say which one is used",
-                         [choice](const GlobalOptions& global) { return run_devices(*choice, global); });
-    command.add_option("--device", *choice, "Mark what this choice would use")->type_name("DEVICE");
+                         [options](const GlobalOptions& global) { return run_devices(*options, global); });
+    command.add_option("--device", options->choice, "Mark what this choice would use")->type_name("DEVICE");
+    command
+        .add_option("--cache-dir", options->cache_dir,
+                    "Where `nearlight tune` keeps tunables (default: ~/.cache/nearlight)")
+        ->type_name("DIR");
 }
 
 }  // namespace nearlight

@@ -170,7 +170,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     files.commit(total.seconds());
     if (global.json) {
         print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report,
-                               load_seconds));
+                               load_seconds, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {

@@ -7,6 +7,7 @@
 #include "host/base/log.h"
 #include "host/base/memory.h"
 #include "host/cli/picture_files.h"
+#include "host/cli/tunables_output.h"
 
 namespace nearlight {
 namespace {
@@ -55,7 +56,7 @@ Metadata render_metadata(const Scene& scene, const RenderSettings& settings, con
 
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, const RenderReport& report,
-                                   double load_seconds) {
+                                   double load_seconds, const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
     json["scene"] = scene_file;
     json["width"] = report.width;
@@ -84,6 +85,11 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
                                          {"share", share_of(share, report.shares)},
                                          {"seconds", share.seconds},
                                          {"failed", share.failed}});
+    }
+    json["tunables"] = nlohmann::ordered_json::array();
+    for (const auto& device : devices) {
+        json["tunables"].push_back({{"device", device->entry().label()}});
+        json["tunables"].back().update(to_json(device->chosen_tunables()));
     }
     json["seconds"] = {{"load", load_seconds},
                        {"build_bvh", report.seconds.build_bvh},

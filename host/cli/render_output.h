@@ -20,7 +20,7 @@ Metadata render_metadata(const Scene& scene, const RenderSettings& settings, con
 /// What `render --json` prints.
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, const RenderReport& report,
-                                   double load_seconds);
+                                   double load_seconds, const std::vector<std::unique_ptr<Device>>& devices);
 
 /// Which device made how much of the picture, where there were several.
 void tell_shares(const RenderReport& report);

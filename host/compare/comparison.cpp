@@ -71,9 +71,8 @@ class SceneRun {
         if (file) {
             return load_reference(*file, spec);
         }
-        const bool by_vpls = spec.kind == ReferenceKind::instant_radiosity;
         const std::size_t samples =
-            by_vpls ? settings_.reference_vpls : static_cast<std::size_t>(settings_.reference_spp);
+            spec.sampler ? settings_.reference_vpls : static_cast<std::size_t>(settings_.reference_spp);
         const auto progress = [this](double fraction) {
             observer_.advance(fraction, std::nullopt);
             return !observer_.stopped();

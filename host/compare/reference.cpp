@@ -118,12 +118,16 @@ void check_reference_file(const std::filesystem::path& file, const Metadata& met
 
 }  // namespace
 
+std::string samples_text(const Reference& reference) {
+    return std::to_string(reference.samples) + (reference.path_traced ? " samples a pixel" : " VPLs");
+}
+
 std::uint64_t identity(const Reference& reference) {
     return fnv1a(std::as_bytes(std::span(reference.picture.values)));
 }
 
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples) {
-    const bool traced = spec.kind == ReferenceKind::path_tracing;
+    const bool traced = !spec.sampler;
     const std::size_t size = traced ? kPassSamples : (samples + kVplPasses - 1) / kVplPasses;
     std::vector<std::size_t> sizes(samples / size, size);
     if (const std::size_t rest = samples % size; rest > 0) {
@@ -151,7 +155,8 @@ std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t s
         sums.add(*pass, static_cast<double>(sizes[index]));
     }
     Reference reference{.picture = make_picture(spec.width, spec.height),
-                        .method = to_string(spec.kind),
+                        .method = method_name(spec),
+                        .path_traced = !spec.sampler,
                         .samples = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0})};
     std::vector<double> variances(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -173,7 +178,7 @@ Reference load_reference(const std::filesystem::path& file, const ReferenceSpec&
     }
     Reference reference{
         .picture = color_layer(image, "indirect"),
-        .method = to_string(ReferenceKind::path_tracing),
+        .method = method_name({}),
         .samples = static_cast<std::size_t>(attribute<int>(file, metadata, "nearlight:samplesPerPixel")),
         .file = file.string()};
     if (has_color_layer(image, "indirectVariance")) {

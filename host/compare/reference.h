@@ -27,11 +27,15 @@ struct Reference {
     Image picture;  ///< R, G, B: indirect light
     ReferenceNoise noise{};
     float display_scale = 1.0f;  ///< see display_scale() in pictures.h
-    std::string method;          ///< "path tracing", "instant radiosity"
-    std::size_t samples = 0;     ///< a pixel, or VPLs
-    std::string file{};          ///< that was given; empty where it was made
-    double seconds = 0;          ///< that making it took in this run; 0 where all was there
+    std::string method;          ///< method_name()
+    bool path_traced = true;
+    std::size_t samples = 0;  ///< a pixel where path-traced, else VPLs
+    std::string file{};       ///< that was given; empty where it was made
+    double seconds = 0;       ///< that making it took in this run; 0 where all was there
 };
+
+/// "1024 samples a pixel", "300000 VPLs".
+std::string samples_text(const Reference& reference);
 
 /// A hash of the picture's bits: errors against other references are other errors.
 std::uint64_t identity(const Reference& reference);
@@ -46,8 +50,8 @@ using PassMaker = std::function<std::optional<Image>(std::size_t index, std::siz
 std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t samples,
                                         const ReferenceStore& store, const PassMaker& make_pass);
 
-/// Samples of each pass of a reference: the kind's pass size, and what is left; rounded up to a multiple of
-/// 16 where paths are traced.
+/// Samples of each pass of a reference: the pass size of such references, and what is left; rounded up to a
+/// multiple of 16 where paths are traced.
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples);
 
 /// A picture made by `nearlight reference`. Throws Error(ExitCode::file) where it is none, or not of this

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kFormat = "reference 1";
 
 std::string description(const ReferenceSpec& spec) {
-    return std::string(kFormat) + "|" + to_string(spec.kind) + "|" + hex_digits(spec.scene_hash) + "|" +
+    return std::string(kFormat) + "|" + method_name(spec) + "|" + hex_digits(spec.scene_hash) + "|" +
            std::to_string(spec.width) + "x" + std::to_string(spec.height) + "|" +
            exact_text(spec.clamp_radius) + "|" + std::to_string(spec.max_depth) + "|" +
            (spec.pixel_centers ? "centres" : "areas");
@@ -26,8 +26,8 @@ std::string description(const ReferenceSpec& spec) {
 
 }  // namespace
 
-const char* to_string(ReferenceKind kind) {
-    return kind == ReferenceKind::path_tracing ? "path tracing" : "instant radiosity";
+std::string method_name(const ReferenceSpec& spec) {
+    return spec.sampler ? to_string(*spec.sampler) : "path tracing";
 }
 
 std::filesystem::path ReferenceStore::file(const ReferenceSpec& spec, std::size_t index,
@@ -59,7 +59,7 @@ void ReferenceStore::save(const ReferenceSpec& spec, std::size_t index, std::siz
                           const Image& pass) const {
     make_folder(folder_);
     write_image(file(spec, index, samples), pass,
-                {.metadata = {{"nearlight:sampler", std::string("reference pass, ") + to_string(spec.kind)},
+                {.metadata = {{"nearlight:sampler", "reference pass, " + method_name(spec)},
                               {"nearlight:sceneHash", hex_digits(spec.scene_hash)},
                               {"nearlight:clampRadius", spec.clamp_radius},
                               {"nearlight:maxDepth", static_cast<int>(spec.max_depth)},

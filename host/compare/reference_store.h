@@ -7,20 +7,15 @@
 #include <optional>
 #include <string>
 
+#include "host/compare/method.h"
 #include "host/image/image.h"
 
 namespace nearlight {
 
-enum class ReferenceKind {
-    path_tracing,       ///< Embree, host/reference
-    instant_radiosity,  ///< very many VPLs, as in the paper
-};
-const char* to_string(ReferenceKind kind);
-
 /// All that shapes the expectation of a reference.
 struct ReferenceSpec {
-    ReferenceKind kind = ReferenceKind::path_tracing;
-    std::string scene_name;  ///< for names of files only
+    std::optional<Method> sampler;  ///< of very many VPLs; none: path tracing with Embree, host/reference
+    std::string scene_name;         ///< for names of files only
     std::uint64_t scene_hash = 0;
     int width = 0;
     int height = 0;
@@ -28,6 +23,9 @@ struct ReferenceSpec {
     unsigned max_depth = 0;      ///< as Mitsuba counts
     bool pixel_centers = false;  ///< rays go through the pixels' centres, not all over them
 };
+
+/// What makes it: "path tracing", or the sampler's name.
+std::string method_name(const ReferenceSpec& spec);
 
 class ReferenceStore {
   public:

@@ -43,13 +43,11 @@ void write_pair(HtmlWriter& html, const std::string& term, const std::string& me
 }
 
 std::string reference_text(const Reference& reference) {
-    const std::string unit =
-        reference.method == to_string(ReferenceKind::path_tracing) ? "samples a pixel" : "VPLs";
     const std::string noise =
         reference.noise.known
             ? fmt::format("its own noise is {:.3g} (RMS)", std::sqrt(reference.noise.mean_variance))
             : std::string("its own noise is not known and not subtracted");
-    return fmt::format("{}, {} {}{}; {}", reference.method, reference.samples, unit,
+    return fmt::format("{}, {}{}; {}", reference.method, samples_text(reference),
                        reference.file.empty() ? "" : " (" + reference.file + ")", noise);
 }
 

@@ -47,8 +47,7 @@ std::string conditions(const SceneComparison& scene, const CompareSettings& sett
         "{} triangles, {}×{} pixels, {} seeds, depth {}, close range up to {:.4g}, clamp radius {:.4g}. "
         "Reference: {}, {}",
         facts.triangles, settings.width, settings.height, settings.seed_count, facts.max_depth, facts.range,
-        facts.clamp_radius, scene.reference.method, scene.reference.samples);
-    text += scene.reference.method == to_string(ReferenceKind::path_tracing) ? " samples a pixel" : " VPLs";
+        facts.clamp_radius, scene.reference.method, samples_text(scene.reference));
     if (scene.reference.noise.known) {
         text += fmt::format("; its own noise, {:.2g}, is subtracted",
                             std::sqrt(scene.reference.noise.mean_variance));

@@ -167,15 +167,16 @@ VplSet SceneBench::sample(const Method& method, uint vpls, uint seed) {
 }
 
 ReferenceSpec SceneBench::reference_spec() const {
-    return {
-        .kind = settings_.reference_vpls > 0 ? ReferenceKind::instant_radiosity : ReferenceKind::path_tracing,
-        .scene_name = facts_.name,
-        .scene_hash = facts_.hash,
-        .width = settings_.width,
-        .height = settings_.height,
-        .clamp_radius = facts_.clamp_radius,
-        .max_depth = facts_.max_depth,
-        .pixel_centers = settings_.samples_per_pixel == 1};
+    return {.sampler = settings_.reference_vpls > 0
+                           ? settings_.reference_sampler.value_or(Method{SamplerKind::instant_radiosity, {}})
+                           : std::optional<Method>(),
+            .scene_name = facts_.name,
+            .scene_hash = facts_.hash,
+            .width = settings_.width,
+            .height = settings_.height,
+            .clamp_radius = facts_.clamp_radius,
+            .max_depth = facts_.max_depth,
+            .pixel_centers = settings_.samples_per_pixel == 1};
 }
 
 std::optional<Image> SceneBench::trace_pass(const ReferenceSpec& spec, std::size_t index, std::size_t samples,
@@ -217,13 +218,13 @@ PassMaker SceneBench::reference_maker(const ReferenceSpec& spec, const Progress&
         const Progress pass_progress = [&](double fraction) {
             return progress(before + fraction * static_cast<double>(samples) / total);
         };
-        if (spec.kind == ReferenceKind::path_tracing) {
+        if (!spec.sampler) {
             return trace_pass(spec, index, samples, pass_progress);
         }
-        const std::optional<Shot> shot = render_indirect(
-            render_settings({SamplerKind::instant_radiosity, std::nullopt}, static_cast<uint>(samples),
-                            kReferenceSeed + static_cast<uint>(index)),
-            pass_progress);
+        const std::optional<Shot> shot =
+            render_indirect(render_settings(*spec.sampler, static_cast<uint>(samples),
+                                            kReferenceSeed + static_cast<uint>(index)),
+                            pass_progress);
         return shot ? std::optional(shot->indirect) : std::nullopt;
     };
 }

@@ -73,11 +73,34 @@ void check_baseline(const CompareSettings& settings) {
                                      " is not among the samplers to compare: " + names);
 }
 
+std::size_t fewest_reference_vpls(const CompareSettings& settings) {
+    if (!settings.reference_sampler ||
+        settings.reference_sampler->sampler == SamplerKind::instant_radiosity) {
+        return kFewestReferenceVpls;
+    }
+    return kReferenceExcess * std::ranges::max(settings.vpl_counts);
+}
+
+void check_reference_sampler(const CompareSettings& settings) {
+    const Method& sampler = *settings.reference_sampler;
+    if (sampler.policy == Policy::paper) {
+        throw Error(ExitCode::usage, "--reference-sampler " + to_string(sampler) +
+                                         " loses light, so it is no reference; take another");
+    }
+    if (settings.reference_vpls == 0) {
+        throw Error(ExitCode::usage, "--reference-sampler " + to_string(sampler) +
+                                         " needs --reference-vpls: say how many VPLs");
+    }
+}
+
 void check_reference(const CompareSettings& settings) {
-    if (settings.reference_vpls > 0 && settings.reference_vpls < kFewestReferenceVpls) {
+    if (settings.reference_sampler) {
+        check_reference_sampler(settings);
+    }
+    if (settings.reference_vpls > 0 && settings.reference_vpls < fewest_reference_vpls(settings)) {
         throw Error(ExitCode::usage, "--reference-vpls " + std::to_string(settings.reference_vpls) +
                                          " are too few for a reference; take at least " +
-                                         std::to_string(kFewestReferenceVpls));
+                                         std::to_string(fewest_reference_vpls(settings)));
     }
     if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
         throw Error(ExitCode::usage, "--reference and --reference-vpls exclude each other; give one of them");

@@ -34,12 +34,13 @@ struct CompareSettings {
     int width = 320;
     int height = 240;
     uint samples_per_pixel = 1;
-    std::optional<float> clamp_radius;    ///< scene units
-    std::optional<float> clamp_fraction;  ///< of the range; kDefaultClampFraction where neither is given
-    std::optional<float> range;           ///< of the close range, scene units; empty: from the view
-    std::optional<uint> max_depth;        ///< as Mitsuba counts; empty: the scene's, or 8
-    int reference_spp = 1024;             ///< of the path-traced reference
-    std::size_t reference_vpls = 0;       ///< where not 0: instant radiosity of so many VPLs is the reference
+    std::optional<float> clamp_radius;        ///< scene units
+    std::optional<float> clamp_fraction;      ///< of the range; kDefaultClampFraction where neither is given
+    std::optional<float> range;               ///< of the close range, scene units; empty: from the view
+    std::optional<uint> max_depth;            ///< as Mitsuba counts; empty: the scene's, or 8
+    int reference_spp = 1024;                 ///< of the path-traced reference
+    std::size_t reference_vpls = 0;           ///< where not 0: so many VPLs are the reference
+    std::optional<Method> reference_sampler;  ///< of these; empty: instant radiosity, as in the paper
     std::vector<std::filesystem::path>
         reference_files;  ///< made by `nearlight reference`; each for the scene it fits
     BvhQuality bvh_quality = BvhQuality::quality;
@@ -54,6 +55,9 @@ struct CompareSettings {
 inline constexpr float kDefaultClampFraction = 0.025f;
 /// The paper calls its references "densely sampled: number of VPLs above 200k".
 inline constexpr std::size_t kFewestReferenceVpls = 200'000;
+/// Other samplers' VPLs: times the largest number that is compared, so that a reference has a third of the
+/// noise.
+inline constexpr std::size_t kReferenceExcess = 10;
 
 /// Comma-separated names, see parse_method(); none twice. Throws Error(ExitCode::usage).
 std::vector<Method> parse_methods(const std::string& list);

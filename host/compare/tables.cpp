@@ -75,13 +75,13 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
     std::string text = fmt::format(
         "the noise of the reference ({:.3g}) is more than a third of the smallest RMSE ({:.3g}, {})", noise,
         best.rmse.value, to_string(best.method));
-    const bool traced = reference.method == to_string(ReferenceKind::path_tracing);
     if (best.rmse.value > 0.0) {
         const double more = std::pow(noise / (kNoiseThatCounts * best.rmse.value), 2);
-        text += fmt::format("; about {:.0f} {} would do", more * static_cast<double>(reference.samples),
-                            traced ? "samples a pixel (--reference-spp)" : "VPLs (--reference-vpls)");
+        text += fmt::format(
+            "; about {:.0f} {} would do", more * static_cast<double>(reference.samples),
+            reference.path_traced ? "samples a pixel (--reference-spp)" : "VPLs (--reference-vpls)");
     }
-    return text + (traced ? ", or --reference-vpls, whose noise is spread more evenly" : "");
+    return text + (reference.path_traced ? ", or --reference-vpls, whose noise is spread more evenly" : "");
 }
 
 std::size_t baseline_index(const CompareSettings& settings) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <random>
 #include <system_error>
 #include <utility>
@@ -18,30 +17,13 @@
 #include "host/base/error.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
+#include "host/image/image_codec.h"
+#include "host/image/pnm.h"
 
 namespace nearlight {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const char* what, const fs::path& file, std::string reason) {
-    // Libraries end some of their messages with line breaks; ours have one line.
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    reason.erase(reason.find_last_not_of(" .") + 1);
-    throw Error(ExitCode::file, std::string(what) + " '" + file.string() +
-                                    "': " + (reason.empty() ? "unknown reason" : reason));
-}
-
-/// Alpha is left as the file has it.
-OIIO::ImageSpec reading_options() {
-    OIIO::ImageSpec options;
-    options.attribute("oiio:UnassociatedAlpha", 1);
-    return options;
-}
-
-bool is_integer(const OIIO::ImageSpec& spec) {
-    return !spec.format.is_floating_point();
-}
 
 /// Colour channels of integer files are sRGB-encoded, unless the file says otherwise.
 void linearize(Image& image) {
@@ -55,62 +37,35 @@ void linearize(Image& image) {
     }
 }
 
-/// A broken header may promise any size. Deflate, the densest of the compressions in use, packs about 1000
-/// to 1.
-bool fits_in_file(const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
-    constexpr std::uintmax_t kDensest = 2000;
-    constexpr std::uintmax_t kAlwaysFine = 64u << 20u;
-    return spec.image_bytes(true) <= kAlwaysFine + kDensest * file_size;
-}
-
-std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
+void check_readable(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
-        fail("cannot read image", file, "no such file");
+        fail_image("cannot read image", file, "no such file");
     }
     if (fs::is_directory(file, ignored)) {
-        fail("cannot read image", file, "it is a folder");
+        fail_image("cannot read image", file, "it is a folder");
     }
-    const OIIO::ImageSpec options = reading_options();
-    auto input = OIIO::ImageInput::open(file.string(), &options);
-    if (!input) {
-        fail("cannot read image", file, OIIO::geterror());
-    }
-    return input;
 }
 
 Image read(const fs::path& file, bool decode_srgb) {
-    const auto input = open(file);
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
-        fail("cannot read image", file, "it is not a plain two-dimensional image");
+    check_readable(file);
+    std::optional<Image> plain = read_pnm(file);
+    DecodedImage decoded = plain ? DecodedImage{std::move(*plain), true} : image_codec().read(file);
+    if (decode_srgb && decoded.is_srgb) {
+        linearize(decoded.image);
     }
-    std::error_code ignored;
-    if (!fits_in_file(spec, fs::file_size(file, ignored))) {
-        fail("cannot read image", file, "its header promises more pixels than it can hold");
-    }
-    Image image = make_image(spec.width, spec.height, spec.channelnames);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()) ||
-        input->has_error()) {
-        fail("cannot read image", file, input->geterror());
-    }
-    if (decode_srgb && is_integer(spec) && spec.get_string_attribute("oiio:ColorSpace") != "Linear") {
-        linearize(image);
-    }
-    return image;
+    return std::move(decoded.image);
 }
 
-enum class Format { exr, png };
-
-Format format_of(const fs::path& file) {
+ImageFormat format_of(const fs::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".exr") {
-        return Format::exr;
+        return ImageFormat::exr;
     }
     if (extension == ".png") {
-        return Format::png;
+        return ImageFormat::png;
     }
     throw Error(ExitCode::usage, "cannot write image '" + file.string() + "': unknown extension '" +
                                      extension + "', use .exr or .png");
@@ -124,39 +79,6 @@ fs::path temporary_path(const fs::path& file) {
     return file.string() + suffix.data();
 }
 
-void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadata::mapped_type& value) {
-    if (const auto* integer = std::get_if<int>(&value)) {
-        spec.attribute(name, *integer);
-    } else if (const auto* number = std::get_if<float>(&value)) {
-        spec.attribute(name, *number);
-    } else if (const auto* text = std::get_if<std::string>(&value)) {
-        spec.attribute(name, *text);
-    } else {
-        const auto& numbers = std::get<std::vector<float>>(value);
-        const auto type = numbers.size() == 16
-                              ? OIIO::TypeMatrix44
-                              : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(numbers.size()));
-        spec.attribute(name, type, numbers.data());
-    }
-}
-
-OIIO::ImageSpec exr_spec(int width, int height, const std::vector<std::string>& channels,
-                         const Metadata& metadata) {
-    OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), OIIO::TypeDesc::FLOAT);
-    spec.channelnames = channels;
-    spec.attribute("compression", "zip");
-    for (const auto& [name, value] : metadata) {
-        set_attribute(spec, name, value);
-    }
-    return spec;
-}
-
-OIIO::ImageSpec png_spec(int width, int height) {
-    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    return spec;
-}
-
 }  // namespace
 
 Image read_image(const fs::path& file) {
@@ -168,26 +90,15 @@ Image read_linear_image(const fs::path& file) {
 }
 
 Metadata read_metadata(const fs::path& file) {
-    const auto input = open(file);
-    Metadata metadata;
-    for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
-        const std::string name = attribute.name().string();
-        if (attribute.type() == OIIO::TypeInt) {
-            metadata[name] = attribute.get_int();
-        } else if (attribute.type() == OIIO::TypeFloat) {
-            metadata[name] = attribute.get_float();
-        } else if (attribute.type() == OIIO::TypeString) {
-            metadata[name] = attribute.get_string();
-        }
-    }
-    return metadata;
+    check_readable(file);
+    return image_codec().read_metadata(file);
 }
 
 /// Owns the temporary file: whatever is not committed is removed.
 struct ImageWriter::State {
     fs::path target;
     fs::path temporary;
-    Format format = Format::exr;
+    ImageFormat format = ImageFormat::exr;
     int width = 0;
     int height = 0;
     int next_row = 0;
@@ -197,22 +108,21 @@ struct ImageWriter::State {
     std::vector<std::uint8_t> encoded;
     // A stream of our own tells of every failed write, also of those after the last row.
     std::FILE* stream = nullptr;
-    std::unique_ptr<OIIO::Filesystem::IOFile> proxy;
-    std::unique_ptr<OIIO::ImageOutput> output;
+    EncodingTask task;
+    std::unique_ptr<ImageEncoder>
+        encoder;  ///< made with the first rows: whoever waits for those does not wait for it
 
     ~State();
     void open(const std::vector<std::string>& channels, const ImageWriterOptions& options);
     void write(int row_count, const float* values);
     void close();
     [[noreturn]] void fail_to_write(const std::string& reason) const {
-        fail("cannot write image", target, reason);
+        fail_image("cannot write image", target, reason);
     }
 };
 
 ImageWriter::State::~State() {
-    if (output) {
-        output->close();
-    }
+    encoder.reset();
     if (stream != nullptr) {
         std::fclose(stream);
     }
@@ -229,24 +139,23 @@ void ImageWriter::State::open(const std::vector<std::string>& channels, const Im
         fail_to_write(std::strerror(errno));
     }
     temporary = path;
-    proxy = std::make_unique<OIIO::Filesystem::IOFile>(stream, OIIO::Filesystem::IOProxy::Write);
-    output = OIIO::ImageOutput::create(format == Format::exr ? "openexr" : "png", proxy.get());
-    if (!output) {
-        fail_to_write(OIIO::geterror());
-    }
-    output->set_ioproxy(proxy.get());
-    const OIIO::ImageSpec spec =
-        format == Format::exr ? exr_spec(width, height, channels, options.metadata) : png_spec(width, height);
-    if (!output->open(temporary.string(), spec)) {
-        fail_to_write(output->geterror());
-    }
+    task = {.stream = stream,
+            .name = target.string(),
+            .format = format,
+            .width = width,
+            .height = height,
+            .channels = channels,
+            .metadata = options.metadata};
 }
 
 void ImageWriter::State::write(int row_count, const float* values) {
-    bool written = false;
+    if (!encoder) {
+        encoder = image_codec().make_encoder(task);
+    }
+    std::string failed;
     const int end = next_row + row_count;
-    if (format == Format::exr) {
-        written = output->write_scanlines(next_row, end, 0, OIIO::TypeDesc::FLOAT, values);
+    if (format == ImageFormat::exr) {
+        failed = encoder->write(next_row, end, values);
     } else {
         const std::size_t pixel_count = static_cast<std::size_t>(row_count) * static_cast<std::size_t>(width);
         encoded.resize(pixel_count * 3);
@@ -255,21 +164,20 @@ void ImageWriter::State::write(int row_count, const float* values) {
                 encoded[i * 3 + c] = linear_to_srgb8(values[i * channel_count + rgb[c]] * scale);
             }
         }
-        written = output->write_scanlines(next_row, end, 0, OIIO::TypeDesc::UINT8, encoded.data());
+        failed = encoder->write(next_row, end, encoded.data());
     }
-    if (!written || std::ferror(stream) != 0) {
-        const int error = errno;
-        const std::string reason = output->geterror();
-        fail_to_write(reason.empty() ? std::strerror(error) : reason);
+    const int error = errno;
+    if (!failed.empty() || std::ferror(stream) != 0) {
+        fail_to_write(failed.empty() ? std::strerror(error) : failed);
     }
     next_row = end;
 }
 
 void ImageWriter::State::close() {
-    if (!output->close()) {
-        fail_to_write(output->geterror());
+    if (const std::string failed = encoder->close(); !failed.empty()) {
+        fail_to_write(failed);
     }
-    output.reset();
+    encoder.reset();
     // The last bytes leave the buffers here, and may find the disk full.
     const bool flushed = std::fflush(stream) == 0 && std::ferror(stream) == 0;
     const int error = errno;
@@ -291,7 +199,7 @@ ImageWriter::ImageWriter(const fs::path& file, int width, int height, std::vecto
     if (width < 1 || height < 1 || channels.empty()) {
         state_->fail_to_write("it has no pixels");
     }
-    if (state_->format == Format::png) {
+    if (state_->format == ImageFormat::png) {
         const std::array<const char*, 3> names{"R", "G", "B"};
         for (std::size_t c = 0; c < names.size(); ++c) {
             const auto found = std::find(channels.begin(), channels.end(), names[c]);
@@ -330,7 +238,7 @@ void ImageWriter::commit(const std::map<std::string, float>& late) {
         state_->write(1, zeros.data());
     }
     state_->close();
-    if (state_->format == Format::exr) {
+    if (state_->format == ImageFormat::exr) {
         for (const auto& [name, value] : late) {
             patch_exr_float(state_->temporary, name, value);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading and writing image files (through OpenImageIO, which only image_io.cpp knows).
+// Reading and writing image files (through OpenImageIO, but for plain PPM and PGM).
 #pragma once
 
 #include <filesystem>

@@ -12,7 +12,7 @@ constexpr std::size_t kBandsPerDevice = 12;
 
 /// Enough work for a launch to keep the device busy, little enough for memory and for a smooth progress bar.
 std::size_t receivers_per_batch(const Device& device) {
-    const std::size_t wanted = device.is_cpu() ? std::size_t{1} << 18u : std::size_t{1} << 21u;
+    const std::size_t wanted = device.tunables().batch_receivers;
     // The largest buffer of a batch is that of the camera vertices.
     const std::size_t largest = device.entry().max_allocation_bytes / (2 * sizeof(CameraVertex));
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));

@@ -39,6 +39,7 @@
 #include "host/samplers/incident_light.h"
 #include "host/samplers/resampling.h"
 #include "host/samplers/sparse_walks.h"
+#include "host/stages/close_range.h"
 
 namespace nearlight {
 namespace {
@@ -54,8 +55,8 @@ constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
 /// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
 constexpr float kAmbientShare = 0.3f;
-/// Part of the error that a close VPL makes in its own neighbourhood, if that is in view and faces it. The
-/// camera's points are too few to meet every neighbourhood.
+/// Part of the error that a VPL makes in its own neighbourhood, if that is in view and faces it. The camera's
+/// points are too few to meet every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
 constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kChoiceStream = 0x5e1ec7u;
@@ -73,7 +74,7 @@ struct Candidates {
     double walks_per_watt = 0;  ///< before the screening
 };
 
-/// What a close VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square: of
+/// What a VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square: of
 /// `importon_count` importons in a picture (about a steradian) those within the clamp radius, each by the
 /// bounded term.
 double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t importon_count) {
@@ -89,7 +90,8 @@ std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& 
     std::vector<float> weights = choice_weights(stages, task, lit, norm);
     const std::size_t importon_count = task.view.importons_of(norm).count;
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        if (is_close(lit[i])) {
+        // Beyond the range too, and where only the neighbourhood is in view.
+        if (in_frustum(task.close_range, lit[i].position, task.clamp_radius)) {
             const double error = neighbourhood_error(task, lit[i].position, importon_count);
             weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));
         }

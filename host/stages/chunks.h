@@ -26,12 +26,12 @@ inline Chunks split_into_chunks(const Device& device, std::size_t element_count,
 }
 /// With runs that are worth a work-item where an element is little work.
 inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {
-    return split_into_chunks(device, element_count, device.is_cpu() ? 1024 : 32);
+    return split_into_chunks(device, element_count, device.tunables().shortest_run);
 }
 
-/// Work-group size for such kernels: on CPUs a group is what one thread runs, so one run each.
+/// Work-group size for such kernels.
 inline std::size_t chunk_local_size(const Device& device) {
-    return device.is_cpu() ? 1 : 64;
+    return device.tunables().run_local_size;
 }
 
 /// Kernels count in 32 bits. Throws Error(ExitCode::out_of_memory) beyond them.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/close_range.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "host/base/math.h"
 
@@ -37,6 +39,12 @@ CloseRange make_close_range(const PinholeCamera& camera, float range) {
     }
     set_plane(close.planes[4], camera.origin, across, down, center);
     return close;
+}
+
+bool in_frustum(const CloseRange& close, Vec3 point, float margin) {
+    return std::all_of(std::begin(close.planes), std::end(close.planes), [&](const float(&plane)[4]) {
+        return plane[0] * point.x + plane[1] * point.y + plane[2] * point.z + plane[3] >= -margin;
+    });
 }
 
 }  // namespace nearlight

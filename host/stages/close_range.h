@@ -11,4 +11,8 @@ namespace nearlight {
 /// metres, may be infinite.
 CloseRange make_close_range(const PinholeCamera& camera, float range);
 
+/// Whether a point, however far away, is in the view frustum or at most `margin` metres beyond each of its
+/// planes. What hides it does not matter.
+bool in_frustum(const CloseRange& close, Vec3 point, float margin);
+
 }  // namespace nearlight

@@ -17,16 +17,17 @@ constexpr std::size_t kChunk = 256;
 
 constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 
-/// Bundles of a launch: enough to keep every core or lane busy until the end; more VPLs are better than more
-/// bundles, because a bundle's start costs something.
-constexpr std::size_t kCpuBundles = 256;
-constexpr std::size_t kGpuBundles = 4096;
-
 /// Pairs of a launch at most, however fast the device is.
 constexpr double kMostLaunchPairs = 0x1p40;
 
 GatherConfig resolved(GatherConfig config, const Device& device) {
     config.kernel = choose_kernel(config.kernel, device);
+    if (config.packet_width == 0) {
+        config.packet_width = device.tunables().packet_width;
+    }
+    if (config.launch_seconds == 0.0) {
+        config.launch_seconds = 1e-3 * device.tunables().launch_ms;
+    }
     if (config.packet_width < 16 || config.packet_width > 256 || !std::has_single_bit(config.packet_width)) {
         throw Error(ExitCode::usage, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
                                          std::to_string(config.packet_width));
@@ -94,8 +95,8 @@ Gatherer::Part Gatherer::next_part(std::size_t vpl_count, const Part& done, std:
     constexpr std::uint64_t kChunkPairs = kChunk * kBundleSize;
     Part part = done;
     if (done.end_vpl >= vpl_count) {
-        const std::size_t most = device_->is_cpu() ? kCpuBundles : kGpuBundles;
-        const std::size_t bundles = std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, most);
+        const std::size_t bundles =
+            std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, device_->tunables().launch_bundles);
         part.first_bundle = done.end_bundle;
         part.end_bundle = std::min(end_bundle, part.first_bundle + bundles);
         part.end_vpl = 0;
@@ -122,7 +123,7 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
                       irradiance, more...);
     };
     if (rays) {
-        launch_on(device_->local_size(), input.tree.nodes, input.tree.triangles);
+        launch_on(device_->tunables().local_size, input.tree.nodes, input.tree.triangles);
     } else {
         launch_on(1, input.tree.wide_nodes, input.tree.blocks);
     }

@@ -19,12 +19,13 @@ namespace nearlight {
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
-    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it.
-    uint packet_width = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
+    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it. 0:
+    /// what suits the device (Tunables).
+    uint packet_width = 0;
     /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
     /// time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
-    double launch_seconds = 0.2;  ///< how long a launch should take
+    double launch_seconds = 0.0;  ///< how long a launch should take; 0: what suits the device
 };
 
 /// What is gathered. Counts may be smaller than the buffers'.

@@ -10,7 +10,7 @@ namespace {
 
 /// Slots that are worked on at a time: enough to keep the device busy, a few dozen MiB at most.
 std::size_t slots_at_a_time(const Device& device) {
-    const std::size_t wanted = device.is_cpu() ? std::size_t{1} << 17u : std::size_t{1} << 20u;
+    const std::size_t wanted = device.tunables().batch_receivers / 2;
     return std::min(wanted, device.entry().max_allocation_bytes / (2 * sizeof(Vpl)));
 }
 

@@ -14,7 +14,7 @@ static_assert(sizeof(Aabb) == 6 * sizeof(float));
 
 /// Runs long enough that their 256 counters are worth having.
 Chunks split_for_sort(const Device& device, std::size_t count) {
-    return split_into_chunks(device, count, device.is_cpu() ? 4096 : 256);
+    return split_into_chunks(device, count, device.tunables().shortest_sort_run);
 }
 
 template <typename T>

@@ -15,6 +15,9 @@ class RayCaster {
   public:
     explicit RayCaster(Device& device);
 
+    /// Enqueues: for each ray the closest hit.
+    void cast(const Buffer<BvhNode>& nodes, const Buffer<BvhTriangle>& triangles,
+              const Buffer<RayQuery>& rays, Buffer<RayHit>& hits);
     /// For each ray the closest hit (triangle ~0u: none). Uploads the tree anew; waits for the device.
     std::vector<BvhHit> closest_hits(const Bvh& bvh, std::span<const RayQuery> rays);
     /// For each ray 1 if it hits anything, else 0.

@@ -10,9 +10,6 @@ namespace {
 constexpr std::size_t kListBytes = std::size_t{96} << 20u;
 constexpr std::size_t kEntryBytes = 2 * sizeof(float) + sizeof(uint);
 
-/// VPLs of a work-item: on CPUs enough to pay for its start.
-constexpr uint kCpuRun = 64;
-
 }  // namespace
 
 Roulette::Roulette(Device& device)
@@ -39,7 +36,7 @@ const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t firs
     const auto vpl_count = lists_.stride = static_cast<uint>(task.vpl_count);
     const auto first = lists_.first_bundle = static_cast<uint>(first_bundle);
     const auto end = static_cast<uint>(end_bundle);
-    const uint run = device_->is_cpu() ? kCpuRun : 1;
+    const uint run = device_->tunables().roulette_run;
     bounds_kernel_.launch_items(bundles * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
                                 task.receivers, layout.packet_count, layout.run_packets, first, end,
                                 task.clamp_radius * task.clamp_radius, bounds_);

@@ -22,6 +22,15 @@ typedef int LanesInt8 __attribute__((__vector_size__(32)));
 typedef int LanesInt16 __attribute__((__vector_size__(64)));
 #endif
 
+// x86 without them: an instruction gathers the signs of floats.
+#if !defined(LANES_MASK_REGISTERS) && defined(__AVX__)
+#define LANES_SIGNS_OF_8
+typedef float LanesFloat8 __attribute__((__vector_size__(32)));
+#elif !defined(LANES_MASK_REGISTERS) && defined(__SSE__)
+#define LANES_SIGNS_OF_4
+typedef float LanesFloat4 __attribute__((__vector_size__(16)));
+#endif
+
 /// For what inner loops call: left to itself the compiler makes calls of large functions, and every call
 /// spills.
 #define LANES_INLINE inline __attribute__((always_inline))
@@ -40,12 +49,8 @@ LANES_INLINE float8 max8(float8 a, float8 b) {
     return a > b ? a : b;
 }
 
-/// A number with bit i set where lane i is −1.
-LANES_INLINE uint lane_bits8(int8 mask) {
-#if defined(LANES_MASK_REGISTERS)
-    return (uint)__builtin_ia32_cvtd2mask256((LanesInt8)mask) & 0xffu;
-#else
-    const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+/// All bits that are set in some lane.
+LANES_INLINE uint any_bits8(int8 bits) {
 #if defined(LANES_REDUCE_OR)
     return (uint)__builtin_reduce_or(bits);
 #else
@@ -53,6 +58,19 @@ LANES_INLINE uint lane_bits8(int8 mask) {
     const int2 b = a.lo | a.hi;
     return (uint)(b.x | b.y);
 #endif
+}
+
+/// A number with bit i set where lane i is −1.
+LANES_INLINE uint lane_bits8(int8 mask) {
+#if defined(LANES_MASK_REGISTERS)
+    return (uint)__builtin_ia32_cvtd2mask256((LanesInt8)mask) & 0xffu;
+#elif defined(LANES_SIGNS_OF_8)
+    return (uint)__builtin_ia32_movmskps256((LanesFloat8)mask);
+#elif defined(LANES_SIGNS_OF_4)
+    return (uint)__builtin_ia32_movmskps((LanesFloat4)mask.lo) |
+           (uint)__builtin_ia32_movmskps((LanesFloat4)mask.hi) << 4;
+#else
+    return any_bits8(mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128));
 #endif
 }
 LANES_INLINE uint lane_bits4(int4 mask) {
@@ -65,8 +83,11 @@ LANES_INLINE uint lane_bits4(int4 mask) {
 LANES_INLINE uint lane_bits16(int16 mask) {
 #if defined(LANES_MASK_REGISTERS)
     return (uint)__builtin_ia32_cvtd2mask512((LanesInt16)mask) & 0xffffu;
-#else
+#elif defined(LANES_SIGNS_OF_8) || defined(LANES_SIGNS_OF_4)
     return lane_bits8(mask.lo) | lane_bits8(mask.hi) << 8;
+#else
+    return any_bits8((mask.lo & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) |
+                     (mask.hi & (int8)(256, 512, 1024, 2048, 4096, 8192, 16384, 32768)));
 #endif
 }
 

@@ -114,6 +114,26 @@ TEST(BenchBuild, WantsASceneAndSaneNumbers) {
     EXPECT_EQ(run_program("bench build no-such-file.xml").exit_code, 3);
 }
 
+TEST(BenchTrace, RaysOfCameraAndWalks) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const std::string small = "bench trace spheres:2000 --size 24x16 --rays 300 --repeats 1 ";
+    const ProgramResult result = run_program(small + "--json");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["sets"].size(), 2u);
+    EXPECT_EQ(json["sets"][0]["count"], 24 * 16);
+    EXPECT_EQ(json["sets"][1]["count"], 300);
+    for (const nlohmann::json& set : json["sets"]) {
+        EXPECT_TRUE(set["agrees"]);
+        EXPECT_EQ(set["tracers"].size(), 9u);
+        EXPECT_GT(set["ratio"], 0.0);
+    }
+    const ProgramResult text = run_program(small);
+    EXPECT_NE(text.output.find("light walks: "), std::string::npos) << text.output;
+    EXPECT_NE(text.output.find("rtcIntersect16 coherent, quality high"), std::string::npos);
+    EXPECT_EQ(run_program(small + "--rays 0").exit_code, 2);
+}
+
 TEST(BenchSort, RatiosToOtherSorts) {
     NEARLIGHT_NEEDS_DEVICE();
     const ProgramResult result = run_program("bench sort --count 20000 --repeats 2 --json");

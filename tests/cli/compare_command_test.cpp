@@ -59,6 +59,18 @@ TEST_F(Compare, PrintsATableForPeopleAndNothingWithQuiet) {
     EXPECT_EQ(quiet.output + quiet.errors, "");
 }
 
+TEST_F(Compare, TakesAnySamplersVplsAsReference) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result =
+        run_program(command("--size 16x12 --vpls 20 --seeds 2 --samplers rejection --json "
+                            "--reference-sampler close-range:partition --reference-vpls 400"));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json reference = nlohmann::json::parse(result.output).at("scenes").at(0).at("reference");
+    EXPECT_EQ(reference.at("method"), "close-range:partition");
+    EXPECT_EQ(reference.at("samples"), 400);
+    EXPECT_GT(reference.at("noise"), 0);
+}
+
 TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
     NEARLIGHT_NEEDS_DEVICE();
     const std::string truth = quoted(folder_ / "truth.exr");
@@ -110,6 +122,8 @@ TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
     expect_usage_error("--crop 1,2,3", "--crop");
     expect_usage_error("--crop 300,200,100,100", "--crop");
     expect_usage_error("--reference-vpls 100", "200000");
+    expect_usage_error("--reference-sampler metropolis", "--reference-vpls");
+    expect_usage_error("--reference-sampler metropolise --reference-vpls 500000", "there are: ");
     expect_usage_error(quoted(scene_), "twice");
     EXPECT_EQ(run_program("compare " + quoted(scene_)).exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(output_));

@@ -18,8 +18,8 @@ namespace {
 using test::error_of;
 using test::mentions;
 
-ReferenceSpec small_spec(ReferenceKind kind = ReferenceKind::path_tracing) {
-    return {.kind = kind,
+ReferenceSpec small_spec(std::optional<Method> sampler = {}) {
+    return {.sampler = sampler,
             .scene_name = "room",
             .scene_hash = 0x1234,
             .width = 2,
@@ -71,7 +71,7 @@ TEST(Reference, PassesAreWholeBatches) {
     EXPECT_EQ(pass_sizes(small_spec(), 8), (Sizes{16}));
     EXPECT_EQ(pass_sizes(small_spec(), 512), (Sizes{256, 256}));
     EXPECT_EQ(pass_sizes(small_spec(), 257), (Sizes{256, 16}));
-    EXPECT_EQ(pass_sizes(small_spec(ReferenceKind::instant_radiosity), 800), Sizes(8, 100));
+    EXPECT_EQ(pass_sizes(small_spec(parse_method("instant-radiosity")), 800), Sizes(8, 100));
 }
 
 TEST(Reference, GoesOnFromWhatIsStored) {
@@ -113,7 +113,7 @@ TEST(Reference, OfVplsLearnsItsNoiseFromItsPasses) {
     const TemporaryFolder folder;
     std::size_t count = 0;
     const auto reference =
-        make_reference(small_spec(ReferenceKind::instant_radiosity), 200'000, ReferenceStore(folder.path()),
+        make_reference(small_spec(parse_method("instant-radiosity")), 200'000, ReferenceStore(folder.path()),
                        [&](std::size_t index, std::size_t samples) -> std::optional<Image> {
                            EXPECT_EQ(samples, 25'000u);
                            ++count;

@@ -93,6 +93,14 @@ TEST(CompareSettingsCheck, WhatDoesNotGoTogetherIsRefused) {
         has(complaint([](auto& s) { s.clamp_radius = 0.1f, s.clamp_fraction = 0.1f; }), "--clamp-fraction"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.max_depth = 2u; }), "--max-depth"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.reference_vpls = 1000; }), "200000"));
+    const Method metropolis = parse_method("metropolis");
+    EXPECT_TRUE(has(complaint([&](auto& s) { s.reference_sampler = metropolis; }), "--reference-vpls"));
+    EXPECT_TRUE(has(complaint([&](auto& s) { s.reference_sampler = metropolis, s.reference_vpls = 99'999; }),
+                    "100000"));
+    EXPECT_TRUE(has(complaint([](auto& s) {
+                        s.reference_sampler = parse_method("close-range:paper"), s.reference_vpls = 200'000;
+                    }),
+                    "loses light"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.reference_vpls = 200'000, s.reference_files = {"a.exr"}; }),
                     "exclude"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.crops = {{300, 0, 21, 10}}; }), "--crop 300,0,21,10"));

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/scene/pinhole_camera.h"
@@ -11,12 +15,7 @@ namespace nearlight {
 namespace {
 
 bool contains(const CloseRange& region, Vec3 p) {
-    for (const auto& plane : region.planes) {
-        if (plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] < 0.0f) {
-            return false;
-        }
-    }
-    return length(p - region.origin) < region.range;
+    return in_frustum(region, p, 0.0f) && length(p - region.origin) < region.range;
 }
 
 std::vector<PinholeCamera> some_cameras() {
@@ -64,6 +63,25 @@ TEST(CloseRange, NothingBehindTheCameraIsInside) {
                                    camera.step_x * (random.uniform() * static_cast<float>(camera.width)) +
                                    camera.step_y * (random.uniform() * static_cast<float>(camera.height));
             EXPECT_FALSE(contains(region, camera.origin - normalize(direction) * (0.1f + random.uniform())));
+        }
+    }
+}
+
+TEST(CloseRange, AMarginReachesBeyondEachSideByItsWidthHoweverFarAway) {
+    constexpr float kMargin = 0.2f;
+    for (const PinholeCamera& camera : some_cameras()) {
+        const CloseRange region = make_close_range(camera, 1.0f);
+        const Vec3 across = camera.step_x * static_cast<float>(camera.width);
+        const Vec3 down = camera.step_y * static_cast<float>(camera.height);
+        const std::array sides{down * 0.5f, across * 0.5f, across + down * 0.5f, across * 0.5f + down};
+        for (const Vec3& side : sides) {
+            const Vec3 point = camera.origin + normalize(camera.corner + side) * 50.0f;
+            const auto* const nearest = std::ranges::min_element(region.planes, {}, [&](const auto& plane) {
+                return std::abs(dot({plane[0], plane[1], plane[2]}, point) + plane[3]);
+            });
+            const Vec3 outward = -Vec3{(*nearest)[0], (*nearest)[1], (*nearest)[2]};
+            EXPECT_TRUE(in_frustum(region, point + outward * (0.99f * kMargin), kMargin));
+            EXPECT_FALSE(in_frustum(region, point + outward * (1.01f * kMargin), kMargin));
         }
     }
 }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bench/trace_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <thread>
+
+#include "host/bench/embree_rays.h"
+#include "host/bench/gather_workload.h"
+#include "host/bench/statistics.h"
+#include "host/bvh/bvh.h"
+#include "host/stages/ray_caster.h"
+
+namespace nearlight {
+namespace {
+
+/// Distances apart that count as the same hit, of the distance.
+constexpr float kSameHit = 1e-4f;
+/// Rays that graze an edge may go either way; more than this share of all rays is an error.
+constexpr double kMostDiffering = 1e-5;
+
+/// One way to trace the rays of a set: fills in their distances, and says how long the tracing took.
+struct Contestant {
+    std::string name;
+    std::function<Seconds(std::vector<float>&)> trace;
+};
+
+bool same_hit(float a, float b) {
+    return std::isinf(a) || std::isinf(b) ? a == b : std::abs(a - b) <= kSameHit * std::max(a, b);
+}
+
+std::size_t count_differing(std::span<const float> distances, std::span<const float> truth) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        count += same_hit(distances[i], truth[i]) ? 0 : 1;
+    }
+    return count;
+}
+
+/// The tree on the device.
+struct DeviceTree {
+    DeviceTree(Device& on, const Bvh& bvh)
+        : device(&on), caster(on), nodes(on, bvh.nodes), triangles(on, bvh.triangles) {}
+    Device* device;
+    RayCaster caster;
+    Buffer<BvhNode> nodes;
+    Buffer<BvhTriangle> triangles;
+};
+
+Contestant ours(DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
+    return {"nearlight", [&](std::vector<float>& distances) {
+                const TwoClocks clocks(TwoClocks::Of::process);
+                tree.caster.cast(tree.nodes, tree.triangles, rays, hits);
+                tree.device->finish();
+                const Seconds seconds = clocks.seconds();
+                distances.clear();
+                for (const RayHit& hit : hits.download()) {
+                    distances.push_back(hit.slot == ~0u ? std::numeric_limits<float>::infinity() : hit.t);
+                }
+                return seconds;
+            }};
+}
+
+std::vector<Contestant> embrees(const EmbreeRays& embree, std::span<const RayQuery> rays, int threads) {
+    std::vector<Contestant> contestants;
+    for (const EmbreeRayMode& mode : all_embree_ray_modes()) {
+        contestants.push_back(
+            {to_string(mode), [&embree, rays, mode, threads](std::vector<float>& distances) {
+                 return embree.trace(rays, mode, threads, distances);
+             }});
+    }
+    return contestants;
+}
+
+/// Each contestant's seconds, repeat by repeat, in turn; one more run before warms up and is compared.
+std::vector<std::vector<Seconds>> race(const std::vector<Contestant>& contestants, int repeats,
+                                       RaySetResult& result) {
+    std::vector<std::vector<float>> distances(contestants.size());
+    std::vector<std::vector<Seconds>> runs(contestants.size());
+    for (int repeat = -1; repeat < repeats; ++repeat) {
+        for (std::size_t i = 0; i < contestants.size(); ++i) {
+            const Seconds seconds = contestants[i].trace(distances[i]);
+            if (repeat >= 0) {
+                runs[i].push_back(seconds);
+            }
+        }
+    }
+    const std::vector<float>& truth = distances[1];  // rtcIntersect1
+    result.hits = static_cast<std::size_t>(
+        std::ranges::count_if(truth, [](float distance) { return std::isfinite(distance); }));
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+        result.tracers.push_back(
+            {contestants[i].name,
+             {median(readings(runs[i], &Seconds::wall)), median(readings(runs[i], &Seconds::processor))},
+             count_differing(distances[i], truth)});
+    }
+    return runs;
+}
+
+RaySetResult bench_set(DeviceTree& tree, const EmbreeRays& embree, const std::string& name,
+                       std::span<const RayQuery> rays, const TraceBenchConfig& config) {
+    const Buffer<RayQuery> on_device(*tree.device, rays);
+    Buffer<RayHit> hits(*tree.device, rays.size());
+    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    std::vector<Contestant> contestants{ours(tree, on_device, hits)};
+    std::ranges::move(embrees(embree, rays, config.threads > 0 ? config.threads : cores),
+                      std::back_inserter(contestants));
+    RaySetResult result{.name = name, .rays = rays.size(), .hits = 0, .tracers = {}, .best = {}};
+    const std::vector<std::vector<Seconds>> runs = race(contestants, config.repeats, result);
+    const auto best = static_cast<std::size_t>(
+        std::ranges::min_element(result.tracers.begin() + 1, result.tracers.end(), {},
+                                 [](const RayTracerFigures& tracer) { return tracer.median.wall; }) -
+        result.tracers.begin());
+    result.best = result.tracers[best].name;
+    result.ratio = ratio(runs[best], runs[0], &Seconds::wall).median;
+    result.ratio_processor =
+        tree.device->is_cpu() ? ratio(runs[best], runs[0], &Seconds::processor).median : 0.0;
+    const auto most = std::max(1.0, kMostDiffering * static_cast<double>(rays.size()));
+    result.agrees = static_cast<double>(result.tracers[0].differing) <= most;
+    return result;
+}
+
+}  // namespace
+
+TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenchConfig& config) {
+    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const std::vector<uint> ids = distinct_triangles(bvh);
+    DeviceTree tree(device, bvh);
+    const EmbreeRays embree(scene, ids);
+    const auto bench = [&](const std::string& name, const std::vector<RayQuery>& rays) {
+        return bench_set(tree, embree, name, rays, config);
+    };
+    return {.device = device.name(),
+            .triangles = ids.size(),
+            .sets = {bench("camera", make_camera_rays(scene, config.width, config.height)),
+                     bench("light walks", make_walk_rays(scene, bvh, config.walk_rays))}};
+}
+
+}  // namespace nearlight

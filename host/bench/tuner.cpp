@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bench/tuner.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "host/base/hash.h"
+#include "host/base/random.h"
+#include "host/bench/gather_segments.h"
+#include "host/bench/synthetic_scene.h"
+#include "host/render/view.h"
+#include "host/stages/camera_pass.h"
+#include "host/stages/direct_light.h"
+#include "host/stages/gatherer.h"
+#include "host/stages/morton_sort.h"
+
+namespace nearlight {
+namespace {
+
+/// Another value has to be faster than the usual one by so much.
+constexpr double kWorthIt = 0.97;
+
+/// What a candidate runs, and a hash of what came out.
+struct Work {
+    std::function<void()> run;
+    std::function<std::uint64_t()> hash;
+};
+
+/// Work that tells of one tunable.
+struct Trial {
+    std::uint32_t Tunables::*value;
+    std::string measured_by;
+    /// Processor time tells more where others use the machine too, but not how evenly work is divided.
+    bool by_processor;
+    std::uint32_t least, most;        ///< powers of two that are tried
+    std::function<Work()> make_work;  ///< with the device set to a candidate
+};
+
+template <typename T>
+std::uint64_t hash_of(const Buffer<T>& buffer) {
+    const std::vector<T> values = buffer.download();
+    return fnv1a(std::as_bytes(std::span(values)));
+}
+
+/// The room, on the host and on the device.
+struct Room {
+    Room(Device& device, const TunerConfig& config)
+        : scene(make_sphere_room(config.triangles)),
+          bvhs(build_scene_bvhs(scene)),
+          on_device(upload_scene(device, scene, bvhs)),
+          segments(make_camera_segments(scene, bvhs.opaque, config.vpl_count, config.size, config.size)) {
+        settings.width = settings.height = config.size;
+    }
+    Scene scene;
+    SceneBvhs bvhs;
+    DeviceScene on_device;
+    GatherSegments segments;
+    RenderSettings settings;
+};
+
+Work gather_work(Device& device, const Room& room) {
+    struct State {
+        State(Device& on, const Room& of)
+            : gatherer(on),
+              vpls(on, of.segments.vpls),
+              receivers(on, of.segments.receivers),
+              irradiance(on, of.segments.receivers.size()) {}
+        Gatherer gatherer;
+        Buffer<Vpl> vpls;
+        Buffer<ReceiverPacket> receivers;
+        Buffer<IrradiancePacket> irradiance;
+    };
+    const auto state = std::make_shared<State>(device, room);
+    return {[state, &room] {
+                state->gatherer.gather(
+                    {room.on_device.tree, state->vpls, state->vpls.count(), state->receivers,
+                     state->receivers.count(), room.segments.clamp_radius},
+                    state->irradiance);
+            },
+            [state] { return hash_of(state->irradiance); }};
+}
+
+/// Kernels of the picture: rays from the camera and to the lights.
+Work picture_work(Device& device, const Room& room) {
+    struct State {
+        State(Device& on, const Room& of)
+            : camera_pass(on),
+              direct_light(on),
+              view(choose_view(on, camera_pass, of.on_device, of.scene, of.settings)),
+              camera(on, std::span(&view.camera, 1)),
+              close_range(on, std::span(&view.close_range, 1)),
+              band{.tile_row_count = (view.camera.height + 7) / 8},
+              packets(packet_count(band, view.camera.width)),
+              receivers(on, packets),
+              vertices(on, packets * NEARLIGHT_PACKET_SIZE),
+              irradiance(on, packets) {}
+        CameraPass camera_pass;
+        DirectLight direct_light;
+        View view;
+        Buffer<PinholeCamera> camera;
+        Buffer<CloseRange> close_range;
+        CameraBand band;
+        std::size_t packets;
+        Buffer<ReceiverPacket> receivers;
+        Buffer<CameraVertex> vertices;
+        Buffer<IrradiancePacket> irradiance;
+    };
+    const auto state = std::make_shared<State>(device, room);
+    return {[state, &room] {
+                State& s = *state;
+                s.camera_pass.run(room.on_device, s.camera, s.view.camera.width, s.close_range, s.band, 1,
+                                  s.receivers, s.vertices);
+                s.direct_light.run(room.on_device, s.receivers, s.packets, 4, 1, s.irradiance);
+            },
+            [state] { return hash_of(state->irradiance); }};
+}
+
+Work sort_work(Device& device, std::size_t count) {
+    struct State {
+        State(Device& on, std::size_t n) : sort(on), numbers(n), keys(on, n), values(on, n) {
+            Pcg32 random(1);
+            std::ranges::generate(numbers, [&] { return random.next(); });
+        }
+        MortonSort sort;
+        std::vector<uint> numbers;
+        Buffer<uint> keys, values;
+    };
+    const auto state = std::make_shared<State>(device, count);
+    return {[state] {
+                state->keys.upload(state->numbers);
+                state->values.upload(state->numbers);
+                state->sort.sort(state->keys, state->values, state->numbers.size());
+            },
+            [state] { return hash_of(state->keys); }};
+}
+
+std::vector<Trial> make_trials(Device& device, const Room& room, const TunerConfig& config) {
+    const bool cpu = device.is_cpu();
+    std::vector<Trial> trials;
+    const auto picture = [&] { return picture_work(device, room); };
+    const auto gather = [&] { return gather_work(device, room); };
+    if (choose_kernel(GatherKernel::automatic, device) == GatherKernel::packets) {
+        trials.push_back({&Tunables::packet_width, "gather", cpu, 16, 256, gather});
+        trials.push_back({&Tunables::local_size, "camera pass and direct light", cpu, 1, 64, picture});
+    } else {
+        trials.push_back({&Tunables::local_size, "gather", cpu, 32, 256, gather});
+    }
+    trials.push_back({&Tunables::runs_per_unit, "radix sort", false, cpu ? 1u : 16u, cpu ? 16u : 512u,
+                      [&device, count = config.sort_count] { return sort_work(device, count); }});
+    return trials;
+}
+
+/// A candidate that takes part.
+struct Runner {
+    Tunables tunables{};
+    Work work;
+    std::vector<Seconds> runs;
+};
+
+Seconds timed(Device& device, const Runner& runner) {
+    device.set_tunables(runner.tunables);
+    const TwoClocks clocks(TwoClocks::Of::process);
+    runner.work.run();
+    device.finish();
+    return clocks.seconds();
+}
+
+/// Runners for all values; one without work where the device refuses its value.
+std::vector<Runner> make_runners(Device& device, const Trial& trial, const Tunables& base,
+                                 std::vector<TunerCandidate>& candidates) {
+    std::vector<Runner> runners;
+    for (TunerCandidate& candidate : candidates) {
+        Runner runner{.tunables = base, .work = {}, .runs = {}};
+        runner.tunables.*trial.value = candidate.value;
+        try {
+            device.set_tunables(runner.tunables);
+            runner.work = trial.make_work();
+            timed(device, runner);  // compiles and warms up
+        } catch (const Error& error) {
+            candidate.failed_because = error.what();
+            runner.work = {};
+        }
+        runners.push_back(std::move(runner));
+    }
+    return runners;
+}
+
+void check_results(const Trial& trial, std::span<const Runner> runners) {
+    std::optional<std::uint64_t> first;
+    for (const Runner& runner : runners) {
+        if (!runner.work.run) {
+            continue;
+        }
+        const std::uint64_t hash = runner.work.hash();
+        if (hash != first.value_or(hash)) {
+            throw Error(ExitCode::runtime,
+                        "the result of the " + trial.measured_by +
+                            " depends on a tunable, which it must not: please report this");
+        }
+        first = hash;
+    }
+}
+
+std::vector<TunerCandidate> list_candidates(const Trial& trial, std::uint32_t usual) {
+    std::vector<TunerCandidate> candidates{{.value = usual}};
+    for (std::uint32_t value = trial.least; value <= trial.most; value *= 2) {
+        if (value != usual) {
+            candidates.push_back({.value = value});
+        }
+    }
+    std::ranges::sort(candidates, {}, &TunerCandidate::value);
+    return candidates;
+}
+
+/// Fills in the figures and gives the winner's value.
+std::uint32_t decide(const Trial& trial, std::span<const Runner> runners, std::uint32_t usual,
+                     std::vector<TunerCandidate>& candidates) {
+    const auto of_usual = static_cast<std::size_t>(
+        std::ranges::find(candidates, usual, &TunerCandidate::value) - candidates.begin());
+    const auto clock = trial.by_processor ? &Seconds::processor : &Seconds::wall;
+    std::uint32_t best = usual;
+    double best_ratio = kWorthIt;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        TunerCandidate& candidate = candidates[i];
+        const std::vector<Seconds>& runs = runners[i].runs;
+        if (runs.empty() || runners[of_usual].runs.empty()) {
+            continue;
+        }
+        candidate.median = {median(readings(runs, &Seconds::wall)),
+                            median(readings(runs, &Seconds::processor))};
+        candidate.to_usual = ratio(runs, runners[of_usual].runs, clock);
+        const double surely = candidate.to_usual.median + 2.0 * candidate.to_usual.deviation;
+        if (candidate.value != usual && surely < 1.0 && candidate.to_usual.median < best_ratio) {
+            best = candidate.value;
+            best_ratio = candidate.to_usual.median;
+        }
+    }
+    return best;
+}
+
+TunerTrial run_trial(Device& device, const Trial& trial, const Tunables& base, int repeats) {
+    TunerTrial result{.tunable = {},
+                      .measured_by = trial.measured_by,
+                      .by_processor = trial.by_processor,
+                      .usual = base.*trial.value,
+                      .candidates = list_candidates(trial, base.*trial.value)};
+    result.tunable = std::ranges::find(tunable_fields(), trial.value, &TunableField::value)->name;
+    std::vector<Runner> runners = make_runners(device, trial, base, result.candidates);
+    check_results(trial, runners);
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        for (Runner& runner : runners) {
+            if (runner.work.run) {
+                runner.runs.push_back(timed(device, runner));
+            }
+        }
+    }
+    result.chosen = decide(trial, runners, result.usual, result.candidates);
+    return result;
+}
+
+}  // namespace
+
+TunerResult tune(Device& device, const TunerConfig& config) {
+    TunerResult result;
+    result.device = device.entry().label();
+    result.usual = result.chosen = tunables_row(device.entry().kind).values;
+    device.set_tunables(result.usual);
+    const Room room(device, config);
+    for (const Trial& trial : make_trials(device, room, config)) {
+        result.trials.push_back(run_trial(device, trial, result.chosen, config.repeats));
+        result.chosen.*trial.value = result.trials.back().chosen;
+        device.set_tunables(result.chosen);
+    }
+    return result;
+}
+
+}  // namespace nearlight

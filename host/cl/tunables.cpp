@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/tunables.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace nearlight {
+namespace {
+
+constexpr std::array kFields{
+    TunableField{"packet_width", &Tunables::packet_width, 16, 256, true},
+    TunableField{"local_size", &Tunables::local_size, 1, 256, true},
+    TunableField{"run_local_size", &Tunables::run_local_size, 1, 256, true},
+    TunableField{"runs_per_unit", &Tunables::runs_per_unit, 1, 1024, false},
+    TunableField{"shortest_run", &Tunables::shortest_run, 16, 1u << 20u, false},
+    TunableField{"shortest_sort_run", &Tunables::shortest_sort_run, 16, 1u << 20u, false},
+    TunableField{"roulette_run", &Tunables::roulette_run, 1, 4096, false},
+    TunableField{"launch_bundles", &Tunables::launch_bundles, 1, 1u << 20u, false},
+    TunableField{"launch_ms", &Tunables::launch_ms, 1, 2000, false},
+    TunableField{"batch_receivers", &Tunables::batch_receivers, 1u << 10u, 1u << 24u, false},
+};
+
+/// CPUs: a group is what one thread runs, so few and long work-items, several a core to even out, and more
+/// VPLs rather than more bundles in a launch, because a bundle's start costs something. GPUs: enough items to
+/// fill their lanes.
+constexpr Tunables kCpu{.packet_width = 256,
+                        .local_size = 8,
+                        .run_local_size = 1,
+                        .runs_per_unit = 4,
+                        .shortest_run = 1024,
+                        .shortest_sort_run = 4096,
+                        .roulette_run = 64,
+                        .launch_bundles = 256,
+                        .launch_ms = 200,
+                        .batch_receivers = 1u << 18u};
+constexpr Tunables kGpu{.packet_width = 256,
+                        .local_size = 64,
+                        .run_local_size = 64,
+                        .runs_per_unit = 128,
+                        .shortest_run = 32,
+                        .shortest_sort_run = 256,
+                        .roulette_run = 1,
+                        .launch_bundles = 4096,
+                        .launch_ms = 200,
+                        .batch_receivers = 1u << 21u};
+
+constexpr std::array kTable{
+    TunablesRow{"CPUs", DeviceKind::cpu, kCpu},
+    TunablesRow{"GPUs", DeviceKind::gpu, kGpu},
+    TunablesRow{"other devices", DeviceKind::other, kGpu},
+};
+
+}  // namespace
+
+bool TunableField::allows(std::uint32_t x) const {
+    return x >= low && x <= high && (!is_power_of_two || std::has_single_bit(x));
+}
+
+std::span<const TunableField> tunable_fields() {
+    return kFields;
+}
+
+std::span<const TunablesRow> tunables_table() {
+    return kTable;
+}
+
+const TunablesRow& tunables_row(DeviceKind kind) {
+    return *std::ranges::find(kTable, kind, &TunablesRow::kind);
+}
+
+}  // namespace nearlight

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tunables on disk: lines of "name value", for people to read and to change.
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "host/base/files.h"
+#include "host/base/hash.h"
+#include "host/cl/kernel_source.h"
+#include "host/cl/tunables.h"
+
+namespace nearlight {
+namespace {
+
+constexpr const char* kHead = "nearlight tunables 1";
+
+/// Of the kernels that were measured: others may want other values.
+std::string kernels_key(const std::filesystem::path& kernel_dir) {
+    std::uint64_t hash = kFnvSeed;
+    for (const char* file : {"gather_packets.cl", "gather_rays.cl", "camera_pass.cl", "direct_light.cl",
+                             "morton_sort.cl", "prefix_scan.cl"}) {
+        hash = fnv1a(expand_kernel_source(file, kernel_dir), hash);
+    }
+    return hex_digits(hash);
+}
+
+std::string device_key(const DeviceEntry& entry) {
+    return entry.platform + "; " + entry.name + "; " + entry.version + "; " + entry.driver;
+}
+
+std::string to_text(const Tunables& tunables, const DeviceEntry& entry, const std::string& kernels) {
+    std::string text = std::string(kHead) + "\ndevice " + device_key(entry) + "\nkernels " + kernels + "\n";
+    for (const TunableField& field : tunable_fields()) {
+        text += std::string(field.name) + " " + std::to_string(tunables.*field.value) + "\n";
+    }
+    return text;
+}
+
+/// What is wrong with the file, for a warning.
+struct Complaint {
+    std::string text;
+};
+
+std::map<std::string, std::string> read_lines(std::istream& file) {
+    std::string line;
+    if (!std::getline(file, line) || line != kHead) {
+        throw Complaint{"does not begin with '" + std::string(kHead) + "'"};
+    }
+    std::map<std::string, std::string> lines;
+    while (std::getline(file, line)) {
+        const std::size_t blank = line.find(' ');
+        if (blank == std::string::npos ||
+            !lines.emplace(line.substr(0, blank), line.substr(blank + 1)).second) {
+            throw Complaint{"has a strange line '" + line + "'"};
+        }
+    }
+    return lines;
+}
+
+std::uint32_t parse(const TunableField& field, const std::map<std::string, std::string>& lines) {
+    const auto found = lines.find(field.name);
+    if (found == lines.end()) {
+        throw Complaint{"has no " + std::string(field.name)};
+    }
+    std::istringstream stream(found->second);
+    std::int64_t value = 0;
+    if (!(stream >> value) || !stream.eof() || value < 0 || value > UINT32_MAX ||
+        !field.allows(static_cast<std::uint32_t>(value))) {
+        throw Complaint{std::string(field.name) + " cannot be '" + found->second + "'"};
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+/// Of a file made for the same device and kernels.
+Tunables read_tunables(std::istream& file, const DeviceEntry& entry,
+                       const std::filesystem::path& kernel_dir) {
+    const std::map<std::string, std::string> lines = read_lines(file);
+    const auto is = [&](const char* name, const std::string& text) {
+        const auto found = lines.find(name);
+        return found != lines.end() && found->second == text;
+    };
+    if (!is("device", device_key(entry))) {
+        throw Complaint{"is of another device or driver"};
+    }
+    if (!is("kernels", kernels_key(kernel_dir))) {
+        throw Complaint{"was found with other kernels"};
+    }
+    Tunables tunables{};
+    for (const TunableField& field : tunable_fields()) {
+        tunables.*field.value = parse(field, lines);
+    }
+    return tunables;
+}
+
+}  // namespace
+
+std::filesystem::path tunables_file(const DeviceEntry& entry, const std::filesystem::path& cache_dir) {
+    if (cache_dir.empty() || cache_dir == "none") {
+        return {};
+    }
+    return cache_dir / ("tunables-" + hex_digits(fnv1a(device_key(entry))) + ".txt");
+}
+
+ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::path& cache_dir,
+                               const std::filesystem::path& kernel_dir) {
+    std::string warning;
+    const std::filesystem::path path = tunables_file(entry, cache_dir);
+    if (std::ifstream file(path); !path.empty() && file) {
+        try {
+            return {read_tunables(file, entry, kernel_dir), path.string(), true, {}};
+        } catch (const Complaint& complaint) {
+            warning = path.string() + " " + complaint.text +
+                      ": using the usual tunables; `nearlight tune` finds them anew";
+        }
+    }
+    const TunablesRow& row = tunables_row(entry.kind);
+    return {row.values, std::string("table for ") + row.name, false, std::move(warning)};
+}
+
+void store_tunables(const Tunables& tunables, const DeviceEntry& entry,
+                    const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir) {
+    const std::filesystem::path path = tunables_file(entry, cache_dir);
+    if (path.empty()) {
+        throw Error(ExitCode::usage, "no folder to keep tunables in: give one with --cache-dir");
+    }
+    make_folder(cache_dir);
+    write_text(path, to_text(tunables, entry, kernels_key(kernel_dir)));
+}
+
+}  // namespace nearlight

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tunables, for people and for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/cl/tunables.h"
+
+namespace nearlight {
+
+/// {"source": "…", "is_tuned": …, "packet_width": …, …}
+nlohmann::ordered_json to_json(const ChosenTunables& chosen);
+nlohmann::ordered_json to_json(const Tunables& tunables);
+/// "packet_width 256, local_size 8, …"
+std::string to_text(const Tunables& tunables);
+
+}  // namespace nearlight

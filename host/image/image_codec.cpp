@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/image_codec.h"
+
+#include <dlfcn.h>
+
+#include "host/base/error.h"
+
+namespace nearlight {
+namespace {
+
+/// Found where the program's run path says: beside it in the build tree, in lib/nearlight when installed.
+constexpr const char* kModule = "nearlight-images.so";
+
+const ImageCodec& load_codec() {
+    void* const module = dlopen(kModule, RTLD_LAZY | RTLD_LOCAL);
+    const void* const codec = module == nullptr ? nullptr : dlsym(module, "nearlight_image_codec");
+    if (codec == nullptr) {
+        const char* const reason = dlerror();
+        throw Error(ExitCode::runtime,
+                    std::string("cannot load ") + kModule + ", which reads and writes image files: " +
+                        (reason == nullptr ? "it is empty" : reason) + "; install nearlight again");
+    }
+    return *static_cast<const ImageCodec*>(codec);
+}
+
+}  // namespace
+
+const ImageCodec& image_codec() {
+    static const ImageCodec& codec = load_codec();
+    return codec;
+}
+
+}  // namespace nearlight

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both the library and its module say of broken files.
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "host/image/image_codec.h"
+
+namespace nearlight {
+
+void fail_image(const char* what, const std::filesystem::path& file, std::string reason) {
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    reason.erase(reason.find_last_not_of(" .") + 1);
+    throw Error(ExitCode::file, std::string(what) + " '" + file.string() +
+                                    "': " + (reason.empty() ? "unknown reason" : reason));
+}
+
+bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size) {
+    constexpr std::uintmax_t kDensest = 2000;
+    constexpr std::uintmax_t kAlwaysFine = 64u << 20u;
+    return image_bytes <= kAlwaysFine + kDensest * file_size;
+}
+
+}  // namespace nearlight

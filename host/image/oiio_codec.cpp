@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module: the only file that knows OpenImageIO.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <system_error>
+
+#include "host/base/error.h"
+#include "host/image/image_codec.h"
+
+namespace nearlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Alpha is left as the file has it.
+OIIO::ImageSpec reading_options() {
+    OIIO::ImageSpec options;
+    options.attribute("oiio:UnassociatedAlpha", 1);
+    return options;
+}
+
+std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
+    const OIIO::ImageSpec options = reading_options();
+    auto input = OIIO::ImageInput::open(file.string(), &options);
+    if (!input) {
+        fail_image("cannot read image", file, OIIO::geterror());
+    }
+    return input;
+}
+
+DecodedImage decode(const fs::path& file) {
+    const auto input = open(file);
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
+        fail_image("cannot read image", file, "it is not a plain two-dimensional image");
+    }
+    std::error_code ignored;
+    if (!fits_in_file(spec.image_bytes(true), fs::file_size(file, ignored))) {
+        fail_image("cannot read image", file, "its header promises more pixels than it can hold");
+    }
+    Image image = make_image(spec.width, spec.height, spec.channelnames);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()) ||
+        input->has_error()) {
+        fail_image("cannot read image", file, input->geterror());
+    }
+    const bool is_integer = !spec.format.is_floating_point();
+    return {std::move(image), is_integer && spec.get_string_attribute("oiio:ColorSpace") != "Linear"};
+}
+
+Metadata decode_metadata(const fs::path& file) {
+    const auto input = open(file);
+    Metadata metadata;
+    for (const OIIO::ParamValue& attribute : input->spec().extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (attribute.type() == OIIO::TypeInt) {
+            metadata[name] = attribute.get_int();
+        } else if (attribute.type() == OIIO::TypeFloat) {
+            metadata[name] = attribute.get_float();
+        } else if (attribute.type() == OIIO::TypeString) {
+            metadata[name] = attribute.get_string();
+        }
+    }
+    return metadata;
+}
+
+void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadata::mapped_type& value) {
+    if (const auto* integer = std::get_if<int>(&value)) {
+        spec.attribute(name, *integer);
+    } else if (const auto* number = std::get_if<float>(&value)) {
+        spec.attribute(name, *number);
+    } else if (const auto* text = std::get_if<std::string>(&value)) {
+        spec.attribute(name, *text);
+    } else {
+        const auto& numbers = std::get<std::vector<float>>(value);
+        const auto type = numbers.size() == 16
+                              ? OIIO::TypeMatrix44
+                              : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(numbers.size()));
+        spec.attribute(name, type, numbers.data());
+    }
+}
+
+OIIO::ImageSpec exr_spec(const EncodingTask& task) {
+    OIIO::ImageSpec spec(task.width, task.height, static_cast<int>(task.channels.size()),
+                         OIIO::TypeDesc::FLOAT);
+    spec.channelnames = task.channels;
+    spec.attribute("compression", "zip");
+    for (const auto& [name, value] : task.metadata) {
+        set_attribute(spec, name, value);
+    }
+    return spec;
+}
+
+OIIO::ImageSpec png_spec(const EncodingTask& task) {
+    OIIO::ImageSpec spec(task.width, task.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return spec;
+}
+
+class OiioEncoder : public ImageEncoder {
+  public:
+    explicit OiioEncoder(const EncodingTask& task)
+        : type_(task.format == ImageFormat::exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8),
+          proxy_(task.stream, OIIO::Filesystem::IOProxy::Write),
+          output_(OIIO::ImageOutput::create(task.format == ImageFormat::exr ? "openexr" : "png", &proxy_)) {
+        if (!output_) {
+            fail_image("cannot write image", task.name, OIIO::geterror());
+        }
+        output_->set_ioproxy(&proxy_);
+        if (!output_->open(task.name, task.format == ImageFormat::exr ? exr_spec(task) : png_spec(task))) {
+            fail_image("cannot write image", task.name, output_->geterror());
+        }
+    }
+    ~OiioEncoder() override {
+        if (output_) {
+            output_->close();
+        }
+    }
+
+    std::string write(int first, int end, const void* values) override {
+        return output_->write_scanlines(first, end, 0, type_, values) ? "" : reason();
+    }
+    std::string close() override {
+        const std::string failed = output_->close() ? "" : reason();
+        output_.reset();
+        return failed;
+    }
+
+  private:
+    [[nodiscard]] std::string reason() const {
+        const std::string text = output_->geterror();
+        return text.empty() ? "the file cannot be written" : text;
+    }
+
+    OIIO::TypeDesc type_;
+    OIIO::Filesystem::IOFile proxy_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+};
+
+std::unique_ptr<ImageEncoder> make_encoder(const EncodingTask& task) {
+    return std::make_unique<OiioEncoder>(task);
+}
+
+}  // namespace
+}  // namespace nearlight
+
+extern "C" {
+extern const nearlight::ImageCodec nearlight_image_codec;
+const nearlight::ImageCodec nearlight_image_codec{nearlight::decode, nearlight::decode_metadata,
+                                                  nearlight::make_encoder};
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cl/tunables.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight {
+namespace {
+
+DeviceEntry make_entry() {
+    DeviceEntry entry;
+    entry.name = "a device";
+    entry.platform = "a platform";
+    entry.driver = "1.2";
+    entry.kind = DeviceKind::cpu;
+    return entry;
+}
+
+Tunables unusual() {
+    Tunables tunables = tunables_row(DeviceKind::cpu).values;
+    tunables.packet_width = 32;
+    tunables.runs_per_unit = 7;
+    return tunables;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+TEST(Tunables, EveryRowHoldsValuesThatMakeSense) {
+    for (const TunablesRow& row : tunables_table()) {
+        for (const TunableField& field : tunable_fields()) {
+            EXPECT_TRUE(field.allows(row.values.*field.value)) << row.name << ", " << field.name;
+        }
+    }
+}
+
+TEST(Tunables, EveryKindOfDeviceHasARow) {
+    for (const DeviceKind kind : {DeviceKind::cpu, DeviceKind::gpu, DeviceKind::other}) {
+        EXPECT_EQ(tunables_row(kind).kind, kind);
+    }
+}
+
+TEST(Tunables, WithoutAFileTheyAreTheTables) {
+    const TemporaryFolder folder;
+    for (const std::filesystem::path& dir :
+         {folder.path(), std::filesystem::path("none"), std::filesystem::path()}) {
+        const ChosenTunables chosen = choose_tunables(make_entry(), dir, {});
+        EXPECT_EQ(chosen.values, tunables_row(DeviceKind::cpu).values);
+        EXPECT_EQ(chosen.source, "table for CPUs");
+        EXPECT_FALSE(chosen.is_tuned);
+        EXPECT_EQ(chosen.warning, "");
+    }
+    EXPECT_THROW(store_tunables(unusual(), make_entry(), "none", {}), Error);
+}
+
+TEST(Tunables, WhatWasStoredIsUsedForThatDeviceAndDriverOnly) {
+    const TemporaryFolder folder;
+    store_tunables(unusual(), make_entry(), folder.path() / "new", {});
+    const ChosenTunables chosen = choose_tunables(make_entry(), folder.path() / "new", {});
+    EXPECT_EQ(chosen.values, unusual());
+    EXPECT_TRUE(chosen.is_tuned);
+    EXPECT_EQ(chosen.source, tunables_file(make_entry(), folder.path() / "new").string());
+    DeviceEntry other = make_entry();
+    other.driver = "1.3";
+    EXPECT_FALSE(choose_tunables(other, folder.path() / "new", {}).is_tuned);
+    // As a hash collision would have it.
+    std::filesystem::rename(chosen.source, tunables_file(other, folder.path() / "new"));
+    const ChosenTunables strange = choose_tunables(other, folder.path() / "new", {});
+    EXPECT_FALSE(strange.is_tuned);
+    EXPECT_NE(strange.warning.find("another device"), std::string::npos) << strange.warning;
+}
+
+TEST(Tunables, FoundWithOtherKernelsTheyAreOld) {
+    const TemporaryFolder folder;
+    store_tunables(unusual(), make_entry(), folder.path(), {});
+    const std::filesystem::path file = tunables_file(make_entry(), folder.path());
+    std::string text = text_of(file);
+    char& digit = text[text.find("kernels ") + 8];
+    digit = digit == '0' ? '1' : '0';
+    std::ofstream(file) << text;
+    const ChosenTunables chosen = choose_tunables(make_entry(), folder.path(), {});
+    EXPECT_FALSE(chosen.is_tuned);
+    EXPECT_NE(chosen.warning.find("other kernels"), std::string::npos) << chosen.warning;
+    EXPECT_NE(chosen.warning.find("nearlight tune"), std::string::npos) << chosen.warning;
+}
+
+TEST(Tunables, DamagedFilesAreRefusedWithAWarning) {
+    const TemporaryFolder folder;
+    store_tunables(unusual(), make_entry(), folder.path(), {});
+    const std::filesystem::path file = tunables_file(make_entry(), folder.path());
+    const std::string whole = text_of(file);
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = whole;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    for (const std::string& text :
+         {std::string(), std::string("rubbish"), whole.substr(0, whole.find("launch_ms")),
+          with("packet_width 32", "packet_width 33"), with("packet_width 32", "packet_width 512"),
+          with("packet_width 32", "packet_width -32"), with("packet_width 32", "packet_width 32 or so"),
+          with("packet_width 32", "packet_width"),
+          with("runs_per_unit 7", "runs_per_unit 99999999999999999999"),
+          with("runs_per_unit 7", "local_size 8"), with("tunables 1", "tunables 0")}) {
+        std::ofstream(file) << text;
+        const ChosenTunables chosen = choose_tunables(make_entry(), folder.path(), {});
+        EXPECT_EQ(chosen.values, tunables_row(DeviceKind::cpu).values) << text;
+        EXPECT_NE(chosen.warning.find(file.string()), std::string::npos) << text;
+    }
+    std::ofstream(file) << whole;
+    EXPECT_TRUE(choose_tunables(make_entry(), folder.path(), {}).is_tuned);
+}
+
+}  // namespace
+}  // namespace nearlight
