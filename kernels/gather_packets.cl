@@ -16,9 +16,8 @@
 //   cluster meets a box are its lanes tested with it.
 // - Nodes and leaves are taken several at a time, almost without branches that depend on tests
 //   (lib/wide_traverse.cl).
-// - A leaf is tested with the lanes that meet its box: where these are few, four of them with four triangles
-// in
-//   one vector (lib/packet_blocks.cl).
+// - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in one
+//   vector (lib/packet_blocks.cl).
 // - A lane that is culled or occluded has t_max = −1, which no box passes: no other mask of lanes is kept.
 // A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other
 // lanes, and all tests before them are conservative: what shares a packet does not change a bit of the
@@ -36,7 +35,8 @@ typedef struct Accumulator {
 } Accumulator;
 
 inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
+    for (uint open = s->open; open != 0; open &= ~clusters_of_group(first_group(open))) {
+        const uint group = first_group(open);
         const float16 term = s->t_max[group] > 0.0f ? s->weight[group] : (float16)0.0f;
         const float16 weight = squared ? term * term : term;
         sum->r[group] += scale.x * weight;

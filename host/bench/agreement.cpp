@@ -29,11 +29,8 @@ Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle
       edges_(edges),
       edge_tolerance_(kEdgeShare * max_component(bounds(segments.geometry).size())) {}
 
-void Agreement::add(Disagreement item, std::uint64_t count_before) {
-    if (count_before >= kMostItems) {
-        good_ = false;
-        return;
-    }
+/// Fills in where the pair lies and how close it comes to what excuses.
+bool Agreement::is_excused(Disagreement& item) const {
     const Vpl& vpl = segments_->vpls[item.vpl];
     const ReceiverPoint receiver = receiver_at(segments_->receivers[item.packet], item.lane);
     item.from = vpl.position;
@@ -42,13 +39,12 @@ void Agreement::add(Disagreement item, std::uint64_t count_before) {
     item.distance = item.is_culling ? std::min(cosine(vpl.normal, segment), cosine(receiver.normal, segment))
                                     : distance_to_edges(edges_, item.from, item.to);
     item.excused = item.distance <= (item.is_culling ? kCosineTolerance : edge_tolerance_);
-    good_ = good_ && item.excused;
-    items_.push_back(std::move(item));
+    return item.excused;
 }
 
-std::uint64_t Agreement::compare(const std::string& tracer, const TracerAnswer& answer,
-                                 const PairMask& reference, bool may_skip) {
-    std::uint64_t count = 0;
+AgreementVerdict Agreement::compare(const std::string& tracer, const TracerAnswer& answer,
+                                    const PairMask& reference, bool may_skip) {
+    AgreementVerdict verdict;
     for (std::size_t word = 0; word < segments_->rays.size(); ++word) {
         const std::uint64_t both = answer.rays[word] & segments_->rays[word];
         const std::uint64_t hits = (answer.occluded[word] ^ reference[word]) & both;
@@ -58,18 +54,25 @@ std::uint64_t Agreement::compare(const std::string& tracer, const TracerAnswer& 
             const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
             const bool is_culling = ((culls >> lane) & 1u) != 0;
             const PairMask& says = is_culling ? answer.rays : answer.occluded;
-            add({.tracer = tracer,
-                 .packet = word / segments_->vpls.size(),
-                 .lane = lane,
-                 .vpl = word % segments_->vpls.size(),
-                 .is_culling = is_culling,
-                 .tracer_says = ((says[word] >> lane) & 1u) != 0},
-                count++);
+            if (verdict.differences++ >= kMostItems) {
+                verdict.is_good = false;
+                continue;
+            }
+            Disagreement item{.tracer = tracer,
+                              .packet = word / segments_->vpls.size(),
+                              .lane = lane,
+                              .vpl = word % segments_->vpls.size(),
+                              .is_culling = is_culling,
+                              .tracer_says = ((says[word] >> lane) & 1u) != 0};
+            verdict.is_good = is_excused(item) && verdict.is_good;
+            items_.push_back(std::move(item));
         }
     }
-    good_ = good_ && (count <= 1 || static_cast<double>(count) <
-                                        kMostShare * static_cast<double>(count_bits(segments_->rays)));
-    return count;
+    const auto rays = static_cast<double>(count_bits(segments_->rays));
+    verdict.is_rare =
+        verdict.differences <= 1 || static_cast<double>(verdict.differences) < kMostShare * rays;
+    verdict.is_good = verdict.is_good && verdict.is_rare;
+    return verdict;
 }
 
 }  // namespace nearlight

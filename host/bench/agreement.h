@@ -27,6 +27,13 @@ struct Disagreement {
     bool excused = false;      ///< single precision explains it: the distance is small enough
 };
 
+/// How one tracer compares with the reference.
+struct AgreementVerdict {
+    std::uint64_t differences = 0;
+    bool is_rare = true;  ///< fewer than 10⁻⁵ of the rays, or a single one
+    bool is_good = true;  ///< that, and each excused
+};
+
 /// Compares tracers with one reference.
 class Agreement {
   public:
@@ -34,25 +41,22 @@ class Agreement {
     Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges);
 
     /// Adds what differs: occlusion of rays that both traced, and pairs that `answer` culls or traces against
-    /// the set. A tracer that leaves rays out by chance may cull (`may_skip`). Returns how many differ.
-    std::uint64_t compare(const std::string& tracer, const TracerAnswer& answer, const PairMask& reference,
-                          bool may_skip = false);
+    /// the set. A tracer that leaves rays out by chance may cull (`may_skip`).
+    AgreementVerdict compare(const std::string& tracer, const TracerAnswer& answer, const PairMask& reference,
+                             bool may_skip = false);
 
     /// ε, m: a segment that passes an edge within 10⁻⁵ of the scene's extent may go either way.
     [[nodiscard]] double edge_tolerance() const { return edge_tolerance_; }
-    /// Every tracer differed for less than 10⁻⁵ of the rays, or for a single one, and each time excusably.
-    [[nodiscard]] bool good() const { return good_; }
     /// The first hundred of each tracer.
     [[nodiscard]] const std::vector<Disagreement>& items() const { return items_; }
 
   private:
-    void add(Disagreement item, std::uint64_t count_before);
+    [[nodiscard]] bool is_excused(Disagreement& item) const;
 
     const GatherSegments* segments_;
     std::span<const BvhTriangle> edges_;
     double edge_tolerance_;
     std::vector<Disagreement> items_;
-    bool good_ = true;
 };
 
 }  // namespace nearlight

@@ -113,6 +113,7 @@ void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<c
                      GatherBenchResult& result) {
     Agreement agreement(segments, bvh.triangles);
     PairMask reference;
+    result.agrees = true;
     for (const Tracer& tracer : tracers) {
         TracerAnswer answer = tracer.answer();
         if (reference.empty()) {
@@ -122,23 +123,15 @@ void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<c
             .name = tracer.name, .embree_width = tracer.embree_width, .has_roulette = tracer.has_roulette};
         figures.rays = count_bits(answer.rays);
         figures.occluded = count_bits(answer.occluded);
-        figures.disagreements = agreement.compare(tracer.name, answer, reference, tracer.has_roulette);
+        const AgreementVerdict verdict =
+            agreement.compare(tracer.name, answer, reference, tracer.has_roulette);
+        figures.disagreements = verdict.differences;
+        figures.is_wrong = !verdict.is_rare;
+        result.agrees = result.agrees && (tracer.embree_width != 0 || verdict.is_good);
         result.tracers.push_back(std::move(figures));
     }
     result.edge_tolerance = agreement.edge_tolerance();
     result.disagreements = agreement.items();
-    result.agrees = agreement.good();
-}
-
-std::size_t fastest(std::span<const TracerFigures> tracers, int embree_width, bool has_roulette = false) {
-    std::size_t best = tracers.size();
-    for (std::size_t i = 0; i < tracers.size(); ++i) {
-        if (tracers[i].embree_width == embree_width && tracers[i].has_roulette == has_roulette &&
-            (best == tracers.size() || tracers[i].median.wall < tracers[best].median.wall)) {
-            best = i;
-        }
-    }
-    return best;
 }
 
 void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> runs, bool is_cpu) {
@@ -146,9 +139,9 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
         result.tracers[i].median = {median(readings(runs[i], &Seconds::wall)),
                                     median(readings(runs[i], &Seconds::processor))};
     }
-    result.ours = fastest(result.tracers, 0);
-    result.embree1 = fastest(result.tracers, 1);
-    result.embree16 = fastest(result.tracers, 16);
+    result.ours = fastest_tracer(result.tracers, 0);
+    result.embree1 = fastest_tracer(result.tracers, 1);
+    result.embree16 = fastest_tracer(result.tracers, 16);
     const std::vector<Seconds>& ours = runs[result.ours];
     result.wall1 = ratio(runs[result.embree1], ours, &Seconds::wall);
     result.wall16 = ratio(runs[result.embree16], ours, &Seconds::wall);
@@ -156,7 +149,7 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
         result.processor1 = ratio(runs[result.embree1], ours, &Seconds::processor);
         result.processor16 = ratio(runs[result.embree16], ours, &Seconds::processor);
     }
-    const std::size_t roulette = fastest(result.tracers, 0, true);
+    const std::size_t roulette = fastest_tracer(result.tracers, 0, true);
     if (roulette < result.tracers.size()) {
         result.roulette = roulette;
         result.wall_roulette = ratio(runs[result.embree16], runs[roulette], &Seconds::wall);
@@ -167,6 +160,20 @@ void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> 
 }
 
 }  // namespace
+
+std::size_t fastest_tracer(std::span<const TracerFigures> tracers, int embree_width, bool has_roulette) {
+    std::size_t best = tracers.size();
+    const auto is_before = [](const TracerFigures& a, const TracerFigures& b) {
+        return a.is_wrong != b.is_wrong ? b.is_wrong : a.median.wall < b.median.wall;
+    };
+    for (std::size_t i = 0; i < tracers.size(); ++i) {
+        if (tracers[i].embree_width == embree_width && tracers[i].has_roulette == has_roulette &&
+            (best == tracers.size() || is_before(tracers[i], tracers[best]))) {
+            best = i;
+        }
+    }
+    return best;
+}
 
 GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config) {

@@ -2,9 +2,9 @@
 #include "host/bvh/wide_bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
+#include "host/bvh/collapse_plan.h"
 #include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
@@ -16,106 +16,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Subtrees of no more triangles are widened by one thread each.
 constexpr uint kPartTriangles = 1u << 14u;
 
-/// A child of a binary node.
-struct Child {
-    uint reference = 0;
-    Aabb box;
-    float half_area = 0.0f;
-};
-
-/// Those of a wide node, at most.
-struct Children {
-    std::array<Child, NEARLIGHT_WIDE_CHILDREN> children;
-    std::size_t count = 0;
-
-    void add(uint reference, const Aabb& box) { children[count++] = {reference, box, box.half_area()}; }
-    void remove(std::size_t index) {
-        std::move(children.begin() + index + 1, children.begin() + count, children.begin() + index);
-        --count;
-    }
-    /// By growing surface; of equal ones, those stay in front that were.
-    void sort() {
-        for (std::size_t i = 1; i < count; ++i) {
-            const Child child = children[i];
-            std::size_t at = i;
-            for (; at > 0 && child.half_area < children[at - 1].half_area; --at) {
-                children[at] = children[at - 1];
-            }
-            children[at] = child;
-        }
-    }
-};
-
-/// A tree of one leaf refers to it twice.
-bool has_right(const BvhNode& node) {
-    return node.right != node.left;
-}
-
-/// The binary tree, and how many triangles are below each node.
-class BinaryTree {
-  public:
-    explicit BinaryTree(const Bvh& bvh) : bvh_(bvh), triangle_counts_(bvh.nodes.size()) { count(0, 0); }
-
-    [[nodiscard]] const Bvh& bvh() const { return bvh_; }
-    [[nodiscard]] uint triangle_count(uint reference) const {
-        return is_leaf(reference) ? leaf_count(reference) : triangle_counts_[reference];
-    }
-    [[nodiscard]] bool becomes_leaf(uint reference) const {
-        return is_leaf(reference) || triangle_counts_[reference] <= NEARLIGHT_BLOCK_TRIANGLES;
-    }
-
-    /// The children of the wide node that stands for a binary one and what is below it.
-    [[nodiscard]] Children collapse(uint node_index) const {
-        Children result;
-        add_children(node_index, result);
-        while (result.count < NEARLIGHT_WIDE_CHILDREN) {
-            std::size_t widest = result.count;
-            for (std::size_t i = 0; i < result.count; ++i) {
-                const Child& child = result.children[i];
-                if (!becomes_leaf(child.reference) &&
-                    (widest == result.count || child.half_area > result.children[widest].half_area)) {
-                    widest = i;
-                }
-            }
-            if (widest == result.count) {
-                break;
-            }
-            const uint opened = result.children[widest].reference;
-            result.remove(widest);
-            add_children(opened, result);
-        }
-        result.sort();
-        return result;
-    }
-
-  private:
-    uint count(uint reference, int level) {
-        if (is_leaf(reference)) {
-            return leaf_count(reference);
-        }
-        const BvhNode& node = bvh_.nodes[reference];
-        uint left = 0;
-        uint right = 0;
-        invoke_at_level(
-            level, [&] { left = count(node.left, level + 1); },
-            [&] { right = has_right(node) ? count(node.right, level + 1) : 0; });
-        return triangle_counts_[reference] = left + right;
-    }
-
-    void add_children(uint node_index, Children& children) const {
-        const BvhNode& node = bvh_.nodes[node_index];
-        children.add(node.left, {node.left_min, node.left_max});
-        if (has_right(node)) {
-            children.add(node.right, {node.right_min, node.right_max});
-        }
-    }
-
-    const Bvh& bvh_;
-    std::vector<uint> triangle_counts_;
-};
-
 /// Without references to children.
-WideNode make_node(const Children& children) {
+WideNode make_node(const WideChildren& children) {
     WideNode node{};
     std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
     std::fill_n(&node.high[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, -kInfinity);
@@ -138,18 +40,18 @@ void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v
 /// Widens one subtree, in depth-first order.
 class Widener {
   public:
-    Widener(const BinaryTree& tree, uint triangle_count) : tree_(tree) {
+    Widener(const CollapsePlan& plan, uint triangle_count) : plan_(plan) {
         wide_.nodes.reserve(triangle_count / 8 + 1);
         wide_.blocks.reserve(triangle_count / 3 + 1);
     }
 
     /// Reference to what stands for the binary one.
     uint add(uint reference) {
-        return tree_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
+        return plan_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
     }
     /// The same as an inner node, however few triangles there are.
     uint add_node(uint node_index) {
-        const Children children = tree_.collapse(node_index);
+        const WideChildren children = plan_.children(node_index);
         const std::size_t index = wide_.nodes.size();
         wide_.nodes.push_back(make_node(children));
         for (std::size_t i = 0; i < children.count; ++i) {
@@ -171,12 +73,12 @@ class Widener {
 
     void add_triangles(uint reference, std::size_t& count) {
         if (!is_leaf(reference)) {
-            add_triangles(tree_.bvh().nodes[reference].left, count);
-            add_triangles(tree_.bvh().nodes[reference].right, count);
+            add_triangles(plan_.bvh().nodes[reference].left, count);
+            add_triangles(plan_.bvh().nodes[reference].right, count);
             return;
         }
         for (uint i = 0; i < leaf_count(reference); ++i) {
-            const BvhTriangle& triangle = tree_.bvh().triangles[leaf_first(reference) + i];
+            const BvhTriangle& triangle = plan_.bvh().triangles[leaf_first(reference) + i];
             const std::size_t column = count++ % NEARLIGHT_BLOCK_TRIANGLES;
             if (column == 0) {
                 wide_.blocks.emplace_back();
@@ -188,7 +90,7 @@ class Widener {
         }
     }
 
-    const BinaryTree& tree_;
+    const CollapsePlan& plan_;
     WideBvh wide_;
 };
 
@@ -202,16 +104,16 @@ struct Part {
 };
 
 /// Appends the parts of a subtree in depth-first order, and returns the first one's index.
-std::size_t list_parts(const BinaryTree& tree, uint reference, std::vector<Part>& parts) {
+std::size_t list_parts(const CollapsePlan& plan, uint reference, std::vector<Part>& parts) {
     const std::size_t index = parts.size();
     parts.push_back({.reference = reference, .children = {}, .made = {}});
-    if (tree.becomes_leaf(reference) || tree.triangle_count(reference) <= kPartTriangles) {
+    if (plan.becomes_leaf(reference) || plan.triangle_count(reference) <= kPartTriangles) {
         return index;
     }
-    const Children children = tree.collapse(reference);
+    const WideChildren children = plan.children(reference);
     parts[index].made.nodes = {make_node(children)};
     for (std::size_t i = 0; i < children.count; ++i) {
-        const std::size_t child = list_parts(tree, children.children[i].reference, parts);
+        const std::size_t child = list_parts(plan, children.children[i].reference, parts);
         parts[index].children.push_back(child);
     }
     return index;
@@ -249,12 +151,12 @@ void for_each_part(std::vector<Part>& parts, const Body& body) {
 }  // namespace
 
 WideBvh widen(const Bvh& bvh) {
-    const BinaryTree tree(bvh);
+    const CollapsePlan plan(bvh);
     std::vector<Part> parts;
-    list_parts(tree, 0, parts);
+    list_parts(plan, 0, parts);
     for_each_part(parts, [&](Part& part) {
         if (part.children.empty()) {
-            Widener widener(tree, tree.triangle_count(part.reference));
+            Widener widener(plan, plan.triangle_count(part.reference));
             part.root = &part == parts.data() ? widener.add_node(0) : widener.add(part.reference);
             part.made = std::move(widener).take();
         }

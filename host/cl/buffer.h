@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "host/cl/device.h"
+#include "host/cl/huge_pages.h"
 #include "host/cl/opencl_error.h"
 
 namespace nearlight {
 
-/// `count` elements of T. Never of zero bytes: kernels may be given an empty one, and must not touch it.
-/// Copies are blocking; they order with kernels because the queue is in-order.
+/// `count` elements of T, on CPUs in huge pages where it is large. Never of zero bytes: kernels may be given
+/// an empty one, and must not touch it. Copies are blocking; they order with kernels because the queue is
+/// in-order.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -31,7 +33,9 @@ class Buffer {
                             std::to_string(limit >> 20) + " MiB); use a smaller --size, --spp or scene");
         }
         handle_ = with_opencl_errors(std::to_string(bytes() >> 20) + " MiB on device " + device.name(), [&] {
-            return cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes());
+            const bool huge = device.is_cpu() && bytes() >= kLeastHugeBytes;
+            const cl::Buffer buffer = huge ? make_huge_buffer(device.context(), bytes()) : cl::Buffer();
+            return buffer() != nullptr ? buffer : cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes());
         });
         device.add_allocated(bytes());
     }

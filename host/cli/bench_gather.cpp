@@ -4,6 +4,7 @@
 #include "host/base/log.h"
 #include "host/bench/gather_bench.h"
 #include "host/bench/segment_file.h"
+#include "host/cli/bench_gather_text.h"
 #include "host/cli/bench_scene.h"
 #include "host/cli/device_options.h"
 #include "host/cli/output.h"
@@ -69,6 +70,7 @@ nlohmann::ordered_json to_json(const TracerFigures& tracer, std::uint64_t pairs)
             {"rays", tracer.rays},
             {"occluded", tracer.occluded},
             {"disagreements", tracer.disagreements},
+            {"wrong", tracer.is_wrong},
             {"seconds", tracer.median.wall},
             {"processor_seconds", tracer.median.processor},
             {"mpairs_per_second", millions(pairs) / tracer.median.wall},
@@ -112,53 +114,6 @@ nlohmann::ordered_json to_json(const std::string& name, BvhQuality bvh, const Ga
     return json;
 }
 
-std::string line_of(const Disagreement& item) {
-    const std::string says =
-        item.is_culling ? (item.tracer_says ? "traces" : "culls") : (item.tracer_says ? "hits" : "passes");
-    return fmt::format(
-        "  {} {} packet {} lane {} VPL {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), {} "
-        "{:.3g}{}\n",
-        item.tracer, says, item.packet, item.lane, item.vpl, item.from.x, item.from.y, item.from.z, item.to.x,
-        item.to.y, item.to.z, item.is_culling ? "cosine" : "nearest edge at", item.distance,
-        item.excused ? "" : ", TOO FAR");
-}
-
-std::string to_text(const std::string& name, BvhQuality bvh, const GatherBenchResult& result) {
-    std::string text = fmt::format("{}: {} triangles in a {} tree, device {}\n", name, result.triangles,
-                                   to_string(bvh), result.device);
-    text +=
-        fmt::format("{:.2f} M pairs, {:.2f} M after culling, {:.2f} M rays traced\n", millions(result.pairs),
-                    millions(result.after_culling), millions(result.tracers[result.ours].rays));
-    text += fmt::format("{:>10} {:>10} {:>11} {:>8}\n", "Mrays/s", "Mpairs/s", "processor s", "differ");
-    for (const TracerFigures& tracer : result.tracers) {
-        text += fmt::format("{:>10.2f} {:>10.2f} {:>11.3f} {:>8}  {}\n",
-                            millions(tracer.rays) / tracer.median.wall,
-                            millions(result.pairs) / tracer.median.wall, tracer.median.processor,
-                            tracer.disagreements, tracer.name);
-    }
-    const auto add_ratio = [&](std::size_t ours, std::size_t embree, const Ratio& wall,
-                               const Ratio& processor) {
-        text += fmt::format("{} {:.2f} ± {:.2f} times as fast as {}", result.tracers[ours].name, wall.median,
-                            wall.deviation, result.tracers[embree].name);
-        text += processor.median > 0.0 ? fmt::format(", {:.2f} ± {:.2f} by processor time\n",
-                                                     processor.median, processor.deviation)
-                                       : "\n";
-    };
-    add_ratio(result.ours, result.embree1, result.wall1, result.processor1);
-    add_ratio(result.ours, result.embree16, result.wall16, result.processor16);
-    if (result.roulette) {
-        add_ratio(*result.roulette, result.embree16, result.wall_roulette, result.processor_roulette);
-    }
-    text +=
-        "Medians of interleaved runs. Ours is all of the gather, Embree's the time inside its calls only.\n";
-    text += fmt::format("Hit by hit: {}; a ray within {:.3g} of an edge may go either way.\n",
-                        result.agrees ? "all agree" : "THEY DO NOT AGREE", result.edge_tolerance);
-    for (const Disagreement& item : result.disagreements) {
-        text += line_of(item);
-    }
-    return text;
-}
-
 ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
     if (options.scene.file.empty() == options.replay.empty()) {
         throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
@@ -176,7 +131,7 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
     if (global.json) {
         print_json(to_json(segments.geometry.name, options.bvh, result));
     } else {
-        print(to_text(segments.geometry.name, options.bvh, result));
+        print(gather_bench_text(segments.geometry.name, options.bvh, result));
     }
     return result.agrees ? ExitCode::done : ExitCode::runtime;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of 8 and 16 lanes: what OpenCL C leaves to drivers that do it badly.
+// Vectors of 4, 8 and 16 lanes: what OpenCL C leaves to drivers that do it badly.
 #ifndef NEARLIGHT_LIB_LANES
 #define NEARLIGHT_LIB_LANES
 
@@ -10,10 +10,14 @@
 #if __has_builtin(__builtin_prefetch)
 #define LANES_PREFETCH
 #endif
+#if __has_builtin(__builtin_ctz)
+#define LANES_TRAILING_ZEROS
+#endif
 #endif
 // x86 with mask registers: a comparison's result is a number already.
 #if defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define LANES_MASK_REGISTERS
+typedef int LanesInt4 __attribute__((__vector_size__(16)));
 typedef int LanesInt8 __attribute__((__vector_size__(32)));
 typedef int LanesInt16 __attribute__((__vector_size__(64)));
 #endif
@@ -69,6 +73,13 @@ LANES_INLINE uint lane_bits8(int8 mask) {
     return any_bits8(mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128));
 #endif
 }
+LANES_INLINE uint lane_bits4(int4 mask) {
+#if defined(LANES_MASK_REGISTERS)
+    return (uint)__builtin_ia32_cvtd2mask128((LanesInt4)mask) & 0xfu;
+#else
+    return lane_bits8((int8)(mask, (int4)0));
+#endif
+}
 LANES_INLINE uint lane_bits16(int16 mask) {
 #if defined(LANES_MASK_REGISTERS)
     return (uint)__builtin_ia32_cvtd2mask512((LanesInt16)mask) & 0xffffu;
@@ -86,8 +97,14 @@ LANES_INLINE int16 lanes_of(uint bits) {
     return ((int16)(int)bits & lane) != 0;
 }
 
+/// Where the lowest bit is; there must be one. (OpenCL has ctz() from 2.0 on; clz() takes three instructions,
+/// and what is loaded next waits for them.)
 LANES_INLINE uint lowest_bit(uint bits) {
+#ifdef LANES_TRAILING_ZEROS
+    return (uint)__builtin_ctz(bits);
+#else
     return 31 - clz(bits & -bits);
+#endif
 }
 
 LANES_INLINE float16 reciprocal16(float16 d) {
@@ -95,12 +112,13 @@ LANES_INLINE float16 reciprocal16(float16 d) {
     return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
 }
 
-/// Asks for the first three cache lines of what lies at `at`.
+/// Asks for the first four cache lines of what lies at `at`.
 LANES_INLINE void prefetch_lines(const global void* at) {
 #ifdef LANES_PREFETCH
     __builtin_prefetch(at);
     __builtin_prefetch((const global char*)at + 64);
     __builtin_prefetch((const global char*)at + 128);
+    __builtin_prefetch((const global char*)at + 192);
 #endif
 }
 

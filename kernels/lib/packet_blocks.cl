@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blocks of four triangles against segments that meet their box: for groups of which many lanes do, triangle
-// by triangle, if the shaft may hit it; for others, up to four lanes with all four triangles in one vector.
+// by triangle, if the shaft may hit it; for others, lane by lane with all four triangles in one vector. (Half
+// of the latter have a single lane, so that a vector for four of them was slower.)
 #ifndef NEARLIGHT_LIB_PACKET_BLOCKS
 #define NEARLIGHT_LIB_PACKET_BLOCKS
 
@@ -24,8 +25,8 @@ typedef struct LeafVisit {
     uint leaf, group, lanes;
 } LeafVisit;
 
-// Lanes of a group, at most, that are tested with all four triangles at once.
-#define FEW_LANES 4
+// Lanes of a group, at most, that are tested one after the other.
+#define FEW_LANES 8
 
 LANES_INLINE Axis4 load_axis(const global float* rows) {
     const Axis4 axis = {vload4(0, rows), vload4(1, rows), vload4(2, rows)};
@@ -74,7 +75,7 @@ LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) 
     const int4 may = (greatest_in_shaft(u, shaft) >= -slack) & (greatest_in_shaft(v, shaft) >= -slack) &
                      (greatest_in_shaft(w, shaft) >= -slack) &
                      (axes->t * (1.0f - SHAFT_SLACK) < greatest_in_shaft(n, shaft) + slack);
-    return lane_bits8((int8)(may, (int4)0));
+    return lane_bits4(may);
 }
 
 // Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the
@@ -112,39 +113,29 @@ LANES_INLINE void intersect_triangle(Segments* s, const BlockAxes* axes, uint i,
     }
 }
 
-/// The places of up to four bits; the last again where there are fewer.
-LANES_INLINE uint4 four_bits(uint bits) {
-    const uint after0 = bits & (bits - 1), from1 = after0 != 0 ? after0 : bits;
-    const uint after1 = from1 & (from1 - 1), from2 = after1 != 0 ? after1 : from1;
-    const uint after2 = from2 & (from2 - 1), from3 = after2 != 0 ? after2 : from2;
-    return (uint4)(lowest_bit(bits), lowest_bit(from1), lowest_bit(from2), lowest_bit(from3));
+LANES_INLINE float4 dot4(Axis4 axis, float dx, float dy, float dz) {
+    return FUSED(axis.z, (float4)dz, FUSED(axis.x, (float4)dx, axis.y * dy));
 }
-
-LANES_INLINE float16 each_four_times(const float16* from, uint4 lanes) {
-    const float* lane = (const float*)from;
-    return (float16)((float4)lane[lanes.x], (float4)lane[lanes.y], (float4)lane[lanes.z],
-                     (float4)lane[lanes.w]);
-}
-LANES_INLINE float16 repeat4(float4 v) {
-    return (float16)(v, v, v, v);
-}
-LANES_INLINE float16 dot_repeated(Axis4 axis, float16 dx, float16 dy, float16 dz) {
-    return dot16(repeat4(axis.x), repeat4(axis.y), repeat4(axis.z), dx, dy, dz);
+LANES_INLINE float4 min4(float4 a, float4 b) {
+    return a < b ? a : b;
 }
 
 /// Ends the segments of a visit of few lanes that hit any triangle of a block.
 LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVisit* visit) {
-    const uint4 lanes = four_bits(visit->lanes);
-    const float16 dx = each_four_times(s->dx + visit->group, lanes);
-    const float16 dy = each_four_times(s->dy + visit->group, lanes);
-    const float16 dz = each_four_times(s->dz + visit->group, lanes);
-    const uint bits = lane_bits16(hits(dot_repeated(axes->n, dx, dy, dz), dot_repeated(axes->u, dx, dy, dz),
-                                       dot_repeated(axes->v, dx, dy, dz), dot_repeated(axes->w, dx, dy, dz),
-                                       repeat4(axes->t)));
-    if (bits != 0) {
-        const uint hit_lanes =
-            ((bits & 0xfu) != 0 ? 1u << lanes.x : 0) | ((bits & 0xf0u) != 0 ? 1u << lanes.y : 0) |
-            ((bits & 0xf00u) != 0 ? 1u << lanes.z : 0) | ((bits & 0xf000u) != 0 ? 1u << lanes.w : 0);
+    uint hit_lanes = 0;
+    for (uint lanes = visit->lanes; lanes != 0; lanes &= lanes - 1) {
+        const uint lane = lowest_bit(lanes);
+        const float dx = ((const float*)(s->dx + visit->group))[lane];
+        const float dy = ((const float*)(s->dy + visit->group))[lane];
+        const float dz = ((const float*)(s->dz + visit->group))[lane];
+        const float4 det = dot4(axes->n, dx, dy, dz);
+        const float4 least =
+            min4(min4(dot4(axes->u, dx, dy, dz), dot4(axes->v, dx, dy, dz)), dot4(axes->w, dx, dy, dz));
+        const int4 hit = (least >= 0.0f) & (axes->t > NEARLIGHT_SEGMENT_T_MIN * det) &
+                         (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
+        hit_lanes |= lane_bits4(hit) != 0 ? lanes & -lanes : 0;
+    }
+    if (hit_lanes != 0) {
         set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);
     }
 }

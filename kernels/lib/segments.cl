@@ -9,8 +9,8 @@
 typedef struct Segments {
     float16 dx[GATHER_GROUPS], dy[GATHER_GROUPS], dz[GATHER_GROUPS];
     float16 reciprocal_x[GATHER_GROUPS], reciprocal_y[GATHER_GROUPS], reciprocal_z[GATHER_GROUPS];
-    float16 t_max[GATHER_GROUPS];  // −1: culled or occluded
-    float16 weight[GATHER_GROUPS];
+    float16 t_max[GATHER_GROUPS];   // −1: culled or occluded
+    float16 weight[GATHER_GROUPS];  // what has no open lane is not set, but for t_max
     float3 origin;
     uint open;  // one bit for each cluster that has a lane neither culled nor occluded
     Shaft shaft;
@@ -55,10 +55,16 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
         const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
         const float16 cos_receiver =
             -(receivers->nx[group] * dx + receivers->ny[group] * dy + receivers->nz[group] * dz);
+        // Half of the groups in a room face away: they need no division.
+        const int16 facing = (cos_vpl > 0.0f) & (cos_receiver > 0.0f);
+        if (lane_bits16(facing) == 0) {
+            s->t_max[group] = (float16)-1.0f;
+            continue;
+        }
         const float16 r2 = dx * dx + dy * dy + dz * dz;
         // Both cosines still carry a factor r.
         const float16 weight = cos_vpl * cos_receiver / (r2 * max16(r2, (float16)clamp_radius_squared));
-        const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (weight < INFINITY);
+        const int16 open = facing & (weight < INFINITY);
         s->dx[group] = dx;
         s->dy[group] = dy;
         s->dz[group] = dz;

@@ -27,6 +27,11 @@ typedef struct ClusterShafts {
         endless[3];  // where the packet straddles: FLT_MAX if the cluster does along that axis, else −FLT_MAX
 } ClusterShafts;
 
+/// Planes of the children of a node, the near one of each axis first, relative to the origin of the segments.
+typedef struct ChildPlanes {
+    float8 at[6];
+} ChildPlanes;
+
 /// Planes of a box, with the near one of each axis first, relative to the origin of the segments.
 typedef struct Planes {
     float x0, x1, y0, y1, z0, z1;
@@ -76,22 +81,32 @@ inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, flo
 }
 
 /// −1 in the lanes of children that the shaft may meet: those for which some t has t·high above the lower
-/// plane and t·low below the upper one, on each axis. What this rejects, every segment misses.
-LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const global WideNode* node) {
+/// plane and t·low below the upper one, on each axis. What this rejects, every segment misses. `relative`
+/// gets the planes.
+LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const global WideNode* node,
+                                    ChildPlanes* relative) {
     const float origin[3] = {from.x, from.y, from.z};
     float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
     float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
+#pragma unroll
     for (uint axis = 0; axis < 3; ++axis) {
         const global float* planes = node->low[axis];
         if (!shaft->straddles) {
             const uint near = shaft->near[axis];
-            enter = max8(enter, (vload8(0, planes + near) - origin[axis]) * shaft->by_near[axis]);
-            leave =
-                min8(leave, (vload8(0, planes + (WIDE_UPPER - near)) - origin[axis]) * shaft->by_far[axis]);
+            const float8 first = vload8(0, planes + near) - origin[axis];
+            const float8 last = vload8(0, planes + (WIDE_UPPER - near)) - origin[axis];
+            relative->at[2 * axis] = first;
+            relative->at[2 * axis + 1] = last;
+            enter = max8(enter, first * shaft->by_near[axis]);
+            leave = min8(leave, last * shaft->by_far[axis]);
             continue;
         }
-        const float8 low = (vload8(0, planes) - origin[axis]) * shaft->by_high[axis];
-        const float8 high = (vload8(0, planes + WIDE_UPPER) - origin[axis]) * shaft->by_low[axis];
+        const float8 first = vload8(0, planes) - origin[axis];
+        const float8 last = vload8(0, planes + WIDE_UPPER) - origin[axis];
+        relative->at[2 * axis] = first;
+        relative->at[2 * axis + 1] = last;
+        const float8 low = first * shaft->by_high[axis];
+        const float8 high = last * shaft->by_low[axis];
         enter = shaft->by_high[axis] > 0.0f ? max8(enter, low) : enter;
         leave = shaft->by_high[axis] > 0.0f ? leave : min8(leave, low);
         enter = shaft->by_low[axis] < 0.0f ? max8(enter, high) : enter;
@@ -102,17 +117,22 @@ LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const globa
 
 /// The same for the shaft of one cluster.
 LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft* shaft, uint cluster,
-                                      float3 from, const global WideNode* node) {
+                                      float3 from, const global WideNode* node, ChildPlanes* relative) {
     const float origin[3] = {from.x, from.y, from.z};
     float8 enter = (float8)NEARLIGHT_SEGMENT_T_MIN;
     float8 leave = (float8)NEARLIGHT_SEGMENT_T_MAX;
+#pragma unroll
     for (uint axis = 0; axis < 3; ++axis) {
         const global float* planes = node->low[axis];
         const uint near = shaft->near[axis];
         const float by_near = ((const float*)&clusters->by_near[axis])[cluster];
         const float by_far = ((const float*)&clusters->by_far[axis])[cluster];
-        const float8 t0 = (vload8(0, planes + near) - origin[axis]) * by_near;
-        const float8 t1 = (vload8(0, planes + (WIDE_UPPER - near)) - origin[axis]) * by_far;
+        const float8 first = vload8(0, planes + near) - origin[axis];
+        const float8 last = vload8(0, planes + (WIDE_UPPER - near)) - origin[axis];
+        relative->at[2 * axis] = first;
+        relative->at[2 * axis + 1] = last;
+        const float8 t0 = first * by_near;
+        const float8 t1 = last * by_far;
         if (!shaft->straddles) {
             enter = max8(enter, t0);
             leave = min8(leave, t1);
@@ -127,16 +147,10 @@ LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft
     return (enter <= leave * (1.0f + SHAFT_SLACK)) & (vload8(0, node->low[0]) < INFINITY);
 }
 
-/// The planes of child `slot`, whose lower x plane is at `plane`.
-LANES_INLINE Planes planes_of(const Shaft* shaft, float3 from, const global float* plane) {
-    const uint x = shaft->near[0];
-    const uint y = shaft->near[1] + NEARLIGHT_WIDE_CHILDREN;
-    const uint z = shaft->near[2] + 2 * NEARLIGHT_WIDE_CHILDREN;
-    const uint far_x = WIDE_UPPER - shaft->near[0];
-    const uint far_y = WIDE_UPPER - shaft->near[1] + NEARLIGHT_WIDE_CHILDREN;
-    const uint far_z = WIDE_UPPER - shaft->near[2] + 2 * NEARLIGHT_WIDE_CHILDREN;
-    const Planes planes = {plane[x] - from.x,     plane[far_x] - from.x, plane[y] - from.y,
-                           plane[far_y] - from.y, plane[z] - from.z,     plane[far_z] - from.z};
+/// The planes of child `slot`.
+LANES_INLINE Planes planes_of(const ChildPlanes* relative, uint slot) {
+    const float* at = (const float*)relative + slot;
+    const Planes planes = {at[0], at[8], at[16], at[24], at[32], at[40]};
     return planes;
 }
 

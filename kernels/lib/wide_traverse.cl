@@ -27,7 +27,7 @@ typedef struct Traversal {
     uint leaf_count;
 } Traversal;
 
-/// Asks for the memory of a node or of a leaf's first block, which take three cache lines or more.
+/// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
 LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
                                  uint child) {
     const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
@@ -49,9 +49,9 @@ LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint group, uint lanes) 
 
 /// Keeps a child that some of `clusters` meet. An inner child is tested with the lanes of two groups, and may
 /// pass for the sake of others; a leaf with those of all.
-LANES_INLINE void visit_child(Traversal* work, const Segments* s, const global float* plane, uint child,
-                              uint clusters) {
-    const Planes planes = planes_of(&s->shaft, s->origin, plane);
+LANES_INLINE void visit_child(Traversal* work, const Segments* s, const ChildPlanes* relative, uint slot,
+                              uint child, uint clusters) {
+    const Planes planes = planes_of(relative, slot);
     const uint meeting = clusters & clusters_in_box(&s->clusters, s->shaft.straddles != 0, &planes);
     if (meeting == 0) {
         return;
@@ -78,9 +78,9 @@ LANES_INLINE void visit_child(Traversal* work, const Segments* s, const global f
 }
 
 /// The same where only one cluster is left, which is known to meet the child.
-LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const global float* plane, uint child,
-                                    uint cluster) {
-    const Planes planes = planes_of(&s->shaft, s->origin, plane);
+LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const ChildPlanes* relative,
+                                    uint slot, uint child, uint cluster) {
+    const Planes planes = planes_of(relative, slot);
     const uint group = first_group(cluster);
     const uint lanes = lanes_in_box(s, group, &planes);
     if ((child & NEARLIGHT_LEAF_BIT) == 0) {
@@ -92,16 +92,17 @@ LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const gl
 
 /// Keeps those of a node's children in `met` that segments of `clusters` meet.
 LANES_INLINE void visit_children(Traversal* work, const Segments* s, const global WideNode* nodes,
-                                 const global TriangleBlock* blocks, NodeVisit visit, uint met, bool alone) {
+                                 const global TriangleBlock* blocks, NodeVisit visit,
+                                 const ChildPlanes* relative, uint met, bool alone) {
     const global WideNode* node = nodes + visit.node;
     for (; met != 0; met &= met - 1) {
         const uint slot = lowest_bit(met);
         const uint child = node->child[slot];
         prefetch_child(nodes, blocks, child);
         if (alone) {
-            visit_child_alone(work, s, node->low[0] + slot, child, visit.clusters);
+            visit_child_alone(work, s, relative, slot, child, visit.clusters);
         } else {
-            visit_child(work, s, node->low[0] + slot, child, visit.clusters);
+            visit_child(work, s, relative, slot, child, visit.clusters);
         }
     }
 }
@@ -117,17 +118,19 @@ LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global W
     }
     for (uint i = 0; i < count; ++i) {
         const global WideNode* node = nodes + taken[i].node;
+        ChildPlanes relative;
         const NodeVisit visit = {taken[i].node, taken[i].clusters & s->open};
         if (visit.clusters == 0) {
             continue;
         }
         if ((visit.clusters & (visit.clusters - 1)) == 0) {
             const uint cluster = lowest_bit(visit.clusters);
-            const int8 met = children_in_cluster(&s->clusters, &s->shaft, cluster, s->origin, node);
-            visit_children(work, s, nodes, blocks, visit, lane_bits8(met), true);
+            const int8 met =
+                children_in_cluster(&s->clusters, &s->shaft, cluster, s->origin, node, &relative);
+            visit_children(work, s, nodes, blocks, visit, &relative, lane_bits8(met), true);
         } else {
-            const int8 met = children_in_shaft(&s->shaft, s->origin, node);
-            visit_children(work, s, nodes, blocks, visit, lane_bits8(met), false);
+            const int8 met = children_in_shaft(&s->shaft, s->origin, node, &relative);
+            visit_children(work, s, nodes, blocks, visit, &relative, lane_bits8(met), false);
         }
     }
 }

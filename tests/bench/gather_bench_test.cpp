@@ -161,15 +161,18 @@ std::pair<std::size_t, std::uint64_t> clear_ray(const Answered& room) {
 TEST(Agreement, RefusesARayThatIsWrongAwayFromEdges) {
     const Answered room;
     Agreement same(room.segments, room.bvh.triangles);
-    EXPECT_EQ(same.compare("same", room.truth, room.truth.occluded), 0u);
-    EXPECT_TRUE(same.good());
+    const AgreementVerdict none = same.compare("same", room.truth, room.truth.occluded);
+    EXPECT_EQ(none.differences, 0u);
+    EXPECT_TRUE(none.is_good);
     const auto [word, lane] = clear_ray(room);
     ASSERT_NE(lane, 0u);
     TracerAnswer wrong = room.truth;
     wrong.occluded[word] ^= lane;
     Agreement agreement(room.segments, room.bvh.triangles);
-    EXPECT_EQ(agreement.compare("wrong", wrong, room.truth.occluded), 1u);
-    EXPECT_FALSE(agreement.good());
+    const AgreementVerdict verdict = agreement.compare("wrong", wrong, room.truth.occluded);
+    EXPECT_EQ(verdict.differences, 1u);
+    EXPECT_TRUE(verdict.is_rare);
+    EXPECT_FALSE(verdict.is_good);
     ASSERT_EQ(agreement.items().size(), 1u);
     const Disagreement& item = agreement.items().front();
     EXPECT_EQ(room.segments.word(item.packet, item.vpl), word);
@@ -186,8 +189,10 @@ TEST(Agreement, RefusesMoreDifferencesThanItsShare) {
     for (std::size_t word = 0; word < 300; ++word) {
         wrong.occluded[word] ^= wrong.rays[word];
     }
-    EXPECT_GT(agreement.compare("wrong", wrong, room.truth.occluded), 300u);
-    EXPECT_FALSE(agreement.good());
+    const AgreementVerdict verdict = agreement.compare("wrong", wrong, room.truth.occluded);
+    EXPECT_GT(verdict.differences, 300u);
+    EXPECT_FALSE(verdict.is_rare);
+    EXPECT_FALSE(verdict.is_good);
     EXPECT_EQ(agreement.items().size(), 100u);
 }
 
@@ -198,16 +203,33 @@ TEST(Agreement, RefusesPairsLostOrMadeUp) {
     lost.rays[word] &= ~lane;
     lost.occluded[word] &= ~lane;
     Agreement agreement(room.segments, room.bvh.triangles);
-    EXPECT_EQ(agreement.compare("roulette", lost, room.truth.occluded, true), 0u);
-    EXPECT_TRUE(agreement.good());
-    EXPECT_EQ(agreement.compare("lost", lost, room.truth.occluded), 1u);
-    EXPECT_FALSE(agreement.good());
+    EXPECT_TRUE(agreement.compare("roulette", lost, room.truth.occluded, true).is_good);
+    EXPECT_TRUE(agreement.items().empty());
+    EXPECT_FALSE(agreement.compare("lost", lost, room.truth.occluded).is_good);
+    ASSERT_EQ(agreement.items().size(), 1u);
     EXPECT_TRUE(agreement.items().front().is_culling);
     GatherSegments fewer = room.segments;
     fewer.rays[word] &= ~lane;
     Agreement made_up(fewer, room.bvh.triangles);
-    EXPECT_EQ(made_up.compare("made up", room.truth, room.truth.occluded, true), 1u);
-    EXPECT_FALSE(made_up.good());
+    const AgreementVerdict verdict = made_up.compare("made up", room.truth, room.truth.occluded, true);
+    EXPECT_EQ(verdict.differences, 1u);
+    EXPECT_FALSE(verdict.is_good);
+}
+
+TracerFigures figures(const std::string& name, int width, double seconds, bool wrong) {
+    TracerFigures tracer{.name = name, .embree_width = width, .median = {seconds, seconds}};
+    tracer.is_wrong = wrong;
+    return tracer;
+}
+
+TEST(FastestTracer, IsNoneThatIsWrongIfAnotherIsRight) {
+    const std::vector<TracerFigures> tracers{
+        figures("slow", 16, 3.0, false), figures("wrong", 16, 1.0, true), figures("right", 16, 2.0, false),
+        figures("one", 1, 0.5, false),   figures("bad", 0, 2.0, true),    figures("worse", 0, 1.0, true)};
+    EXPECT_EQ(tracers[fastest_tracer(tracers, 16)].name, "right");
+    EXPECT_EQ(tracers[fastest_tracer(tracers, 1)].name, "one");
+    EXPECT_EQ(tracers[fastest_tracer(tracers, 0)].name, "worse");
+    EXPECT_EQ(fastest_tracer(tracers, 0, true), tracers.size());
 }
 
 TEST(GatherWorkload, VplsOfASceneWithoutLampsLieOnItsSurfaces) {
