@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, Tunables>> extremes(const Tunables& usual) {
             if (value != usual.*field.value) {
                 Tunables tunables = usual;
                 tunables.*field.value = value;
-                result.emplace_back(field.name + (" " + std::to_string(value)), tunables);
+                result.emplace_back(std::string(field.name) + " " + std::to_string(value), tunables);
             }
         }
     }
