@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/reference/embree_tree.h"
+#include "host/bench/embree_tree_pair.h"
 
 namespace nearlight {
 namespace {
@@ -131,28 +131,15 @@ void keep(const Block& block, PairMask& occluded) {
 
 }  // namespace
 
-std::string to_string(const EmbreeMode& mode) {
-    return "rtcOccluded" + std::to_string(mode.width) + (mode.coherent ? " coherent" : " incoherent") +
-           (mode.high_quality ? ", quality high" : ", quality medium");
-}
-
 struct EmbreeOcclusion::State {
-    EmbreeReport report;
-    EmbreeDevice device;
-    EmbreeTree medium;
-    EmbreeTree high;
+    State(const Scene& scene, std::span<const uint> ids) : trees(scene, ids) {}
+    EmbreeTreePair trees;
 };
 
-EmbreeOcclusion::EmbreeOcclusion(const Scene& geometry) : state_(std::make_unique<State>()) {
-    state_->device = open_embree(state_->report);
+EmbreeOcclusion::EmbreeOcclusion(const Scene& geometry) {
     std::vector<uint> ids(geometry.triangles.size());
     std::iota(ids.begin(), ids.end(), 0u);
-    const auto build = [&](RTCBuildQuality quality) {
-        return build_embree_tree(state_->device.get(), state_->report, geometry, ids, quality,
-                                 RTC_SCENE_FLAG_NONE);
-    };
-    state_->medium = build(RTC_BUILD_QUALITY_MEDIUM);
-    state_->high = build(RTC_BUILD_QUALITY_HIGH);
+    state_ = std::make_unique<State>(geometry, ids);
 }
 EmbreeOcclusion::~EmbreeOcclusion() = default;
 EmbreeOcclusion::EmbreeOcclusion(EmbreeOcclusion&&) noexcept = default;
@@ -160,15 +147,12 @@ EmbreeOcclusion& EmbreeOcclusion::operator=(EmbreeOcclusion&&) noexcept = defaul
 
 OcclusionResult EmbreeOcclusion::trace(const GatherSegments& segments, const EmbreeMode& mode, int threads,
                                        bool keep_answers) const {
-    RTCScene tree = (mode.high_quality ? state_->high : state_->medium).get();
+    RTCScene tree = state_->trees.tree(mode);
     std::vector<OcclusionResult> results(static_cast<std::size_t>(threads));
     PairMask answers(keep_answers ? segments.rays.size() : 0);
     std::atomic<std::size_t> next_packet = 0;
     const auto run = [&](OcclusionResult& result) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags =
-            mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        RTCIntersectContext context = make_context(mode);
         Block block;
         for (std::size_t packet = next_packet++; packet < segments.receivers.size(); packet = next_packet++) {
             for (std::size_t vpl = 0; vpl < segments.vpls.size(); vpl += kBlockVpls) {

@@ -3,20 +3,12 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
+#include "host/bench/embree_modes.h"
 #include "host/bench/gather_segments.h"
 #include "host/bench/seconds.h"
 
 namespace nearlight {
-
-/// One way to ask Embree.
-struct EmbreeMode {
-    int width = 16;             ///< rays a call: 1 or 16
-    bool coherent = false;      ///< RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-    bool high_quality = false;  ///< RTC_BUILD_QUALITY_HIGH (spatial splits) instead of MEDIUM
-};
-std::string to_string(const EmbreeMode& mode);
 
 struct OcclusionResult {
     Seconds seconds;  ///< inside Embree's calls only; wall: summed over threads and divided by their number

@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-#include "host/reference/embree_tree.h"
+#include "host/bench/embree_tree_pair.h"
 
 namespace nearlight {
 namespace {
@@ -92,52 +92,24 @@ void trace_packets(RTCScene tree, RTCIntersectContext& context, std::span<const 
 
 }  // namespace
 
-std::string to_string(const EmbreeRayMode& mode) {
-    return "rtcIntersect" + std::to_string(mode.width) + (mode.coherent ? " coherent" : " incoherent") +
-           (mode.high_quality ? ", quality high" : ", quality medium");
-}
-
-std::vector<EmbreeRayMode> all_embree_ray_modes() {
-    std::vector<EmbreeRayMode> modes;
-    for (const int width : {1, 16}) {
-        for (const bool coherent : {false, true}) {
-            for (const bool high_quality : {false, true}) {
-                modes.push_back({width, coherent, high_quality});
-            }
-        }
-    }
-    return modes;
-}
-
 struct EmbreeRays::State {
-    EmbreeReport report;
-    EmbreeDevice device;
-    EmbreeTree medium, high;
+    State(const Scene& scene, std::span<const uint> ids) : trees(scene, ids) {}
+    EmbreeTreePair trees;
 };
 
-EmbreeRays::EmbreeRays(const Scene& scene, std::span<const uint> ids) : state_(std::make_unique<State>()) {
-    state_->device = open_embree(state_->report);
-    const auto build = [&](RTCBuildQuality quality) {
-        return build_embree_tree(state_->device.get(), state_->report, scene, ids, quality,
-                                 RTC_SCENE_FLAG_NONE);
-    };
-    state_->medium = build(RTC_BUILD_QUALITY_MEDIUM);
-    state_->high = build(RTC_BUILD_QUALITY_HIGH);
-}
+EmbreeRays::EmbreeRays(const Scene& scene, std::span<const uint> ids)
+    : state_(std::make_unique<State>(scene, ids)) {}
 
 EmbreeRays::~EmbreeRays() = default;
 
-Seconds EmbreeRays::trace(std::span<const RayQuery> rays, const EmbreeRayMode& mode, int threads,
+Seconds EmbreeRays::trace(std::span<const RayQuery> rays, const EmbreeMode& mode, int threads,
                           std::vector<float>& distances) const {
-    RTCScene tree = (mode.high_quality ? state_->high : state_->medium).get();
+    RTCScene tree = state_->trees.tree(mode);
     distances.resize(rays.size());
     std::vector<Seconds> seconds(static_cast<std::size_t>(threads));
     std::atomic<std::size_t> next = 0;
     const auto work = [&](Seconds& own) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags =
-            mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        RTCIntersectContext context = make_context(mode);
         for (std::size_t first = next.fetch_add(kBlockRays); first < rays.size();
              first = next.fetch_add(kBlockRays)) {
             const std::size_t count = std::min(kBlockRays, rays.size() - first);

@@ -72,7 +72,7 @@ Tracer make_own_tracer(Device& device, const std::shared_ptr<DeviceSegments>& jo
 
 Tracer make_embree_tracer(const std::shared_ptr<EmbreeOcclusion>& embree, const GatherSegments& segments,
                           const EmbreeMode& mode, int threads) {
-    return {to_string(mode), mode.width, false,
+    return {to_string(mode, "rtcOccluded"), mode.width, false,
             [=, &segments] { return embree->trace(segments, mode, threads).seconds; },
             [=, &segments] {
                 return TracerAnswer{segments.rays, embree->trace(segments, mode, threads, true).occluded};
@@ -85,13 +85,9 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
     std::vector<Tracer> tracers;
     const auto embree = std::make_shared<EmbreeOcclusion>(segments.geometry);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    for (const int width : {1, 16}) {
-        for (const bool coherent : {false, true}) {
-            for (const bool high_quality : {false, true}) {
-                tracers.push_back(make_embree_tracer(embree, segments, {width, coherent, high_quality},
-                                                     config.threads > 0 ? config.threads : cores));
-            }
-        }
+    for (const EmbreeMode& mode : all_embree_modes()) {
+        tracers.push_back(
+            make_embree_tracer(embree, segments, mode, config.threads > 0 ? config.threads : cores));
     }
     // A tree for packets serves both kernels.
     const bool rays_only = config.kernel == GatherKernel::rays;

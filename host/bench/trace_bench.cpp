@@ -66,9 +66,9 @@ Contestant ours(DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& 
 
 std::vector<Contestant> embrees(const EmbreeRays& embree, std::span<const RayQuery> rays, int threads) {
     std::vector<Contestant> contestants;
-    for (const EmbreeRayMode& mode : all_embree_ray_modes()) {
+    for (const EmbreeMode& mode : all_embree_modes()) {
         contestants.push_back(
-            {to_string(mode), [&embree, rays, mode, threads](std::vector<float>& distances) {
+            {to_string(mode, "rtcIntersect"), [&embree, rays, mode, threads](std::vector<float>& distances) {
                  return embree.trace(rays, mode, threads, distances);
              }});
     }

@@ -92,7 +92,8 @@ void set_importons(Device& device, PilotView& view, std::span<const Vpl> importo
     view.importons = upload(device, importons);
     view.squared_importons = squared(device, some_of(importons, kSquaredImportons));
     view.few_squared_importons = squared(device, some_of(importons, kFewSquaredImportons));
-    view.importon_groups = grouped(device, some_of(importons, kGroupedImportons), view.squared_importons.count);
+    view.importon_groups =
+        grouped(device, some_of(importons, kGroupedImportons), view.squared_importons.count);
 }
 
 const Importons& PilotView::importons_of(ContributionNorm norm) const {

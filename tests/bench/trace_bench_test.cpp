@@ -59,7 +59,7 @@ TEST(TraceBench, AllOfEmbreesModesFindTheSameHits) {
     const EmbreeRays embree(scene, all_triangles(scene));
     const std::vector<RayQuery> rays = make_walk_rays(scene, bvh, 1001);  // the last packet is not full
     std::vector<float> distances;
-    for (const EmbreeRayMode& mode : all_embree_ray_modes()) {
+    for (const EmbreeMode& mode : all_embree_modes()) {
         const Seconds seconds = embree.trace(rays, mode, 2, distances);
         EXPECT_GT(seconds.processor, 0.0);
         ASSERT_EQ(distances.size(), rays.size());
@@ -71,7 +71,7 @@ TEST(TraceBench, AllOfEmbreesModesFindTheSameHits) {
                                                   : std::abs(distances[i] - hit.t) <= 1e-4f * hit.t;
             differing += same ? 0 : 1;
         }
-        EXPECT_LE(differing, 1u) << to_string(mode);
+        EXPECT_LE(differing, 1u) << to_string(mode, "rtcIntersect");
     }
 }
 
