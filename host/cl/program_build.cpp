@@ -8,20 +8,19 @@
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
+#include "host/cl/compile_worker.h"
 #include "host/cl/opencl_error.h"
 #include "host/cl/program_cache.h"
 
 namespace nearlight {
 namespace {
 
-using Binary = std::vector<unsigned char>;
-
 void build(const cl::Program& program, const DeviceEntry& entry, const std::string& options) {
     program.build({entry.handle}, options.c_str());
 }
 
 /// Empty where the driver refuses the binary.
-std::optional<cl::Program> from_binary(const ProgramRequest& request, Binary binary) {
+std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBinary binary) {
     try {
         cl::Program program(request.context, {request.entry.handle},
                             cl::Program::Binaries{std::move(binary)});
@@ -35,10 +34,10 @@ std::optional<cl::Program> from_binary(const ProgramRequest& request, Binary bin
 }
 
 /// Empty where the driver gives none.
-Binary binary_of(const cl::Program& program) {
+ProgramBinary binary_of(const cl::Program& program) {
     try {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
-        return binaries.empty() ? Binary() : binaries.front();
+        return binaries.empty() ? ProgramBinary() : binaries.front();
     } catch (const cl::Error& error) {
         say_debug("the driver gives no binary to keep (" + opencl_error_name(error.err()) + ")");
         return {};
@@ -103,6 +102,41 @@ cl::Context compile_context(const ProgramRequest& request, CompileContexts& cont
     return found->second;
 }
 
+/// The outcome of a compiler, and what it is made into for request.context.
+struct Compiled {
+    cl::Program program;
+    ProgramBinary binary;  ///< empty where the driver gives none
+};
+
+Compiled compile_here(const ProgramRequest& request, CompileContexts& contexts) {
+    const cl::Context context = compile_context(request, contexts);
+    Compiled compiled{from_source(request, context), {}};
+    compiled.binary = binary_of(compiled.program);
+    if (context() != request.context()) {
+        const auto taken_over =
+            compiled.binary.empty() ? std::nullopt : from_binary(request, compiled.binary);
+        compiled.program = taken_over ? *taken_over : from_source(request, request.context);
+    }
+    return compiled;
+}
+
+/// Empty where the program is not a matter for workers, or this one gives none.
+std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& request) {
+    if (worker == nullptr || request.entry.kind != DeviceKind::cpu) {
+        return std::nullopt;
+    }
+    ProgramBinary binary = worker->compile(request);
+    if (worker->stopped()) {
+        throw Error(ExitCode::runtime, "kernels/" + request.file + " is not wanted any more");
+    }
+    if (auto program = binary.empty() ? std::nullopt : from_binary(request, binary)) {
+        return Compiled{*program, std::move(binary)};
+    }
+    say_debug("process " + std::to_string(worker->process()) + " gives no binary of kernels/" + request.file +
+              ", compiling it in this one");
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::string ProgramRequest::key() const {
@@ -112,7 +146,7 @@ std::string ProgramRequest::key() const {
            std::to_string(source.size());
 }
 
-cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts) {
+cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
     const ProgramCache cache(request.cache_dir);
     const std::string key = request.key();
     if (auto kept = cache.find(key)) {
@@ -121,19 +155,16 @@ cl::Program build_program(const ProgramRequest& request, CompileContexts& contex
         }
     }
     const Stopwatch watch;
-    const cl::Context context = compile_context(request, contexts);
-    cl::Program program = from_source(request, context);
-    const Binary binary = binary_of(program);
-    if (!binary.empty()) {
-        cache.store(key, binary);
+    auto compiled = compile_in(worker, request);
+    if (!compiled) {
+        compiled = compile_here(request, contexts);
+    }
+    if (!compiled->binary.empty()) {
+        cache.store(key, compiled->binary);
     }
     say_debug("compiled kernels/" + request.file + " for " + request.entry.name + " in " +
               std::to_string(watch.seconds()) + " s");
-    if (context() == request.context()) {
-        return program;
-    }
-    const auto taken_over = binary.empty() ? std::nullopt : from_binary(request, binary);
-    return taken_over ? *taken_over : from_source(request, request.context);
+    return compiled->program;
 }
 
 }  // namespace nearlight

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "host/cl/device_list.h"
 
@@ -27,10 +28,14 @@ struct ProgramRequest {
 /// Contexts of one thread that compiles, made when first needed.
 using CompileContexts = std::map<cl_device_id, cl::Context>;
 
-/// The program in request.context, from the cache or compiled. PoCL compiles one program at a time in each
-/// context: what is compiled for a CPU is compiled in a context of `contexts` and taken over as a binary.
-/// Throws Error(ExitCode::kernel_build) with the build log's first error, after saving the expanded source
-/// and the whole log to files that the message names.
-cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts);
+using ProgramBinary = std::vector<unsigned char>;
+
+class CompileWorker;
+
+/// The program in request.context, from the cache or compiled. What is compiled for a CPU is taken over as a
+/// binary: from `worker`, where there is one that compiles it, or else from a context of `contexts`, for PoCL
+/// compiles one program at a time in each. Throws Error(ExitCode::kernel_build) with the build log's first
+/// error, after saving the expanded source and the whole log to files that the message names.
+cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker);
 
 }  // namespace nearlight

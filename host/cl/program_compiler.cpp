@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/program_compiler.h"
 
+#include <algorithm>
+
 namespace nearlight {
 namespace {
 
-/// PoCL parses in as many contexts as there are, but generates code for one kernel at a time in the whole
-/// process.
-constexpr std::size_t kThreads = 2;
+/// Without workers: PoCL parses in as many contexts as there are, but generates code for one kernel at a time
+/// in the whole process.
+constexpr std::size_t kFewestThreads = 2;
 
 }  // namespace
 
@@ -14,18 +16,22 @@ ProgramCompiler::~ProgramCompiler() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
     jobs_.clear();
+    for (const auto& worker : workers_) {
+        worker->stop();
+    }
     changed_.notify_all();
 }
 
 std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
-    Job job([request = std::move(request)](CompileContexts& contexts) {
-        return build_program(request, contexts);
+    Job job([request = std::move(request)](CompileContexts& contexts, CompileWorker* worker) {
+        return build_program(request, contexts, worker);
     });
     std::shared_future<cl::Program> result = job.get_future();
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));
-    if (threads_.size() < kThreads) {
-        threads_.emplace_back([this] { work(); });
+    if (const std::size_t index = threads_.size(); index < std::max(kFewestThreads, workers_.size())) {
+        CompileWorker* const worker = index < workers_.size() ? workers_[index].get() : nullptr;
+        threads_.emplace_back([this, worker] { work(worker); });
     }
     changed_.notify_one();
     return result;
@@ -36,7 +42,7 @@ double ProgramCompiler::busy_seconds() {
     return busy_seconds_ + (running_ > 0 ? since_.seconds() : 0.0);
 }
 
-void ProgramCompiler::work() {
+void ProgramCompiler::work(CompileWorker* worker) {
     CompileContexts contexts;
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -53,7 +59,7 @@ void ProgramCompiler::work() {
             since_.lap();
         }
         lock.unlock();
-        job(contexts);
+        job(contexts, worker);
         job = {};
         lock.lock();
         if (--running_ == 0) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/base/stopwatch.h"
+#include "host/cl/compile_worker.h"
 #include "host/cl/program_build.h"
 
 namespace nearlight {
@@ -18,22 +19,25 @@ namespace nearlight {
 /// May be shared by several devices; what one has compiled, others of its kind find in the cache.
 class ProgramCompiler {
   public:
-    ProgramCompiler() = default;
+    /// Programs for CPUs are compiled by `workers`, or in this process where there are none.
+    explicit ProgramCompiler(CompileWorkers workers = {}) : workers_(std::move(workers)) {}
     ProgramCompiler(const ProgramCompiler&) = delete;
     ProgramCompiler& operator=(const ProgramCompiler&) = delete;
-    /// Waits for what is being compiled and drops what has not begun.
+    /// Stops workers, waits for what is being compiled in this process, and drops what has not begun.
     ~ProgramCompiler();
 
-    /// The program as build_program() makes it, errors included; in the order of requests, two at a time.
+    /// The program as build_program() makes it, errors included; in the order of requests, as many at a
+    /// time as there are workers, two at least.
     std::shared_future<cl::Program> start(ProgramRequest request);
 
     /// During which something was being compiled or loaded.
     [[nodiscard]] double busy_seconds();
 
   private:
-    using Job = std::packaged_task<cl::Program(CompileContexts&)>;
-    void work();
+    using Job = std::packaged_task<cl::Program(CompileContexts&, CompileWorker*)>;
+    void work(CompileWorker* worker);
 
+    CompileWorkers workers_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Job> jobs_;

@@ -118,7 +118,7 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
     if (options.scene.file.empty() == options.replay.empty()) {
         throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
     }
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     const GatherSegments segments = make_segments(options, *device);
     if (!options.dump.empty()) {
         write_segments(options.dump, segments);

@@ -46,7 +46,7 @@ std::string to_text(const SortBenchResult& result) {
 }
 
 ExitCode run_bench_sort(const BenchSortOptions& options, const GlobalOptions& global) {
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     const SortBenchResult result = bench_sort(*device, options.config);
     if (global.json) {
         print_json(to_json(result));

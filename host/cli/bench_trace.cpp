@@ -79,8 +79,9 @@ std::string to_text(const Scene& scene, const TraceBenchResult& result) {
 }
 
 ExitCode run_bench_trace(const BenchTraceOptions& options, const GlobalOptions& global) {
+    const DeviceChoice choice = with_compile_workers(options.device);
     const Scene scene = make_bench_scene(options.scene);
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_device(choice);
     TraceBenchConfig config = options.config;
     config.width = options.size.width;
     config.height = options.size.height;

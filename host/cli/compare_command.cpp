@@ -117,9 +117,10 @@ std::string to_table(const Comparison& comparison) {
 ExitCode run_compare(const CompareOptions& options, const GlobalOptions& global) {
     const CompareSettings settings = settled(options);
     refuse_twin_scenes(options.scenes);
+    const DeviceChoice choice = with_compile_workers(options.device);
     check_files(settings);
     const std::vector<Scene> scenes = load_scenes(options);
-    const auto device = open_device(options.device);
+    const auto device = open_device(choice);
 
     catch_interrupts();
     ProgressBar bar("comparing", global);

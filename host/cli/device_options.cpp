@@ -25,9 +25,16 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
         ->type_name("DIR");
 }
 
+DeviceChoice with_compile_workers(DeviceChoice choice) {
+    choice.options.compiler = std::make_shared<ProgramCompiler>(start_compile_workers());
+    return choice;
+}
+
 std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, const DeviceList& list) {
     DeviceOptions options = choice.options;
-    options.compiler = std::make_shared<ProgramCompiler>();
+    if (options.compiler == nullptr) {
+        options.compiler = std::make_shared<ProgramCompiler>();
+    }
     std::vector<std::unique_ptr<Device>> devices;
     for (const DeviceEntry& entry : choose_devices(list, choice.device)) {
         spdlog::debug("device {}: {}, {}, driver {}", entry.index, entry.label(), entry.platform,

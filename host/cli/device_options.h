@@ -19,6 +19,10 @@ struct DeviceChoice {
 /// --device, --kernel-dir and --cache-dir.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
+/// The same with a compiler that has processes of its own. They must be started before the command has
+/// threads or loads a driver, so this is the first that a command does.
+DeviceChoice with_compile_workers(DeviceChoice choice);
+
 /// All devices of the list that match, with one compiler for all. Throws Error(ExitCode::no_device).
 std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, const DeviceList& list);
 

@@ -134,12 +134,13 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     RenderSettings settings = settled(options);
+    const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
     // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
-        auto opened = open_devices(options.device, list_devices());
+        auto opened = open_devices(choice, list_devices());
         begin_compiling(plain(opened), settings);
         return opened;
     });

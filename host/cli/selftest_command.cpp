@@ -76,7 +76,8 @@ DeviceReport test_device(const DeviceEntry& entry, const DeviceOptions& options,
     return report;
 }
 
-ExitCode run_selftest_command(const DeviceChoice& choice, const GlobalOptions& global) {
+ExitCode run_selftest_command(const DeviceChoice& asked, const GlobalOptions& global) {
+    const DeviceChoice choice = with_compile_workers(asked);
     std::vector<DeviceReport> reports;
     for (const DeviceEntry& entry : choose_devices(list_devices(), choice.device)) {
         reports.push_back(test_device(entry, choice.options, !global.json && !global.quiet));

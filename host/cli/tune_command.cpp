@@ -78,7 +78,7 @@ ExitCode reset(const Device& device) {
 }
 
 ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
-    const std::unique_ptr<Device> device = open_device(options.device);
+    const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     if (options.reset) {
         return reset(*device);
     }
