@@ -6,6 +6,7 @@
 
 #include "host/base/message.h"
 #include "host/cl/opencl_error.h"
+#include "host/cl/program_compiler.h"
 
 namespace nearlight {
 

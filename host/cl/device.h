@@ -11,10 +11,11 @@
 
 #include "host/cl/device_list.h"
 #include "host/cl/profiler.h"
-#include "host/cl/program_compiler.h"
 #include "host/cl/tunables.h"
 
 namespace nearlight {
+
+class ProgramCompiler;
 
 struct DeviceOptions {
     /// Kernels are read from here where set, else from the binary.

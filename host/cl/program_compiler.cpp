@@ -23,12 +23,16 @@ ProgramCompiler::~ProgramCompiler() {
 }
 
 std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
+    const std::size_t length = request.source.size();
     Job job([request = std::move(request)](CompileContexts& contexts, CompileWorker* worker) {
         return build_program(request, contexts, worker);
     });
     std::shared_future<cl::Program> result = job.get_future();
     const std::lock_guard lock(mutex_);
-    jobs_.push_back(std::move(job));
+    // The longest first: what remains for the end is short, so that no worker is alone with much.
+    const auto place =
+        std::ranges::find_if(jobs_, [&](const Waiting& other) { return other.length < length; });
+    jobs_.insert(place, {length, std::move(job)});
     if (const std::size_t index = threads_.size(); index < std::max(kFewestThreads, workers_.size())) {
         CompileWorker* const worker = index < workers_.size() ? workers_[index].get() : nullptr;
         threads_.emplace_back([this, worker] { work(worker); });
@@ -53,7 +57,7 @@ void ProgramCompiler::work(CompileWorker* worker) {
         if (ending_) {
             return;
         }
-        Job job = std::move(jobs_.front());
+        Job job = std::move(jobs_.front().job);
         jobs_.pop_front();
         if (running_++ == 0) {
             since_.lap();

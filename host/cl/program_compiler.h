@@ -26,7 +26,7 @@ class ProgramCompiler {
     /// Stops workers, waits for what is being compiled in this process, and drops what has not begun.
     ~ProgramCompiler();
 
-    /// The program as build_program() makes it, errors included; in the order of requests, as many at a
+    /// The program as build_program() makes it, errors included; longest source first, as many at a
     /// time as there are workers, two at least.
     std::shared_future<cl::Program> start(ProgramRequest request);
 
@@ -35,12 +35,16 @@ class ProgramCompiler {
 
   private:
     using Job = std::packaged_task<cl::Program(CompileContexts&, CompileWorker*)>;
+    struct Waiting {
+        std::size_t length;  ///< of the source
+        Job job;
+    };
     void work(CompileWorker* worker);
 
     CompileWorkers workers_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Job> jobs_;
+    std::deque<Waiting> jobs_;  ///< the longest first
     int running_ = 0;
     Stopwatch since_;  ///< when `running_` was 0 for the last time
     double busy_seconds_ = 0;

@@ -2,6 +2,7 @@
 #include "host/cli/device_options.h"
 
 #include "host/base/log.h"
+#include "host/cl/program_compiler.h"
 
 namespace nearlight {
 

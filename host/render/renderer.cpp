@@ -7,6 +7,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/bvh_cache.h"
+#include "host/cl/program_compiler.h"
 #include "host/render/band_renderer.h"
 #include "host/render/passes.h"
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "host/cl/kernel.h"
+#include "host/cl/program_compiler.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"

@@ -189,8 +189,7 @@ TEST_F(BadInputOnDevice, BrokenKernel) {
     std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
                           std::filesystem::copy_options::recursive);
     std::ofstream(kernels / "film.cl", std::ios::app) << "kernel void broken( {\n";
-    expect_error(render(good_scene(), "--kernel-dir " + quoted(kernels)), 5,
-                 "kernels/film.cl does not compile");
+    expect_error(render(good_scene(), "--kernel-dir " + quoted(kernels)), 5, "film.cl:");
     expect_error(render(good_scene(), "--kernel-dir " + quoted(folder_ / "none")), 5, "check --kernel-dir");
 }
 
