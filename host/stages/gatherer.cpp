@@ -66,7 +66,9 @@ struct Gatherer::Course {
 };
 
 Gatherer::Gatherer(Device& device, const GatherConfig& config)
-    : device_(&device), config_(resolved(config, device)) {
+    : device_(&device),
+      config_(resolved(config, device)),
+      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)) {
     kernel_of(false, false);
 }
 
@@ -201,11 +203,14 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
 bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                       const GatherProgress& progress) {
     Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
-                  std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)};
-    return for_each_run(input, false,
-                        [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
-                            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
-                        });
+                  launch_pairs_};
+    const bool whole = for_each_run(
+        input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
+            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
+        });
+    // Gathers may differ in cost more than the parts of one.
+    launch_pairs_ = std::max(course.budget / 4.0, std::min(launch_pairs_, course.budget));
+    return whole;
 }
 
 std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,

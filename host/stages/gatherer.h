@@ -22,8 +22,8 @@ struct GatherConfig {
     /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it. 0:
     /// what suits the device (Tunables).
     uint packet_width = 0;
-    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
-    /// time it took. The result does not depend on it.
+    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow, also of later
+    /// gathers, are sized by the time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
     double launch_seconds = 0.0;  ///< how long a launch should take; 0: what suits the device
 };
@@ -114,6 +114,7 @@ class Gatherer {
 
     Device* device_;
     GatherConfig config_;
+    double launch_pairs_;  ///< of the next gather's first launch
     // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
     // recording one second.
     std::array<std::optional<Kernel>, 4> kernels_;
