@@ -45,12 +45,12 @@ namespace nearlight {
 namespace {
 
 // bench/RESULTS.md has what was tried, and on which views.
-constexpr uint kPointsPerVpl = 4;  ///< candidates on the close range; each has two sides
+constexpr uint kPointsPerVpl = 2;  ///< candidates on the close range; each has two sides
 constexpr uint kDepositsPerVpl = 256;
-constexpr uint kScreenedPerVpl = 16;  ///< candidates that remain of them
+constexpr uint kScreenedPerVpl = 10;  ///< candidates that remain of them
 /// Deposits; where more VPLs are wanted, there is less choice.
 constexpr uint kMostDeposits = 1u << 22u;
-constexpr uint kRoughSparseVpls = 256;
+constexpr uint kRoughSparseVpls = 128;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
 /// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
