@@ -121,7 +121,7 @@ class SahBuilder {
                 }
             }
         }
-        if (object.axis < 0 || !is_worth_it(object.cost)) {
+        if (!object.found() || !is_worth_it(object.cost)) {
             return {0, 0};
         }
         const std::size_t left = partition(range, mapping, object);
@@ -134,7 +134,7 @@ class SahBuilder {
             return false;
         }
         const float overlap =
-            object.axis < 0 ? bounds.box.half_area() : overlap_area(object.left, object.right);
+            object.found() ? overlap_area(object.left, object.right) : bounds.box.half_area();
         return overlap > kLeastOverlapOfRoot * splitter_->root_area() &&
                overlap > kLeastOverlapOfNode * bounds.box.half_area();
     }
