@@ -110,10 +110,9 @@ class SahBuilder {
         if (may_split_references(room, bounds, object)) {
             const BinMapping slabs(
                 bounds.box, static_cast<int>(std::clamp<std::size_t>(range.size(), kMinSlabs, kMaxSlabs)));
-            const SpatialSplit spatial = splitter_->find(range, slabs);
+            const SpatialSplit spatial = splitter_->find(range, slabs, kSpatialGain * object.cost);
             const std::size_t total = std::size_t{spatial.left_count} + spatial.right_count;
-            if (spatial.cost < kSpatialGain * object.cost && total <= room.capacity &&
-                is_worth_it(spatial.cost)) {
+            if (spatial.axis >= 0 && total <= room.capacity && is_worth_it(spatial.cost)) {
                 const auto parts = splitter_->partition(references_.subspan(room.first, room.capacity),
                                                         room.count, slabs, spatial);
                 if (parts.left_count > 0 && parts.right_count > 0) {

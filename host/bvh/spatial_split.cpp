@@ -11,6 +11,9 @@ namespace {
 
 constexpr float kLargestArea = 1e30f;
 constexpr float kWeightUnit = 0x1p30f;
+/// Of longer ranges this many references say first whether a plane is worth looking for: most are not. Boxes
+/// of a sample are smaller, so that it errs towards looking.
+constexpr std::size_t kSample = 512;
 
 /// The corners of a triangle, each aligned as Box4 is.
 struct Corners {
@@ -156,6 +159,14 @@ struct Slabs {
         }
     }
 
+    [[nodiscard]] SpatialSplit best() const {
+        SpatialSplit result;
+        for (int axis = 0; axis < 3; ++axis) {
+            result = axes[axis].better(axis, slab_count, result);
+        }
+        return result;
+    }
+
     int slab_count;
     std::array<AxisSlabs, 3> axes;
 };
@@ -181,14 +192,22 @@ uint SpatialSplitter::weight(const Reference& reference) const {
     return static_cast<uint>(std::min(std::sqrt(excess / root_area_), 1.0f) * kWeightUnit);
 }
 
-SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping) const {
+SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping,
+                                   float most_cost) const {
+    const std::size_t stride = range.size() / kSample;
+    if (stride > 1) {
+        Slabs sample(mapping.count());
+        for (std::size_t i = 0; i < range.size(); i += stride) {
+            sample.add(range[i], scene_, mapping);
+        }
+        if (sample.best().cost * static_cast<float>(stride) > most_cost) {
+            return {};
+        }
+    }
     Slabs slabs(mapping.count());
     fold(range, slabs, [&](Slabs& sum, const Reference& r) { sum.add(r, scene_, mapping); });
-    SpatialSplit best;
-    for (int axis = 0; axis < 3; ++axis) {
-        best = slabs.axes[axis].better(axis, mapping.count(), best);
-    }
-    return best;
+    const SpatialSplit best = slabs.best();
+    return best.cost <= most_cost ? best : SpatialSplit{};
 }
 
 SpatialSplitter::Cut SpatialSplitter::cut(const Reference& reference, int axis, float position) const {
