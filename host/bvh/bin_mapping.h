@@ -26,8 +26,7 @@ class BinMapping {
         const float scaled = (x - low_[axis]) * scale_[axis];
         return scaled > 0.0f ? static_cast<int>(scaled < last_ ? scaled : last_) : 0;
     }
-    /// Of the coordinates of a point of four floats, aligned to 16 bytes as `bins` is; the fourth lane means
-    /// nothing.
+    /// Of the coordinates of a point, four floats aligned to 16 bytes as `bins` is; the fourth lane is free.
     void get_bins(const float* point, int* bins) const {
 #ifdef __SSE2__
         const __m128 scaled =

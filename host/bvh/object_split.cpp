@@ -80,12 +80,16 @@ Plane better_plane(const Bins& bins, int axis, Plane best) {
 ObjectSplit find_best_set(std::span<const Reference> range) {
     std::array<Box4, 1u << kTriedInFull> boxes;
     std::array<float, 1u << kTriedInFull> costs;
+    std::array<float, 1u << kTriedInFull> sizes;
     const uint all = (1u << range.size()) - 1u;
     boxes[0] = Box4::empty();
+    sizes[0] = 0.0f;
     for (uint set = 1; set <= all; ++set) {
-        boxes[set] = boxes[set & (set - 1u)];
+        const uint without_first = set & (set - 1u);
+        boxes[set] = boxes[without_first];
         boxes[set].extend(range[static_cast<std::size_t>(std::countr_zero(set))]);
-        costs[set] = boxes[set].half_area() * static_cast<float>(std::popcount(set));
+        sizes[set] = sizes[without_first] + 1.0f;
+        costs[set] = boxes[set].half_area() * sizes[set];
     }
     ObjectSplit split;
     for (uint set = 1; set <= all / 2; ++set) {
@@ -121,7 +125,11 @@ ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping
     }
     const int bin_count = mapping.count();
     Bins bins(bin_count);
-    fold(range, bins, [&](Bins& sum, const Reference& r) { sum.add(r, mapping); });
+    fold(range, bins, [&](Bins& sum, std::span<const Reference> part) {
+        for (const Reference& reference : part) {
+            sum.add(reference, mapping);
+        }
+    });
     Plane best;
     for (int axis = 0; axis < 3; ++axis) {
         best = better_plane(bins, axis, best);

@@ -11,7 +11,7 @@
 
 namespace nearlight {
 
-constexpr int kMinBins = 8;
+constexpr int kMinBins = 4;
 constexpr int kMaxBins = 64;
 
 constexpr std::size_t kTriedInFull = 4;

@@ -17,7 +17,7 @@ namespace {
 /// Of a tree's inner nodes so many move about: more gain little (bench/RESULTS.md).
 constexpr std::size_t kLeastNodes = 64;
 constexpr std::size_t kMostNodes = 4096;
-constexpr std::size_t kInnerNodesPerNode = 16;
+constexpr std::size_t kInnerNodesPerNode = 32;
 constexpr int kPasses = 3;
 constexpr float kLargestArea = 1e30f;
 constexpr uint kNone = ~0u;

@@ -12,6 +12,9 @@
 namespace nearlight {
 namespace {
 
+/// Of few references, more bins than these cost time and gain nothing (bench/RESULTS.md).
+constexpr std::size_t kReferencesPerBin = 8;
+constexpr int kLeastBinsAskedFor = 8;
 constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by one thread
 
 /// Spatial splits are looked for where the boxes of the best two sets of whole references overlap by more
@@ -55,7 +58,13 @@ struct Room {
 
 RangeBounds bounds_of(std::span<const Reference> range) {
     RangeBounds bounds;
-    fold(range, bounds, [](RangeBounds& sum, const Reference& r) { sum.add(r); });
+    fold(range, bounds, [](RangeBounds& sum, std::span<const Reference> part) {
+        RangeBounds in_registers = sum;
+        for (const Reference& reference : part) {
+            in_registers.add(reference);
+        }
+        sum = in_registers;
+    });
     return bounds;
 }
 
@@ -96,9 +105,10 @@ class SahBuilder {
     /// Partitions the range at the cheapest plane; no left part where a leaf is cheaper or no plane parts it.
     [[nodiscard]] SpatialSplitter::Parts split_by_cost(const Room& room, const RangeBounds& bounds) const {
         const auto range = references_.subspan(room.first, room.count);
-        const int bin_count = static_cast<int>(std::clamp<std::size_t>(
-            range.size(), kMinBins,
-            static_cast<std::size_t>(std::clamp(config_.bin_count, kMinBins, kMaxBins))));
+        const std::size_t most_bins =
+            static_cast<std::size_t>(std::clamp(config_.bin_count, kLeastBinsAskedFor, kMaxBins));
+        const int bin_count =
+            static_cast<int>(std::min(kMinBins + range.size() / kReferencesPerBin, most_bins));
         const BinMapping mapping(bounds.centers, bin_count);
         const ObjectSplit object = find_object_split(range, mapping);
         const float area = bounds.box.half_area();

@@ -145,9 +145,13 @@ struct Slabs {
         }
     }
     void add(const Reference& reference, const Scene& scene, const BinMapping& mapping) {
+        alignas(16) int firsts[4];
+        alignas(16) int lasts[4];
+        mapping.get_bins(reference.low, firsts);
+        mapping.get_bins(reference.high, lasts);
         for (int axis = 0; axis < 3; ++axis) {
-            const int first = mapping.bin(reference.low[axis], axis);
-            const int last = mapping.bin(reference.high[axis], axis);
+            const int first = firsts[axis];
+            const int last = lasts[axis];
             auto& slabs = axes[axis].slabs;
             ++slabs[first].entries;
             ++slabs[last].exits;
@@ -205,7 +209,11 @@ SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMa
         }
     }
     Slabs slabs(mapping.count());
-    fold(range, slabs, [&](Slabs& sum, const Reference& r) { sum.add(r, scene_, mapping); });
+    fold(range, slabs, [&](Slabs& sum, std::span<const Reference> part) {
+        for (const Reference& reference : part) {
+            sum.add(reference, scene_, mapping);
+        }
+    });
     const SpatialSplit best = slabs.best();
     return best.cost <= most_cost ? best : SpatialSplit{};
 }
