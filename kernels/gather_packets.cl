@@ -84,14 +84,17 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 #endif
 
 /// BUNDLE_SIZE / GATHER_PACKET_WIDTH work-items for each of the bundles [first_bundle, end_bundle), over the
-/// VPLs [first_vpl, end_vpl). Each GATHER_CHUNK of VPLs, counted from VPL 0, is summed by itself and then
-/// added to the irradiance, so that the result does not depend on how launches divide the work; first_vpl
-/// must be a multiple of GATHER_CHUNK. Launches over the VPLs of one bundle must follow one another in order,
+/// VPLs [first_vpl, end_vpl). Each chunk of VPLs (GATHER_CHUNK, or a group), counted from VPL 0, is summed by
+/// itself and then added to the irradiance, so that the result does not depend on how launches divide the
+/// work; first_vpl must begin a chunk. Launches over the VPLs of one bundle must follow one another in order,
 /// from 0.
+///
+/// A group_size other than 0 asks for sums of each group of so many VPLs: `irradiance` then has packet_count
+/// packets for the sums of squares over all VPLs, and as many for each group.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
-    uint first_bundle, uint end_bundle, float clamp_radius_squared,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
@@ -104,11 +107,13 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     PacketBounds bounds;
     gather_receivers(&receivers, &bounds, packets, &bundle, first);
     Segments segments;
-    Accumulator sum;
+    Accumulator sum, squares;
     const uint end = GATHER_END(index, end_vpl);
-    for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += GATHER_CHUNK) {
+    const uint chunk_size = gather_chunk_size(group_size);
+    for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
         clear(&sum);
-        for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
+        clear(&squares);
+        for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
             const uint i = GATHER_VPL(index, k);
             connect(&segments, vpls + i, &receivers, clamp_radius_squared);
 #ifdef GATHER_RECORD
@@ -118,9 +123,16 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
 #ifdef GATHER_RECORD
             record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
 #endif
-            add_visible(&sum, &segments, gather_scale(vpls + i) * GATHER_WEIGHT(index, k),
-                        gather_squared(vpls + i));
+            const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
+            add_visible(&sum, &segments, scale, gather_squared(vpls + i));
+            if (group_size != 0) {
+                add_visible(&squares, &segments, scale * scale, true);
+            }
         }
-        add_to_irradiance(irradiance, &bundle, first, receivers.order, &sum, chunk == 0);
+        if (group_size != 0) {
+            add_to_irradiance(irradiance, &bundle, first, receivers.order, &squares, chunk == 0);
+        }
+        add_to_irradiance(irradiance + gather_slot(chunk, group_size, packet_count), &bundle, first,
+                          receivers.order, &sum, chunk == 0 || group_size != 0);
     }
 }

@@ -19,12 +19,18 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
     return cos_vpl > 0.0f && cos_receiver > 0.0f && term < INFINITY ? term : 0.0f;
 }
 
+inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum) {
+    to->r[lane] = sum.x;
+    to->g[lane] = sum.y;
+    to->b[lane] = sum.z;
+}
+
 /// One work-item for each receiver of the bundles [first_bundle, end_bundle), over the VPLs [first_vpl,
-/// end_vpl). Chunks and launches as in gather_packets.
+/// end_vpl). Chunks, groups and launches as in gather_packets.
 kernel void gather_rays(
     const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
-    uint first_bundle, uint end_bundle, float clamp_radius_squared,
+    uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
@@ -41,9 +47,11 @@ kernel void gather_rays(
     global IrradiancePacket* to = irradiance + packet;
     float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
     const uint end = GATHER_END(index, end_vpl);
-    for (uint chunk = first_vpl; chunk < end; chunk += GATHER_CHUNK) {
+    const uint chunk_size = gather_chunk_size(group_size);
+    for (uint chunk = first_vpl; chunk < end; chunk += chunk_size) {
         float3 sum = (float3)0.0f;
-        for (uint k = chunk; k < min(chunk + GATHER_CHUNK, end); ++k) {
+        float3 squares = (float3)0.0f;
+        for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
             const uint i = GATHER_VPL(index, k);
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
@@ -54,6 +62,7 @@ kernel void gather_rays(
                                                    NEARLIGHT_SEGMENT_T_MAX);
             const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, k);
             sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
+            squares += visible ? scale * scale * (term * term) : (float3)0.0f;
 #ifdef GATHER_RECORD
             record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0
                                                                              : visible
@@ -61,9 +70,10 @@ kernel void gather_rays(
                                                                                  : GATHER_RECORD_OCCLUDED;
 #endif
         }
-        total += sum;
+        total += group_size != 0 ? squares : sum;
+        if (group_size != 0) {
+            store_irradiance(to + gather_slot(chunk, group_size, packet_count), lane, sum);
+        }
     }
-    to->r[lane] = total.x;
-    to->g[lane] = total.y;
-    to->b[lane] = total.z;
+    store_irradiance(to, lane, total);
 }

@@ -7,13 +7,11 @@
 // the importons:
 //   squared 0: Σ luminance(response · G · V · power/π), what the VPL brings;
 //   squared 1: the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by chance, the
-//   error of the picture is least when the probabilities follow this. The importons' powers are squares, and
-//   they are marked so.
-// `vpl_group_contribution` keeps the three channels, for one group of importons (a part of the picture) at a
-// time:
+//   error of the picture is least when the probabilities follow this. The importance is that of squares.
+// `vpl_group_contribution` keeps the three channels, for each group of importons (a part of the picture):
 //   Σ response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
 //
-// One work-item a VPL, from the importance that arrived and its power to luminance; any work-group size.
+// One work-item a VPL, or a VPL and group, from the importance that arrived; any work-group size.
 
 #include "lib/math.cl"
 
@@ -37,12 +35,16 @@ kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
 }
 
 kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_count,
-                                   const global IrradiancePacket* restrict importance, uint group,
-                                   uint group_count, global float* restrict contribution) {
-    const uint index = (uint)get_global_id(0);
+                                   const global IrradiancePacket* restrict importance, uint group_count,
+                                   float scale, global float* restrict contribution) {
+    const size_t slot = get_global_id(0);
+    const uint index = (uint)(slot / group_count);
+    const uint group = (uint)(slot % group_count);
     if (index >= vpl_count) {
         return;
     }
-    const float3 brought = arrived_importance(importance, index) * load3(vpls[index].power) * M_1_PI_F;
-    vstore3(brought, (size_t)index * group_count + group, contribution);
+    const uint packet_count = (vpl_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
+    const global IrradiancePacket* of_group = importance + (size_t)(1 + group) * packet_count;
+    const float3 brought = arrived_importance(of_group, index) * load3(vpls[index].power);
+    vstore3(brought * (scale * M_1_PI_F), slot, contribution);
 }

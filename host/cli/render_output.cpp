@@ -105,6 +105,7 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
     json["seconds"] = {{"load", load_seconds},
                        {"build_bvh", report.seconds.build_bvh},
                        {"compile", report.seconds.compile},
+                       {"upload", report.seconds.upload},
                        {"generate", report.seconds.generate},
                        {"gather", report.seconds.gather},
                        {"first_rows", first_rows.seconds},

@@ -7,8 +7,11 @@
 namespace nearlight {
 namespace {
 
-/// Of several devices: the last to finish keeps the others waiting for half a band on average.
+/// So that the first rows are there soon, and of several devices the last to finish keeps the others waiting
+/// for half a short band on average.
 constexpr std::size_t kBandsPerDevice = 12;
+/// Of a batch's receivers, what keeps a device busy; several devices get bands of single tile rows even so.
+constexpr std::size_t kLeastPart = 8;
 
 /// Enough work for a launch to keep the device busy, little enough for memory and for a smooth progress bar.
 std::size_t receivers_per_batch(const Device& device) {
@@ -69,10 +72,11 @@ RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint he
     plan.samples_per_batch = static_cast<uint>(std::min<std::size_t>(fitting, samples_per_pixel));
     plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(
         budget / (per_row_sample * plan.samples_per_batch), 1, std::max(plan.tile_row_count, 1u)));
-    if (devices.size() > 1) {
-        const auto wanted_bands = static_cast<uint>(kBandsPerDevice * devices.size());
-        plan.tile_rows_per_band = std::clamp(plan.tile_row_count / wanted_bands, 1u, plan.tile_rows_per_band);
-    }
+    const std::size_t least_rows =
+        devices.size() > 1 ? 1 : budget / kLeastPart / (per_row_sample * plan.samples_per_batch) + 1;
+    const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
+    plan.tile_rows_per_band =
+        static_cast<uint>(std::min<std::size_t>(std::max(wanted_rows, least_rows), plan.tile_rows_per_band));
     return plan;
 }
 

@@ -117,7 +117,7 @@ Renderer::State::State(std::span<Device* const> on_devices, const Scene& of_scen
         find_or_build_scene_bvhs(scene, {.quality = bvh_quality}, {.folder = leader().options().cache_dir});
     seconds.build_bvh = watch.lap();
     upload(bvhs);
-    seconds.generate = watch.lap();
+    seconds.upload = watch.lap();
     seconds.total = total.seconds();
 }
 

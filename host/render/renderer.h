@@ -25,7 +25,8 @@ using RowSink = std::function<void(std::span<const float> rows)>;
 struct RenderSeconds {
     double build_bvh = 0;
     double compile = 0;   ///< while anything was compiled or loaded; the others go on meanwhile
-    double generate = 0;  ///< upload, pilot and VPLs
+    double upload = 0;    ///< of scene and trees, whose wide form is made meanwhile
+    double generate = 0;  ///< pilot and VPLs
     double gather = 0;    ///< camera pass, direct light, gather, film
     double total = 0;
 };

@@ -14,13 +14,34 @@ namespace {
 constexpr double kBlindPart = 0.1;
 /// Candidates on the device at a time, so that device memory stays small.
 constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
-/// The same where a row of numbers is kept of each.
-constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 14u;
+/// The same where rows of numbers are asked for.
+constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 15u;
+/// Candidates of which rows are kept: 48 MiB.
+constexpr std::size_t kMostRowsKept = std::size_t{1} << 16u;
 
-/// As many, at most, as one allocation has room for.
-std::size_t chunk_size(const Device& device, std::size_t wanted, std::size_t bytes_each) {
+std::size_t divide_rounding_up(std::size_t count, std::size_t by) {
+    return (count + by - 1) / by;
+}
+
+/// As many at a time as one allocation has room for, at most `most`, and all times nearly alike.
+std::size_t chunk_size(const Device& device, std::size_t count, std::size_t most, std::size_t bytes_each) {
     const std::size_t room = device.entry().max_allocation_bytes / std::max(bytes_each, 2 * sizeof(Vpl));
-    return std::clamp<std::size_t>(room, 1, wanted);
+    const std::size_t chunks = divide_rounding_up(count, std::clamp<std::size_t>(room, 1, most));
+    return divide_rounding_up(count, std::max<std::size_t>(chunks, 1));
+}
+
+/// Calls visit(first, GroupContribution of candidates from `first` on) for all in turn.
+template <typename Visit>
+void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
+                           const Visit& visit) {
+    const std::size_t packet_bytes = (1 + task.view.importon_groups.group_count) * sizeof(IrradiancePacket);
+    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMostRowsInChunk,
+                                         divide_rounding_up(packet_bytes, NEARLIGHT_PACKET_SIZE));
+    for (std::size_t first = 0; first < candidates.size(); first += chunk) {
+        const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
+        visit(first, stages.vpl_contribution.by_group(task.scene, Buffer<Vpl>(stages.device, part),
+                                                      part.size(), task.view, task.clamp_radius));
+    }
 }
 
 /// Adds to `weights`, which sum up to something else than 0 unless the view sees none of the candidates.
@@ -45,7 +66,7 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
                                   std::span<const Vpl> candidates, ContributionNorm norm) {
     std::vector<float> weights;
     weights.reserve(candidates.size());
-    const std::size_t chunk = chunk_size(stages.device, kMostInChunk, sizeof(Vpl));
+    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMostInChunk, sizeof(Vpl));
     for (std::size_t first = 0; first < candidates.size(); first += chunk) {
         const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
         const Buffer<Vpl> vpls(stages.device, part);
@@ -58,10 +79,24 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
     return weights;
 }
 
+JudgedCandidates judge(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates) {
+    JudgedCandidates judged;
+    const bool keep = candidates.size() <= kMostRowsKept;
+    for_each_contribution(stages, task, candidates, [&](std::size_t, const GroupContribution& part) {
+        judged.weights.insert(judged.weights.end(), part.errors.begin(), part.errors.end());
+        if (keep) {
+            judged.rows.insert(judged.rows.end(), part.rows.begin(), part.rows.end());
+        }
+    });
+    add_blind_part(candidates, judged.weights);
+    return judged;
+}
+
 Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
-                       std::span<const float> weights, std::size_t wanted, Pcg32 random) {
+                       std::span<const float> rows, std::span<const float> weights, std::size_t wanted,
+                       Pcg32 random) {
     const Probabilities probabilities = choice_probabilities(weights, wanted);
-    const std::size_t row_length = 3 * task.view.importon_groups.size();
+    const std::size_t row_length = std::size_t{3} * task.view.importon_groups.group_count;
     BalancedChoice choice(row_length, probabilities.tau, random);
     std::vector<uint> order;  // of those that chance decides about: the others need no rows
     for (const uint index : stages.vpl_order.order(candidates)) {
@@ -71,20 +106,21 @@ Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::spa
             order.push_back(index);
         }
     }
-    const std::size_t chunk = chunk_size(stages.device, kMostRowsInChunk, row_length * sizeof(float));
-    for (std::size_t first = 0; first < order.size(); first += chunk) {
-        const std::span part = std::span(order).subspan(first, std::min(chunk, order.size() - first));
-        std::vector<Vpl> vpls;
-        vpls.reserve(part.size());
-        std::ranges::transform(part, std::back_inserter(vpls), [&](uint index) { return candidates[index]; });
-        const std::vector<float> rows = stages.vpl_contribution.by_group(
-            task.scene, Buffer<Vpl>(stages.device, std::span<const Vpl>(vpls)), vpls.size(), task.view,
-            task.clamp_radius);
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            choice.offer(part[i], probabilities.of[part[i]],
-                         std::span(rows).subspan(i * row_length, row_length));
-        }
+    const auto offer = [&](uint index, std::span<const float> from, std::size_t place) {
+        choice.offer(index, probabilities.of[index], from.subspan(place * row_length, row_length));
+    };
+    if (rows.size() == candidates.size() * row_length) {
+        std::ranges::for_each(order, [&](uint index) { offer(index, rows, index); });
+        return choice.finish();
     }
+    std::vector<Vpl> open;
+    open.reserve(order.size());
+    std::ranges::transform(order, std::back_inserter(open), [&](uint index) { return candidates[index]; });
+    for_each_contribution(stages, task, open, [&](std::size_t first, const GroupContribution& part) {
+        for (std::size_t i = 0; i < part.errors.size(); ++i) {
+            offer(order[first + i], part.rows, i);
+        }
+    });
     return choice.finish();
 }
 

@@ -20,7 +20,7 @@
 // carries in the end.
 //
 // Choice. VPLs are drawn from all candidates in proportion to the error each would leave in the picture
-// (ContributionNorm::mean_square), and those together that bring to each of several dozen parts of the
+// (GroupContribution::errors), and those together that bring to each of several dozen parts of the
 // picture what all candidates would (balanced_choice.h). The split between close and distant follows by
 // itself. Each is divided by the probability that it was really chosen with: unbiased.
 //
@@ -45,12 +45,12 @@ namespace nearlight {
 namespace {
 
 // bench/RESULTS.md has what was tried, and on which views.
-constexpr uint kPointsPerVpl = 4;  ///< candidates on the close range; each has two sides
+constexpr uint kPointsPerVpl = 2;  ///< candidates on the close range; each has two sides
 constexpr uint kDepositsPerVpl = 256;
-constexpr uint kScreenedPerVpl = 16;  ///< candidates that remain of them
+constexpr uint kScreenedPerVpl = 10;  ///< candidates that remain of them
 /// Deposits; where more VPLs are wanted, there is less choice.
 constexpr uint kMostDeposits = 1u << 22u;
-constexpr uint kRoughSparseVpls = 256;
+constexpr uint kRoughSparseVpls = 128;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
 /// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
@@ -74,7 +74,7 @@ struct Candidates {
     double walks_per_watt = 0;  ///< before the screening
 };
 
-/// What a VPL of 1 W leaves as error around it, in the measure of ContributionNorm::mean_square: of
+/// What a VPL of 1 W leaves as error around it, in the measure of GroupContribution::errors: of
 /// `importon_count` importons in a picture (about a steradian) those within the clamp radius, each by the
 /// bounded term.
 double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t importon_count) {
@@ -84,11 +84,9 @@ double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t 
     return std::sqrt(seen * static_cast<double>(importon_count)) / (M_PI * M_PI * radius * radius);
 }
 
-/// To choose `lit` VPLs by: the error that each would leave in the picture.
-std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& task,
-                                     std::span<const Vpl> lit, ContributionNorm norm) {
-    std::vector<float> weights = choice_weights(stages, task, lit, norm);
-    const std::size_t importon_count = task.view.importons_of(norm).count;
+/// Adds to the weights of VPLs the error that each would leave around it.
+void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit, std::size_t importon_count,
+                              std::span<float> weights) {
     for (std::size_t i = 0; i < lit.size(); ++i) {
         // Beyond the range too, and where only the neighbourhood is in view.
         if (in_frustum(task.close_range, lit[i].position, task.clamp_radius)) {
@@ -96,7 +94,6 @@ std::vector<float> selection_weights(SamplerStages& stages, const SamplingTask& 
             weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));
         }
     }
-    return weights;
 }
 
 /// That are traced: bounded, but never fewer than VPLs.
@@ -109,8 +106,8 @@ uint deposit_count(const SamplingTask& task) {
 std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
                                    std::span<const Vpl> deposits) {
     const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
-    const std::vector<float> weights =
-        selection_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
+    std::vector<float> weights = choice_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
+    add_neighbourhood_errors(task, sorted, task.view.few_squared_importons.count, weights);
     Pcg32 random(task.seed, kScreeningStream);
     return take(resample(weights, std::size_t{task.vpl_count} * kScreenedPerVpl, random.uniform()), sorted);
 }
@@ -148,10 +145,12 @@ std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> ro
 }
 
 /// Draws task.vpl_count candidates; close and distant ones apart where the user gave the split.
-Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> lit,
-              std::span<const float> weights) {
+Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> lit) {
+    auto [weights, rows] = judge(stages, task, lit);
+    add_neighbourhood_errors(task, lit, task.view.importon_groups.importon_count, weights);
     if (!task.close_fraction) {
-        return choose_balanced(stages, task, lit, weights, task.vpl_count, Pcg32(task.seed, kChoiceStream));
+        return choose_balanced(stages, task, lit, rows, weights, task.vpl_count,
+                               Pcg32(task.seed, kChoiceStream));
     }
     const auto close_count =
         static_cast<std::size_t>(std::lround(*task.close_fraction * static_cast<float>(task.vpl_count)));
@@ -161,11 +160,12 @@ Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const V
         (is_close(lit[i]) ? close : distant)[i] = weights[i];
     }
     // Neither side may be empty, or its light would be lost.
-    const Choice choice = choose_balanced(stages, task, lit, close, std::max<std::size_t>(close_count, 1),
-                                          Pcg32(task.seed, kChoiceStream));
-    const Choice rest =
-        choose_balanced(stages, task, lit, distant, std::max<std::size_t>(task.vpl_count - close_count, 1),
-                        Pcg32(task.seed, kDistantChoiceStream));
+    const Choice choice =
+        choose_balanced(stages, task, lit, rows, close, std::max<std::size_t>(close_count, 1),
+                        Pcg32(task.seed, kChoiceStream));
+    const Choice rest = choose_balanced(stages, task, lit, rows, distant,
+                                        std::max<std::size_t>(task.vpl_count - close_count, 1),
+                                        Pcg32(task.seed, kDistantChoiceStream));
     // Patches come first among the candidates, and must among the chosen.
     std::vector<std::pair<uint, float>> merged;
     for (const Choice& part : {choice, rest}) {
@@ -232,8 +232,7 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates.vpls);
     const std::vector<float> share = shares(candidates, rough);
     const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
-    const Choice choice =
-        choose(stages, task, lit, selection_weights(stages, task, lit, ContributionNorm::mean_square));
+    const Choice choice = choose(stages, task, lit);
 
     VplSet set;
     set.vpls = chosen_vpls(candidates, share, choice);

@@ -11,9 +11,13 @@
 namespace nearlight {
 namespace {
 
-/// VPLs that are summed by themselves before they are added to the irradiance; launches end at multiples of
-/// it.
+/// VPLs that are summed by themselves before they are added to the irradiance, if there are no groups;
+/// launches end at multiples of it.
 constexpr std::size_t kChunk = 256;
+
+std::size_t chunk_of(const GatherInput& input) {
+    return input.group_size != 0 ? input.group_size : kChunk;
+}
 
 constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 
@@ -62,7 +66,9 @@ struct Gatherer::Course {
 };
 
 Gatherer::Gatherer(Device& device, const GatherConfig& config)
-    : device_(&device), config_(resolved(config, device)) {
+    : device_(&device),
+      config_(resolved(config, device)),
+      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)) {
     kernel_of(false, false);
 }
 
@@ -90,21 +96,22 @@ Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
 }
 
 /// The part after `done`: the same bundles against further VPLs, or, when those are through, further bundles.
-Gatherer::Part Gatherer::next_part(std::size_t vpl_count, const Part& done, std::size_t end_bundle,
+Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done, std::size_t end_bundle,
                                    std::uint64_t pair_budget) const {
-    constexpr std::uint64_t kChunkPairs = kChunk * kBundleSize;
+    const std::uint64_t chunk = chunk_of(input);
+    const std::uint64_t chunk_pairs = chunk * kBundleSize;
     Part part = done;
-    if (done.end_vpl >= vpl_count) {
+    if (done.end_vpl >= input.vpl_count) {
         const std::size_t bundles =
-            std::clamp<std::uint64_t>(pair_budget / kChunkPairs, 1, device_->tunables().launch_bundles);
+            std::clamp<std::uint64_t>(pair_budget / chunk_pairs, 1, device_->tunables().launch_bundles);
         part.first_bundle = done.end_bundle;
         part.end_bundle = std::min(end_bundle, part.first_bundle + bundles);
         part.end_vpl = 0;
     }
-    const std::uint64_t chunks = pair_budget / (kChunkPairs * (part.end_bundle - part.first_bundle));
+    const std::uint64_t chunks = pair_budget / (chunk_pairs * (part.end_bundle - part.first_bundle));
     part.first_vpl = part.end_vpl;
     part.end_vpl = std::min<std::uint64_t>(
-        vpl_count, part.first_vpl + kChunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
+        input.vpl_count, part.first_vpl + chunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
     return part;
 }
 
@@ -120,7 +127,7 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
                       static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
                       layout.run_packets, static_cast<cl_uint>(part.first_bundle),
                       static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
-                      irradiance, more...);
+                      static_cast<cl_uint>(input.group_size), irradiance, more...);
     };
     if (rays) {
         launch_on(device_->tunables().local_size, input.tree.nodes, input.tree.triangles);
@@ -138,7 +145,7 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::siz
     part.end_bundle = first_bundle;
     part.end_vpl = input.vpl_count;
     while (part.end_bundle < end_bundle || part.end_vpl < input.vpl_count) {
-        part = next_part(input.vpl_count, part, end_bundle, static_cast<std::uint64_t>(course.budget));
+        part = next_part(input, part, end_bundle, static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
         launch(kernel, input, part, irradiance, more...);
         device_->finish();
@@ -163,6 +170,9 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
         throw Error(ExitCode::runtime, "gather_packets needs a wide tree: upload the tree for that kernel");
     }
     const bool roulette = input.roulette > 0.0f;
+    if (roulette && input.group_size != 0) {
+        throw Error(ExitCode::usage, "the gather has no roulette where it sums by groups");
+    }
     const std::size_t bundle_count = input.bundles().bundle_count();
     Kernel& kernel = kernel_of(roulette, recording);
     if (!roulette) {
@@ -193,11 +203,14 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
 bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                       const GatherProgress& progress) {
     Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
-                  std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)};
-    return for_each_run(input, false,
-                        [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
-                            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
-                        });
+                  launch_pairs_};
+    const bool whole = for_each_run(
+        input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
+            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
+        });
+    // Gathers may differ in cost more than the parts of one.
+    launch_pairs_ = std::max(course.budget / 4.0, std::min(launch_pairs_, course.budget));
+    return whole;
 }
 
 std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,

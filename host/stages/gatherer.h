@@ -22,8 +22,8 @@ struct GatherConfig {
     /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it. 0:
     /// what suits the device (Tunables).
     uint packet_width = 0;
-    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow are sized by the
-    /// time it took. The result does not depend on it.
+    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow, also of later
+    /// gathers, are sized by the time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
     double launch_seconds = 0.0;  ///< how long a launch should take; 0: what suits the device
 };
@@ -40,9 +40,16 @@ struct GatherInput {
     /// same.
     float roulette = 0.0f;
     uint seed = 0;  ///< of the roulette
+    /// Other than 0: sums by groups of so many VPLs that follow one another (gather()). Excludes the
+    /// roulette.
+    uint group_size = 0;
     /// Packets of which roulette's bundles are formed together (BundleLayout): the result depends on which
     /// receivers decide together. 0: all of them.
     uint run_packets = 0;
+
+    [[nodiscard]] std::size_t group_count() const {
+        return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
+    }
 
     /// What goes through the tree together. Without roulette runs do not matter to the result.
     [[nodiscard]] BundleLayout bundles() const {
@@ -74,6 +81,10 @@ class Gatherer {
     /// same bits for any division into launches and any number of threads. Pairs with NaN or infinity in them
     /// contribute nothing. Returns when done; false if `progress` cancelled, and then only part of the VPLs
     /// is summed.
+    ///
+    /// With groups, `irradiance` must have packet_count · (1 + group_count()) packets: the first packet_count
+    /// get the sum of squares Σ_i (power_i/π · …)², channel by channel, the next as many the sum over the
+    /// first group, and so on. Throws Error(ExitCode::usage) for groups with roulette.
     bool gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                 const GatherProgress& progress = {});
 
@@ -89,7 +100,7 @@ class Gatherer {
     struct Course;
     [[nodiscard]] Kernel make_kernel(bool roulette, bool recording) const;
     Kernel& kernel_of(bool roulette, bool recording);
-    [[nodiscard]] Part next_part(std::size_t vpl_count, const Part& done, std::size_t end_bundle,
+    [[nodiscard]] Part next_part(const GatherInput& input, const Part& done, std::size_t end_bundle,
                                  std::uint64_t pair_budget) const;
     template <typename... More>
     void launch(Kernel& kernel, const GatherInput& input, const Part& part,
@@ -103,6 +114,7 @@ class Gatherer {
 
     Device* device_;
     GatherConfig config_;
+    double launch_pairs_;  ///< of the next gather's first launch
     // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
     // recording one second.
     std::array<std::optional<Kernel>, 4> kernels_;

@@ -14,9 +14,8 @@ namespace {
 
 constexpr double kPixelCount = 1024;
 /// They only steer a choice, and are asked by many candidates (bench/RESULTS.md).
-constexpr std::size_t kSquaredImportons = 1024;
 constexpr std::size_t kFewSquaredImportons = 32;
-constexpr std::size_t kGroupedImportons = 512;
+constexpr std::size_t kGroupedImportons = 1024;
 constexpr std::size_t kImportonGroups = 64;
 
 std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets, Vec3 origin) {
@@ -56,16 +55,20 @@ Importons squared(Device& device, std::vector<Vpl> importons) {
     return upload(device, importons);
 }
 
-std::vector<Importons> grouped(Device& device, std::vector<Vpl> importons, std::size_t squared_count) {
-    const float stood_for = static_cast<float>(squared_count) / static_cast<float>(importons.size());
-    std::vector<Importons> groups;
-    for (std::vector<Vpl>& group : group_importons(std::move(importons), kImportonGroups)) {
-        for (Vpl& importon : group) {
-            importon.power *= std::sqrt(stood_for / static_cast<float>(group.size()));
-        }
-        groups.push_back(upload(device, group));
+ImportonGroups grouped(Device& device, std::vector<Vpl> importons) {
+    ImportonGroups result;
+    result.importon_count = importons.size();
+    const std::vector<std::vector<Vpl>> groups = group_importons(std::move(importons), kImportonGroups);
+    for (const std::vector<Vpl>& group : groups) {
+        result.group_size = std::max(result.group_size, static_cast<uint>(group.size()));
     }
-    return groups;
+    std::vector<Vpl> in_order;
+    for (const std::vector<Vpl>& group : groups) {
+        in_order.insert(in_order.end(), group.begin(), group.end());
+        in_order.resize(++result.group_count * result.group_size);  // without a normal, so none is reached
+    }
+    result.vpls = Buffer<Vpl>(device, std::span<const Vpl>(in_order));
+    return result;
 }
 
 }  // namespace
@@ -90,18 +93,14 @@ std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
 
 void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons) {
     view.importons = upload(device, importons);
-    view.squared_importons = squared(device, some_of(importons, kSquaredImportons));
     view.few_squared_importons = squared(device, some_of(importons, kFewSquaredImportons));
-    view.importon_groups =
-        grouped(device, some_of(importons, kGroupedImportons), view.squared_importons.count);
+    view.importon_groups = grouped(device, some_of(importons, kGroupedImportons));
 }
 
 const Importons& PilotView::importons_of(ContributionNorm norm) const {
     switch (norm) {
         case ContributionNorm::mean:
             return importons;
-        case ContributionNorm::mean_square:
-            return squared_importons;
         case ContributionNorm::rough_mean_square:
             return few_squared_importons;
     }

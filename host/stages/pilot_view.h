@@ -13,16 +13,24 @@ namespace nearlight {
 /// What is asked of importons; kernels/vpl_contribution.cl has the formulas.
 enum class ContributionNorm {
     mean,               ///< what a VPL brings: luminance
-    mean_square,        ///< what it would add to the error of the picture, if it was chosen by chance
-    rough_mean_square,  ///< the same by few importons, to screen many VPLs
+    rough_mean_square,  ///< what it would add to the error of the picture if chosen by chance; few importons
 };
 
 /// Receivers as senders of importance: power is the response of the camera to what they reflect (the albedo
 /// times the weight of the camera path), so that a gather from them tells what a VPL would bring to the
-/// camera. For mean squares, powers are squares, and they are marked for squared geometry terms.
+/// camera. For rough mean squares, powers are squares, and they are marked for squared geometry terms.
 struct Importons {
     Buffer<Vpl> vpls;
     std::size_t count = 0;
+};
+
+/// Importons by parts of the picture: groups of `group_size` that follow one another. Where a group has
+/// fewer, it is filled up with some that nothing reaches.
+struct ImportonGroups {
+    Buffer<Vpl> vpls;
+    std::size_t importon_count = 0;  ///< without those that fill up
+    uint group_size = 0;
+    uint group_count = 0;
 };
 
 struct PilotView {
@@ -30,12 +38,8 @@ struct PilotView {
     Buffer<CameraVertex> vertices;
     uint packet_count = 0;
     Importons importons;
-    Importons squared_importons;      ///< some of them
-    Importons few_squared_importons;  ///< still fewer, evenly spread too
-    /// Some of them, by parts of the picture. Powers are multiplied by the root of (squared importons ÷
-    /// importons in all groups ÷ those of a group), so that squares of sums over a group compare with sums of
-    /// squares.
-    std::vector<Importons> importon_groups;
+    Importons few_squared_importons;  ///< few of them, evenly spread
+    ImportonGroups importon_groups;   ///< some of them
     std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
 
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;

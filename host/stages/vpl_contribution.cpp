@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/vpl_contribution.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nearlight {
 
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
@@ -11,47 +14,52 @@ VplContribution::VplContribution(Device& device, Gatherer& gatherer)
       vpl_contribution_(program_, "vpl_contribution"),
       vpl_group_contribution_(program_, "vpl_group_contribution") {}
 
-void VplContribution::gather_importance(const DeviceScene& scene, const Importons& importons,
-                                        float clamp_radius, const Buffer<ReceiverPacket>& receivers,
-                                        Buffer<IrradiancePacket>& importance) {
-    gatherer_->gather({.tree = scene.tree,
-                       .vpls = importons.vpls,
-                       .vpl_count = importons.count,
-                       .receivers = receivers,
-                       .packet_count = receivers.count(),
-                       .clamp_radius = clamp_radius},
-                      importance);
-}
-
 void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                           const PilotView& view, float clamp_radius, Buffer<float>& contribution,
                           ContributionNorm norm) {
     const bool squared = norm != ContributionNorm::mean;
+    const Importons& importons = view.importons_of(norm);
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
     Buffer<IrradiancePacket> importance(*device_, packets);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
-    gather_importance(scene, view.importons_of(norm), clamp_radius, receivers, importance);
+    gatherer_->gather({.tree = scene.tree,
+                       .vpls = importons.vpls,
+                       .vpl_count = importons.count,
+                       .receivers = receivers,
+                       .packet_count = packets,
+                       .clamp_radius = clamp_radius},
+                      importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance,
                                    squared ? 1u : 0u, contribution);
     device_->finish();  // the buffers of this function must outlive the kernel
 }
 
-std::vector<float> VplContribution::by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls,
-                                             std::size_t vpl_count, const PilotView& view,
-                                             float clamp_radius) {
+GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls,
+                                            std::size_t vpl_count, const PilotView& view,
+                                            float clamp_radius) {
+    const ImportonGroups& groups = view.importon_groups;
     const std::size_t packets = receiver_packet_count(vpl_count);
-    const auto group_count = static_cast<uint>(view.importon_groups.size());
     Buffer<ReceiverPacket> receivers(*device_, packets);
-    Buffer<IrradiancePacket> importance(*device_, packets);
-    Buffer<float> contribution(*device_, 3 * group_count * vpl_count);
+    Buffer<IrradiancePacket> importance(*device_, packets * (1 + groups.group_count));
+    Buffer<float> errors(*device_, vpl_count);
+    Buffer<float> rows(*device_, 3 * groups.group_count * vpl_count);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
-    for (uint group = 0; group < group_count; ++group) {
-        gather_importance(scene, view.importon_groups[group], clamp_radius, receivers, importance);
-        vpl_group_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance, group,
-                                             group_count, contribution);
-    }
-    return contribution.download();
+    gatherer_->gather({.tree = scene.tree,
+                       .vpls = groups.vpls,
+                       .vpl_count = std::size_t{groups.group_count} * groups.group_size,
+                       .receivers = receivers,
+                       .packet_count = packets,
+                       .clamp_radius = clamp_radius,
+                       .group_size = groups.group_size},
+                      importance);
+    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance, 1u, errors);
+    // So that squares of sums over a group compare with sums of squares.
+    const float scale = std::sqrt(static_cast<float>(groups.group_count) /
+                                  static_cast<float>(std::max<std::size_t>(groups.importon_count, 1)));
+    vpl_group_contribution_.launch_items(vpl_count * groups.group_count, vpls, static_cast<uint>(vpl_count),
+                                         importance, groups.group_count, scale, rows);
+    return {.errors = errors.download(), .rows = rows.download()};
 }
 
 }  // namespace nearlight

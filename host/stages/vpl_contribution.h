@@ -10,6 +10,14 @@
 
 namespace nearlight {
 
+/// What VPLs bring to the parts of a picture.
+struct GroupContribution {
+    std::vector<float> errors;  ///< of each: what it would add to the picture's error if chosen by chance
+    /// What each VPL brings to each part, R, G and B: 3 · groups numbers a VPL. The root of the sum of their
+    /// squares is the error, but for what differs within a group.
+    std::vector<float> rows;
+};
+
 class VplContribution {
   public:
     /// Gathers with `gatherer`, which must outlive it.
@@ -19,16 +27,10 @@ class VplContribution {
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
              float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
-    /// What each VPL brings to each part of the picture, R, G and B: 3 · view.importon_groups.size() numbers
-    /// a VPL. The root of the sum of their squares is the mean square norm, but for what differs within a
-    /// group.
-    std::vector<float> by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
-                                const PilotView& view, float clamp_radius);
+    GroupContribution by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                               const PilotView& view, float clamp_radius);
 
   private:
-    void gather_importance(const DeviceScene& scene, const Importons& importons, float clamp_radius,
-                           const Buffer<ReceiverPacket>& receivers, Buffer<IrradiancePacket>& importance);
-
     Device* device_;
     Gatherer* gatherer_;
     VplLight vpl_light_;

@@ -41,6 +41,14 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_WEIGHT(bundle, k) 1.0f
 #endif
 
+/// VPLs that are summed by themselves, and where their sums begin (kernel `gather_packets` has the layout).
+inline uint gather_chunk_size(uint group_size) {
+    return group_size != 0 ? group_size : GATHER_CHUNK;
+}
+inline size_t gather_slot(uint chunk, uint group_size, uint packet_count) {
+    return group_size != 0 ? (size_t)(1 + chunk / group_size) * packet_count : 0;
+}
+
 /// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.
 inline bool gather_squared(const global Vpl* vpl) {
     return (vpl->flags & NEARLIGHT_VPL_SQUARED) != 0;

@@ -47,16 +47,20 @@ class SamplingBench {
           scene_(device, scene),
           view_(look_at_scene(device, camera_pass_, scene_.buffers, scene.camera, 1)) {}
 
-    [[nodiscard]] VplSet sample(SamplerKind sampler, uint vpl_count, uint seed, uint bounce_count = 3) {
-        return sample_vpls(stages_, {.scene = scene_.buffers,
-                                     .view = view_,
-                                     .sampler = sampler,
-                                     .vpl_count = vpl_count,
-                                     .bounce_count = bounce_count,
-                                     .close_fraction = std::nullopt,
-                                     .clamp_radius = kBenchClampRadius,
-                                     .seed = seed});
+    [[nodiscard]] SamplingTask task(SamplerKind sampler, uint vpl_count, uint seed, uint bounce_count = 3) {
+        return {.scene = scene_.buffers,
+                .view = view_,
+                .sampler = sampler,
+                .vpl_count = vpl_count,
+                .bounce_count = bounce_count,
+                .close_fraction = std::nullopt,
+                .clamp_radius = kBenchClampRadius,
+                .seed = seed};
     }
+    [[nodiscard]] VplSet sample(SamplerKind sampler, uint vpl_count, uint seed, uint bounce_count = 3) {
+        return sample_vpls(stages_, task(sampler, vpl_count, seed, bounce_count));
+    }
+    [[nodiscard]] SamplerStages& stages() { return stages_; }
     [[nodiscard]] const PilotView& view() const { return view_; }
     /// What each VPL of a set brings to the camera.
     [[nodiscard]] std::vector<float> contributions(const VplSet& set) {

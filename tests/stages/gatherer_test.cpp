@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 #include "host/bvh/bvh.h"
@@ -297,6 +298,62 @@ TEST_F(GathererTest, AbsentReceiversGetNothing) {
                 EXPECT_EQ(result[1].g[i], 0.0f) << variant.name << ", lane " << i;
             }
         }
+    });
+}
+
+/// The sums of squares, by VPLs that are marked for them.
+std::vector<IrradiancePacket> gather_squares(Device& device, Gatherer& gatherer, GatherCase data) {
+    for (Vpl& vpl : data.vpls) {
+        vpl.power = (1.0f / kPi) * vpl.power * vpl.power;
+        vpl.flags = NEARLIGHT_VPL_SQUARED;
+    }
+    return Uploaded(device, data).gather(gatherer);
+}
+
+TEST_F(GathererTest, GroupsAreSummedByThemselves) {
+    constexpr uint kGroup = 48;
+    const GatherCase data = random_triangles(100, 200, 5, 21);  // the last group has 8
+    on_each_device([&](Device& device) {
+        const Uploaded uploaded(device, data);
+        GatherInput input = uploaded.input();
+        input.group_size = kGroup;
+        ASSERT_EQ(input.group_count(), 5u);
+        for (Variant variant : variants()) {
+            for (const double launch_seconds : {1e-9, 1.0}) {
+                SCOPED_TRACE(variant.name);
+                variant.config.first_launch_pairs = launch_seconds < 1.0 ? 1 : std::uint64_t{1} << 40u;
+                variant.config.launch_seconds = launch_seconds;
+                Gatherer gatherer(device, variant.config);
+                Buffer<IrradiancePacket> sums(device, data.receivers.size() * 6);
+                ASSERT_TRUE(gatherer.gather(input, sums));
+                const std::vector<IrradiancePacket> found = sums.download();
+                const auto slot = [&](std::size_t index) {
+                    const auto first =
+                        found.begin() + static_cast<std::ptrdiff_t>(index * data.receivers.size());
+                    return std::vector(first, first + static_cast<std::ptrdiff_t>(data.receivers.size()));
+                };
+                expect_close(slot(0), gather_squares(device, gatherer, data));
+                for (std::size_t group = 0; group < input.group_count(); ++group) {
+                    GatherCase of_group = data;
+                    const auto first = data.vpls.begin() + static_cast<std::ptrdiff_t>(group * kGroup);
+                    of_group.vpls.assign(first, std::min(first + kGroup, data.vpls.end()));
+                    EXPECT_TRUE(same_bits(slot(1 + group), Uploaded(device, of_group).gather(gatherer)))
+                        << "group " << group;
+                }
+            }
+        }
+    });
+}
+
+TEST_F(GathererTest, RefusesRouletteByGroups) {
+    const GatherCase data = random_triangles(100, 20, 1, 22);
+    on_each_device([&](Device& device) {
+        Uploaded uploaded(device, data);
+        GatherInput input = uploaded.input();
+        input.group_size = 10;
+        input.roulette = 1.0f;
+        Gatherer gatherer(device);
+        EXPECT_THROW(gatherer.gather(input, uploaded.irradiance()), Error);
     });
 }
 

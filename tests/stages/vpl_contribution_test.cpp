@@ -46,9 +46,9 @@ double expected_contribution(const test::GatherCase& data, const std::vector<Cam
     return norm == ContributionNorm::mean ? sum : std::sqrt(sum);
 }
 
-/// What the stage finds; one more slot than VPLs, −1.
+/// What the stage finds of the mean; one more slot than VPLs, −1.
 std::vector<float> found_contributions(Device& device, const test::GatherCase& data,
-                                       const std::vector<CameraVertex>& vertices, ContributionNorm norm) {
+                                       const std::vector<CameraVertex>& vertices) {
     const test::SceneOnDevice on_device(device, data.scene);
     Buffer<float> contribution(device, std::vector<float>(data.vpls.size(), -1.0f));
     PilotView view;
@@ -56,58 +56,81 @@ std::vector<float> found_contributions(Device& device, const test::GatherCase& d
     Gatherer gatherer(device);
     VplContribution(device, gatherer)
         .run(on_device.buffers, Buffer<Vpl>(device, data.vpls), data.vpls.size() - 1, view, data.clamp_radius,
-             contribution, norm);
+             contribution);
     return contribution.download();
 }
 
-TEST_F(VplContributionTest, IsTheColumnNormOfAPlainLoop) {
-    // Few enough receivers for all of them to be among the squared importons.
+GroupContribution found_by_group(Device& device, const test::GatherCase& data, const PilotView& view) {
+    const test::SceneOnDevice on_device(device, data.scene);
+    Gatherer gatherer(device);
+    return VplContribution(device, gatherer)
+        .by_group(on_device.buffers, Buffer<Vpl>(device, data.vpls), data.vpls.size(), view,
+                  data.clamp_radius);
+}
+
+test::GatherCase small_case() {
+    // Few enough receivers for all of them to be among the importons.
     test::GatherCase data = test::room_of_boxes(30, 70, 4, 2);
     data.scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
+    return data;
+}
+
+TEST_F(VplContributionTest, IsTheColumnSumOfAPlainLoop) {
+    const test::GatherCase data = small_case();
     const std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
     on_each_device([&](Device& device) {
-        for (const ContributionNorm norm : {ContributionNorm::mean, ContributionNorm::mean_square}) {
-            const std::vector<float> found = found_contributions(device, data, vertices, norm);
-            const std::size_t vpl_count = data.vpls.size() - 1;
-            uint seen = 0;
-            for (std::size_t v = 0; v < vpl_count; ++v) {
-                const double expected = expected_contribution(data, vertices, data.vpls[v], norm);
-                seen += expected > 0.0 ? 1 : 0;
-                EXPECT_NEAR(found[v], expected, 1e-4 * expected) << "VPL " << v;
+        const std::vector<float> found = found_contributions(device, data, vertices);
+        const std::size_t vpl_count = data.vpls.size() - 1;
+        uint seen = 0;
+        for (std::size_t v = 0; v < vpl_count; ++v) {
+            const double expected =
+                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean);
+            seen += expected > 0.0 ? 1 : 0;
+            EXPECT_NEAR(found[v], expected, 1e-4 * expected) << "VPL " << v;
+        }
+        EXPECT_GT(seen, vpl_count / 2);
+        EXPECT_EQ(found[vpl_count], -1.0f) << "written beyond the last VPL";
+    });
+}
+
+TEST_F(VplContributionTest, ErrorsAreRootsOfSumsOfSquaresAndGroupsAddUpToThePicture) {
+    const test::GatherCase data = small_case();
+    std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
+    vertices.front().albedo = {};  // so that they do not fill groups of one size
+    on_each_device([&](Device& device) {
+        PilotView view;
+        set_importons(device, view, make_importons(data.receivers, vertices));
+        const ImportonGroups& groups = view.importon_groups;
+        ASSERT_GT(groups.group_count, 8u);
+        ASSERT_NE(groups.importon_count % groups.group_count, 0u) << "some groups are to be filled up";
+        const GroupContribution found = found_by_group(device, data, view);
+        ASSERT_EQ(found.errors.size(), data.vpls.size());
+        ASSERT_EQ(found.rows.size(), data.vpls.size() * 3 * groups.group_count);
+        const float scale =
+            std::sqrt(static_cast<float>(groups.importon_count) / static_cast<float>(groups.group_count));
+        for (std::size_t v = 0; v < data.vpls.size(); ++v) {
+            Vec3 sum{};
+            for (std::size_t group = 0; group < groups.group_count; ++group) {
+                const float* brought = found.rows.data() + 3 * (v * groups.group_count + group);
+                sum += scale * Vec3{brought[0], brought[1], brought[2]};
             }
-            EXPECT_GT(seen, vpl_count / 2);
-            EXPECT_EQ(found[vpl_count], -1.0f) << "written beyond the last VPL";
+            const double mean = expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean);
+            EXPECT_NEAR(luminance(sum), mean, 1e-4 * mean) << "VPL " << v;
+            const double error =
+                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::rough_mean_square);
+            EXPECT_NEAR(found.errors[v], error, 1e-4 * error) << "VPL " << v;
         }
     });
 }
 
-TEST_F(VplContributionTest, GroupsAddUpToThePicture) {
-    test::GatherCase data = test::room_of_boxes(30, 70, 4, 2);
-    data.scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
-    const std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
+TEST_F(VplContributionTest, WithoutImportonsNothingIsBrought) {
+    const test::GatherCase data = small_case();
     on_each_device([&](Device& device) {
-        const test::SceneOnDevice on_device(device, data.scene);
         PilotView view;
-        set_importons(device, view, make_importons(data.receivers, vertices));
-        ASSERT_GT(view.importon_groups.size(), 8u);
-        Gatherer gatherer(device);
-        const std::size_t vpl_count = data.vpls.size();
-        const std::vector<float> rows = VplContribution(device, gatherer)
-                                            .by_group(on_device.buffers, Buffer<Vpl>(device, data.vpls),
-                                                      vpl_count, view, data.clamp_radius);
-        const std::size_t row_length = 3 * view.importon_groups.size();
-        ASSERT_EQ(rows.size(), vpl_count * row_length);
-        for (std::size_t v = 0; v < vpl_count; ++v) {
-            Vec3 sum{};
-            for (std::size_t group = 0; group < view.importon_groups.size(); ++group) {
-                const float* brought = rows.data() + v * row_length + 3 * group;
-                const float scale = std::sqrt(static_cast<float>(view.importon_groups[group].count));
-                sum += scale * Vec3{brought[0], brought[1], brought[2]};
-            }
-            const double expected =
-                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean);
-            EXPECT_NEAR(luminance(sum), expected, 1e-4 * expected) << "VPL " << v;
-        }
+        set_importons(device, view, {});
+        const GroupContribution found = found_by_group(device, data, view);
+        EXPECT_EQ(found.errors, std::vector<float>(data.vpls.size(), 0.0f));
+        EXPECT_TRUE(found.rows.empty());
     });
 }
 
