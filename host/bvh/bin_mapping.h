@@ -40,6 +40,10 @@ class BinMapping {
         }
 #endif
     }
+    /// Whether the bin of a coordinate is below another than the first; not-a-number is.
+    [[nodiscard]] bool is_before(int bin, float x, int axis) const {
+        return !((x - low_[axis]) * scale_[axis] >= static_cast<float>(bin));
+    }
     /// The plane between bins `bin` − 1 and `bin`.
     [[nodiscard]] float plane(int bin, int axis) const {
         return low_[axis] + static_cast<float>(bin) * thickness_[axis];

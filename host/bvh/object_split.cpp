@@ -153,13 +153,10 @@ std::size_t partition(std::span<Reference> range, const BinMapping& mapping, con
     std::size_t left = 0;
     for (Reference& place : range) {
         const Reference reference = place;
-        alignas(16) float center[4];
-        alignas(16) int bins[4];
-        reference.get_center(center);
-        mapping.get_bins(center, bins);
+        const float center = 0.5f * reference.low[split.axis] + 0.5f * reference.high[split.axis];
         place = range[left];
         range[left] = reference;
-        left += bins[split.axis] <= split.last_left_bin ? 1u : 0u;
+        left += mapping.is_before(split.last_left_bin + 1, center, split.axis) ? 1u : 0u;
     }
     return left;
 }
