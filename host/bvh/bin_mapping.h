@@ -9,7 +9,8 @@ namespace nearlight {
 class BinMapping {
   public:
     /// `count` bins an axis, one or more.
-    BinMapping(const Box4& box, int count) : last_(static_cast<float>(count - 1)), count_(count) {
+    BinMapping(const Box4& box, int count)
+        : low_{}, thickness_{}, scale_{}, last_(static_cast<float>(count - 1)), count_(count) {
         for (int axis = 0; axis < 3; ++axis) {
             const float size = box.high[axis] - box.low[axis];
             low_[axis] = box.low[axis];
@@ -25,15 +26,33 @@ class BinMapping {
         const float scaled = (x - low_[axis]) * scale_[axis];
         return scaled > 0.0f ? static_cast<int>(scaled < last_ ? scaled : last_) : 0;
     }
+    /// Of the coordinates of a point, four floats aligned to 16 bytes as `bins` is; the fourth lane is free.
+    void get_bins(const float* point, int* bins) const {
+#ifdef __SSE2__
+        const __m128 scaled =
+            _mm_mul_ps(_mm_sub_ps(_mm_load_ps(point), _mm_load_ps(low_)), _mm_load_ps(scale_));
+        // The maximum of not-a-number and 0 is its second operand.
+        const __m128 clamped = _mm_min_ps(_mm_max_ps(scaled, _mm_setzero_ps()), _mm_set1_ps(last_));
+        _mm_store_si128(reinterpret_cast<__m128i*>(bins), _mm_cvttps_epi32(clamped));
+#else
+        for (int axis = 0; axis < 3; ++axis) {
+            bins[axis] = bin(point[axis], axis);
+        }
+#endif
+    }
+    /// Whether the bin of a coordinate is below another than the first; not-a-number is.
+    [[nodiscard]] bool is_before(int bin, float x, int axis) const {
+        return !((x - low_[axis]) * scale_[axis] >= static_cast<float>(bin));
+    }
     /// The plane between bins `bin` − 1 and `bin`.
     [[nodiscard]] float plane(int bin, int axis) const {
         return low_[axis] + static_cast<float>(bin) * thickness_[axis];
     }
 
   private:
-    float low_[3];
-    float thickness_[3];
-    float scale_[3];
+    alignas(16) float low_[4];
+    float thickness_[4];
+    alignas(16) float scale_[4];
     float last_;
     int count_;
 };

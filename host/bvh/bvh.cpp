@@ -2,9 +2,11 @@
 #include "host/bvh/bvh.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/bvh/child_order.h"
 #include "host/bvh/flatten.h"
+#include "host/bvh/reinsertion.h"
 #include "host/bvh/sah_builder.h"
 
 namespace nearlight {
@@ -17,10 +19,13 @@ Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& co
     if (ids.empty()) {
         return empty_bvh();
     }
-    Bvh bvh = flatten(build_sah_tree(scene, ids, config), scene, config);
-    if (config.quality == BvhQuality::quality) {
-        order_children(bvh, scene, ids);
+    SahTree tree = build_sah_tree(scene, ids, config);
+    if (config.quality != BvhQuality::quality) {
+        return flatten(std::move(tree), scene, config);
     }
+    reinsert_largest(tree);
+    Bvh bvh = flatten(std::move(tree), scene, config);
+    order_children(bvh, scene, ids);
     return bvh;
 }
 

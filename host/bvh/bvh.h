@@ -36,11 +36,11 @@ struct BvhConfig {
 };
 
 /// Top-down binned SAH [Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007] over those
-/// triangles of the scene that `ids` names, in parallel; `quality` adds spatial splits (spatial_split.h) and
-/// an order of children for shadow rays (child_order.h). The result does not depend on the number of threads.
-/// Boxes are two ulps of their largest coordinate larger than need be, so that slab tests never miss a flat
-/// one. Needs 100 bytes a triangle while building, `quality` 170. Error(out_of_memory) beyond 2^27 − 1
-/// triangles, where max_duplication counts as if it were used.
+/// triangles of the scene that `ids` names, in parallel, the same for any number of threads; `quality` adds
+/// spatial_split.h, reinsertion.h and child_order.h. Boxes are two ulps of their largest coordinate larger
+/// than need be, so that slab tests never miss a flat one. Needs 100 bytes a triangle while building,
+/// `quality` 170. Error(out_of_memory) beyond 2^27 − 1 triangles, where max_duplication counts as if it were
+/// used.
 Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config = {});
 
 /// The triangles that the tree was built over, in ascending order, each once.

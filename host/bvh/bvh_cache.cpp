@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be changed whenever the builder makes other trees, or files look different.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 5;
 constexpr const char* kExtension = ".tree";
 
 using Key = std::array<std::uint64_t, 2>;

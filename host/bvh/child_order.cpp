@@ -15,8 +15,10 @@
 namespace nearlight {
 namespace {
 
-constexpr int kSegments = 4000;
-constexpr int kTries = 4 * kSegments;  // of pairs of points, of which many face away from each other
+constexpr std::size_t kMostSegments = 4000;
+constexpr std::size_t kLeastSegments = 500;
+constexpr std::size_t kTrianglesPerSegment = 16;  // in small scenes, where time is short
+constexpr std::size_t kTriesPerSegment = 4;       // pairs of points, of which many face away from each other
 constexpr std::uint64_t kSeed = 7;
 /// What areas say counts as much as this many segments.
 constexpr double kPrior = 8.0;
@@ -146,10 +148,11 @@ class Surfaces {
     float extent_;
 };
 
-std::vector<TestRay> make_segments(const Surfaces& surfaces) {
+std::vector<TestRay> make_segments(const Surfaces& surfaces, std::size_t count) {
     std::vector<TestRay> segments;
     Pcg32 random(kSeed);
-    for (int i = 0; surfaces.usable() && i < kTries && segments.size() < kSegments; ++i) {
+    for (std::size_t i = 0; surfaces.usable() && i < kTriesPerSegment * count && segments.size() < count;
+         ++i) {
         const SurfacePoint from = surfaces.pick(random);
         const SurfacePoint to = surfaces.pick(random);
         const Vec3 direction = to.position - from.position;
@@ -162,7 +165,8 @@ std::vector<TestRay> make_segments(const Surfaces& surfaces) {
 
 /// In a few parts, each with records of its own.
 std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
-    const std::vector<TestRay> segments = make_segments(Surfaces(scene, ids));
+    const std::vector<TestRay> segments = make_segments(
+        Surfaces(scene, ids), std::clamp(ids.size() / kTrianglesPerSegment, kLeastSegments, kMostSegments));
     std::vector<Survey> parts(kSurveyParts);
     parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {

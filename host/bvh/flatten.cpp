@@ -19,12 +19,13 @@ constexpr BvhTriangle kNoTriangle{kFarPoint, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 struct Counts {
     uint nodes = 0;
     uint triangles = 0;
+    int levels = 0;  ///< of inner nodes; not set where places are counted
 };
 
 /// Of a subtree; of each left one a note is left in its parent's free words.
 Counts count_below(SahTree& tree, uint reference, int level) {
     if (is_leaf(reference)) {
-        return {0, leaf_count(reference)};
+        return {0, leaf_count(reference), 0};
     }
     BvhNode& slot = tree.slots[reference];
     Counts left;
@@ -34,7 +35,8 @@ Counts count_below(SahTree& tree, uint reference, int level) {
         [&] { right = count_below(tree, slot.right, level + 1); });
     slot.pad0 = left.nodes;
     slot.pad1 = left.triangles;
-    return {left.nodes + right.nodes + 1, left.triangles + right.triangles};
+    return {left.nodes + right.nodes + 1, left.triangles + right.triangles,
+            std::max(left.levels, right.levels) + 1};
 }
 
 /// Puts the subtree at the places that it has in depth-first order, its leaves' triangles too, and returns
@@ -108,7 +110,7 @@ Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
     bvh.nodes.resize(counts.nodes);
     bvh.triangle_ids.resize(counts.triangles);
     const uint root = place(tree, tree.root, {}, bvh, 0);
-    bvh.depth = tree.depth;
+    bvh.depth = counts.levels;
     if (is_leaf(root)) {
         bvh.nodes = {root_of_one_leaf(tree.root_box, root)};
         bvh.depth = 1;

@@ -3,48 +3,42 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace nearlight {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Bin {
-    Box4 box;
-    uint count;
-
-    void add(const Bin& other) {
-        box.extend(other.box);
-        count += other.count;
-    }
-};
-constexpr Bin kEmptyBin{Box4::empty(), 0};
-
 struct Bins {
     explicit Bins(int count) : bin_count(count) {
-        for (auto& axis : bins) {
-            std::fill_n(axis.begin(), count, kEmptyBin);
+        for (int axis = 0; axis < 3; ++axis) {
+            std::fill_n(boxes[axis].begin(), count, Box4::empty());
+            std::fill_n(counts[axis].begin(), count, 0u);
         }
     }
     void add(const Reference& reference, const BinMapping& mapping) {
         alignas(16) float center[4];
+        alignas(16) int bins[4];
         reference.get_center(center);
+        mapping.get_bins(center, bins);
         for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins[axis][mapping.bin(center[axis], axis)];
-            bin.box.extend(reference);
-            ++bin.count;
+            boxes[axis][bins[axis]].extend(reference);
+            ++counts[axis][bins[axis]];
         }
     }
     void add(const Bins& other) {
         for (int axis = 0; axis < 3; ++axis) {
             for (int i = 0; i < bin_count; ++i) {
-                bins[axis][i].add(other.bins[axis][i]);
+                boxes[axis][i].extend(other.boxes[axis][i]);
+                counts[axis][i] += other.counts[axis][i];
             }
         }
     }
 
-    int bin_count;
-    std::array<std::array<Bin, kMaxBins>, 3> bins;  // those beyond bin_count are never touched
+    int bin_count;  // those beyond are never touched
+    std::array<std::array<Box4, kMaxBins>, 3> boxes;
+    std::array<std::array<uint, kMaxBins>, 3> counts;
 };
 
 struct Plane {
@@ -56,18 +50,24 @@ struct Plane {
 /// The cheapest plane between bins of one axis, if it beats `best`.
 Plane better_plane(const Bins& bins, int axis, Plane best) {
     std::array<float, kMaxBins> right_cost;
-    Bin right = kEmptyBin;
+    const auto& boxes = bins.boxes[axis];
+    const auto& counts = bins.counts[axis];
+    Box4 right = Box4::empty();
+    uint right_count = 0;
     for (int i = bins.bin_count - 1; i > 0; --i) {
-        right.add(bins.bins[axis][i]);
-        right_cost[i] = right.count > 0 ? right.box.half_area() * static_cast<float>(right.count) : kInfinity;
+        right.extend(boxes[i]);
+        right_count += counts[i];
+        right_cost[i] = right_count > 0 ? right.half_area() * static_cast<float>(right_count) : kInfinity;
     }
-    Bin left = kEmptyBin;
+    Box4 left = Box4::empty();
+    uint left_count = 0;
     for (int i = 0; i + 1 < bins.bin_count; ++i) {
-        left.add(bins.bins[axis][i]);
-        if (left.count == 0) {
+        left.extend(boxes[i]);
+        left_count += counts[i];
+        if (left_count == 0) {
             continue;
         }
-        const float cost = left.box.half_area() * static_cast<float>(left.count) + right_cost[i + 1];
+        const float cost = left.half_area() * static_cast<float>(left_count) + right_cost[i + 1];
         if (cost < best.cost) {
             best = {cost, axis, i};
         }
@@ -75,12 +75,61 @@ Plane better_plane(const Bins& bins, int axis, Plane best) {
     return best;
 }
 
+/// Tries every set of a few references on the left, named by the bits of a number; the last stays on the
+/// right.
+ObjectSplit find_best_set(std::span<const Reference> range) {
+    std::array<Box4, 1u << kTriedInFull> boxes;
+    std::array<float, 1u << kTriedInFull> costs;
+    std::array<float, 1u << kTriedInFull> sizes;
+    const uint all = (1u << range.size()) - 1u;
+    boxes[0] = Box4::empty();
+    sizes[0] = 0.0f;
+    for (uint set = 1; set <= all; ++set) {
+        const uint without_first = set & (set - 1u);
+        boxes[set] = boxes[without_first];
+        boxes[set].extend(range[static_cast<std::size_t>(std::countr_zero(set))]);
+        sizes[set] = sizes[without_first] + 1.0f;
+        costs[set] = boxes[set].half_area() * sizes[set];
+    }
+    ObjectSplit split;
+    for (uint set = 1; set <= all / 2; ++set) {
+        const float cost = costs[set] + costs[all ^ set];
+        if (cost < split.cost) {
+            split.cost = cost;
+            split.left_set = set;
+        }
+    }
+    split.left = boxes[split.left_set];
+    split.right = boxes[all ^ split.left_set];
+    return split;
+}
+
+/// Puts the references of a set first.
+std::size_t partition_by_set(std::span<Reference> range, uint left_set) {
+    std::array<Reference, kTriedInFull> copies;
+    std::copy(range.begin(), range.end(), copies.begin());
+    std::size_t left = 0;
+    std::size_t right = static_cast<std::size_t>(std::popcount(left_set));
+    const std::size_t left_count = right;
+    for (std::size_t i = 0; i < range.size(); ++i) {
+        range[(left_set >> i & 1u) != 0 ? left++ : right++] = copies[i];
+    }
+    return left_count;
+}
+
 }  // namespace
 
 ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping& mapping) {
+    if (range.size() <= kTriedInFull) {
+        return find_best_set(range);
+    }
     const int bin_count = mapping.count();
     Bins bins(bin_count);
-    fold(range, bins, [&](Bins& sum, const Reference& r) { sum.add(r, mapping); });
+    fold(range, bins, [&](Bins& sum, std::span<const Reference> part) {
+        for (const Reference& reference : part) {
+            sum.add(reference, mapping);
+        }
+    });
     Plane best;
     for (int axis = 0; axis < 3; ++axis) {
         best = better_plane(bins, axis, best);
@@ -90,18 +139,26 @@ ObjectSplit find_object_split(std::span<const Reference> range, const BinMapping
     split.axis = best.axis;
     split.last_left_bin = best.last_left_bin;
     for (int i = 0; best.axis >= 0 && i < bin_count; ++i) {
-        (i <= best.last_left_bin ? split.left : split.right).extend(bins.bins[best.axis][i].box);
+        (i <= best.last_left_bin ? split.left : split.right).extend(bins.boxes[best.axis][i]);
     }
     return split;
 }
 
 std::size_t partition(std::span<Reference> range, const BinMapping& mapping, const ObjectSplit& split) {
-    const auto right = std::partition(range.begin(), range.end(), [&](const Reference& reference) {
-        alignas(16) float center[4];
-        reference.get_center(center);
-        return mapping.bin(center[split.axis], split.axis) <= split.last_left_bin;
-    });
-    return static_cast<std::size_t>(right - range.begin());
+    if (split.left_set != 0) {
+        return partition_by_set(range, split.left_set);
+    }
+    // Without branches: which side a reference belongs to is anyone's guess. From `left` on come those of the
+    // right side that were seen.
+    std::size_t left = 0;
+    for (Reference& place : range) {
+        const Reference reference = place;
+        const float center = 0.5f * reference.low[split.axis] + 0.5f * reference.high[split.axis];
+        place = range[left];
+        range[left] = reference;
+        left += mapping.is_before(split.last_left_bin + 1, center, split.axis) ? 1u : 0u;
+    }
+    return left;
 }
 
 void split_in_halves(std::span<Reference> range, const RangeBounds& bounds) {

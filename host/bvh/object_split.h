@@ -11,14 +11,18 @@
 
 namespace nearlight {
 
-constexpr int kMinBins = 8;
+constexpr int kMinBins = 4;
 constexpr int kMaxBins = 64;
 
-/// A plane between bins of one axis.
+constexpr std::size_t kTriedInFull = 4;
+
+/// A plane between bins of one axis; of up to kTriedInFull references any set on the left.
 struct ObjectSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< Σ half area · references of both sides
-    int axis = -1;                                        ///< −1: no plane parts the centres
+    int axis = -1;
     int last_left_bin = 0;
+    uint left_set = 0;  ///< bit i: the i-th is on the left; 0: a plane decides
+    [[nodiscard]] bool found() const { return axis >= 0 || left_set != 0; }
     Box4 left = Box4::empty();
     Box4 right = Box4::empty();
 };

@@ -31,14 +31,12 @@ struct Reference : Box4 {
 /// depend on the threads.
 Reference make_reference(const Scene& scene, uint id);
 
-/// Folds a range of references into `sum`, which is empty. Minima, maxima and counts do not depend on the
-/// order in which threads come by, so neither does the result.
+/// Folds a range of references into `sum`, which is empty: add(sum, part of the range). Minima, maxima and
+/// counts do not depend on the order in which threads come by, so neither does the result.
 template <typename Sum, typename Add>
 void fold(std::span<const Reference> range, Sum& sum, const Add& add) {
     const auto add_part = [&](Sum& partial, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            add(partial, range[i]);
-        }
+        add(partial, range.subspan(first, last - first));
     };
     if (range.size() < kParallelLoop) {
         add_part(sum, 0, range.size());

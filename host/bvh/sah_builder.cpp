@@ -12,6 +12,9 @@
 namespace nearlight {
 namespace {
 
+/// Of few references, more bins than these cost time and gain nothing (bench/RESULTS.md).
+constexpr std::size_t kReferencesPerBin = 8;
+constexpr int kLeastBinsAskedFor = 8;
 constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by one thread
 
 /// Spatial splits are looked for where the boxes of the best two sets of whole references overlap by more
@@ -55,7 +58,13 @@ struct Room {
 
 RangeBounds bounds_of(std::span<const Reference> range) {
     RangeBounds bounds;
-    fold(range, bounds, [](RangeBounds& sum, const Reference& r) { sum.add(r); });
+    fold(range, bounds, [](RangeBounds& sum, std::span<const Reference> part) {
+        RangeBounds in_registers = sum;
+        for (const Reference& reference : part) {
+            in_registers.add(reference);
+        }
+        sum = in_registers;
+    });
     return bounds;
 }
 
@@ -96,9 +105,10 @@ class SahBuilder {
     /// Partitions the range at the cheapest plane; no left part where a leaf is cheaper or no plane parts it.
     [[nodiscard]] SpatialSplitter::Parts split_by_cost(const Room& room, const RangeBounds& bounds) const {
         const auto range = references_.subspan(room.first, room.count);
-        const int bin_count = static_cast<int>(std::clamp<std::size_t>(
-            range.size(), kMinBins,
-            static_cast<std::size_t>(std::clamp(config_.bin_count, kMinBins, kMaxBins))));
+        const std::size_t most_bins =
+            static_cast<std::size_t>(std::clamp(config_.bin_count, kLeastBinsAskedFor, kMaxBins));
+        const int bin_count =
+            static_cast<int>(std::min(kMinBins + range.size() / kReferencesPerBin, most_bins));
         const BinMapping mapping(bounds.centers, bin_count);
         const ObjectSplit object = find_object_split(range, mapping);
         const float area = bounds.box.half_area();
@@ -110,10 +120,9 @@ class SahBuilder {
         if (may_split_references(room, bounds, object)) {
             const BinMapping slabs(
                 bounds.box, static_cast<int>(std::clamp<std::size_t>(range.size(), kMinSlabs, kMaxSlabs)));
-            const SpatialSplit spatial = splitter_->find(range, slabs);
+            const SpatialSplit spatial = splitter_->find(range, slabs, kSpatialGain * object.cost);
             const std::size_t total = std::size_t{spatial.left_count} + spatial.right_count;
-            if (spatial.cost < kSpatialGain * object.cost && total <= room.capacity &&
-                is_worth_it(spatial.cost)) {
+            if (spatial.axis >= 0 && total <= room.capacity && is_worth_it(spatial.cost)) {
                 const auto parts = splitter_->partition(references_.subspan(room.first, room.capacity),
                                                         room.count, slabs, spatial);
                 if (parts.left_count > 0 && parts.right_count > 0) {
@@ -121,7 +130,7 @@ class SahBuilder {
                 }
             }
         }
-        if (object.axis < 0 || !is_worth_it(object.cost)) {
+        if (!object.found() || !is_worth_it(object.cost)) {
             return {0, 0};
         }
         const std::size_t left = partition(range, mapping, object);
@@ -134,7 +143,7 @@ class SahBuilder {
             return false;
         }
         const float overlap =
-            object.axis < 0 ? bounds.box.half_area() : overlap_area(object.left, object.right);
+            object.found() ? overlap_area(object.left, object.right) : bounds.box.half_area();
         return overlap > kLeastOverlapOfRoot * splitter_->root_area() &&
                overlap > kLeastOverlapOfNode * bounds.box.half_area();
     }

@@ -20,7 +20,7 @@ struct SahTree {
     uint root = 0;            ///< child reference: a slot, or the only leaf
     Aabb root_box;
     std::size_t inner_count = 0;
-    int depth = 0;  ///< of the deepest leaf, 0 where the root is one
+    int depth = 0;  ///< of the deepest leaf or more, 0 where the root is one
 };
 
 /// `ids` must not be empty, nor longer than a leaf reference can address: Error(out_of_memory).

@@ -11,6 +11,9 @@ namespace {
 
 constexpr float kLargestArea = 1e30f;
 constexpr float kWeightUnit = 0x1p30f;
+/// Of longer ranges this many references say first whether a plane is worth looking for: most are not. Boxes
+/// of a sample are smaller, so that it errs towards looking.
+constexpr std::size_t kSample = 512;
 
 /// The corners of a triangle, each aligned as Box4 is.
 struct Corners {
@@ -142,9 +145,13 @@ struct Slabs {
         }
     }
     void add(const Reference& reference, const Scene& scene, const BinMapping& mapping) {
+        alignas(16) int firsts[4];
+        alignas(16) int lasts[4];
+        mapping.get_bins(reference.low, firsts);
+        mapping.get_bins(reference.high, lasts);
         for (int axis = 0; axis < 3; ++axis) {
-            const int first = mapping.bin(reference.low[axis], axis);
-            const int last = mapping.bin(reference.high[axis], axis);
+            const int first = firsts[axis];
+            const int last = lasts[axis];
             auto& slabs = axes[axis].slabs;
             ++slabs[first].entries;
             ++slabs[last].exits;
@@ -154,6 +161,14 @@ struct Slabs {
                 axes[axis].add_cut(reference, Corners(scene, reference.id()), mapping, axis, first, last);
             }
         }
+    }
+
+    [[nodiscard]] SpatialSplit best() const {
+        SpatialSplit result;
+        for (int axis = 0; axis < 3; ++axis) {
+            result = axes[axis].better(axis, slab_count, result);
+        }
+        return result;
     }
 
     int slab_count;
@@ -181,14 +196,26 @@ uint SpatialSplitter::weight(const Reference& reference) const {
     return static_cast<uint>(std::min(std::sqrt(excess / root_area_), 1.0f) * kWeightUnit);
 }
 
-SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping) const {
-    Slabs slabs(mapping.count());
-    fold(range, slabs, [&](Slabs& sum, const Reference& r) { sum.add(r, scene_, mapping); });
-    SpatialSplit best;
-    for (int axis = 0; axis < 3; ++axis) {
-        best = slabs.axes[axis].better(axis, mapping.count(), best);
+SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping,
+                                   float most_cost) const {
+    const std::size_t stride = range.size() / kSample;
+    if (stride > 1) {
+        Slabs sample(mapping.count());
+        for (std::size_t i = 0; i < range.size(); i += stride) {
+            sample.add(range[i], scene_, mapping);
+        }
+        if (sample.best().cost * static_cast<float>(stride) > most_cost) {
+            return {};
+        }
     }
-    return best;
+    Slabs slabs(mapping.count());
+    fold(range, slabs, [&](Slabs& sum, std::span<const Reference> part) {
+        for (const Reference& reference : part) {
+            sum.add(reference, scene_, mapping);
+        }
+    });
+    const SpatialSplit best = slabs.best();
+    return best.cost <= most_cost ? best : SpatialSplit{};
 }
 
 SpatialSplitter::Cut SpatialSplitter::cut(const Reference& reference, int axis, float position) const {
