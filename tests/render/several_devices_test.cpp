@@ -61,13 +61,15 @@ class SeveralDevices : public test::DeviceTest {
         return *opened_.emplace_back(std::make_unique<Device>(entry, options));
     }
     [[nodiscard]] Device& device(std::size_t index) const { return *opened_.at(index); }
-    /// A folder of kernels that are those of the program, but for a film that does not compile.
-    static void write_kernels_without_film(const std::filesystem::path& folder) {
-        for (const char* name :
-             {"camera_pass.cl", "direct_light.cl", "gather_packets.cl", "gather_rays.cl"}) {
+    /// A folder of the program's kernels for bands, but for a gather that does not compile.
+    static void write_kernels_without_gather(const std::filesystem::path& folder) {
+        std::filesystem::create_directory(folder / "joint");
+        for (const char* name : {"camera_pass.cl", "direct_light.cl", "film.cl", "joint/view.cl"}) {
             std::ofstream(folder / name) << expand_kernel_source(name);
         }
-        std::ofstream(folder / "film.cl") << "kernel void film_add( {\n";
+        for (const char* name : {"gather_packets.cl", "gather_rays.cl"}) {
+            std::ofstream(folder / name) << "kernel void gather( {\n";
+        }
     }
 
   private:
@@ -113,8 +115,8 @@ TEST_F(SeveralDevices, PartsOfOneGiveItsBitsToo) {
 
 TEST_F(SeveralDevices, TheOthersFinishForOneThatFails) {
     const TemporaryFolder folder;
-    write_kernels_without_film(folder.path());
-    // Its first band fails when it comes to the film; it does not lead, so that VPLs are made.
+    write_kernels_without_gather(folder.path());
+    // Its first band fails when it comes to the gather; it does not lead, so that VPLs are made.
     Device& broken = open(device(1).entry(), folder.path());
     const test::Rendering alone = render_on({&device(0)}, test::few_vpls());
     const test::Rendering with_broken = render_on({&device(0), &broken}, test::few_vpls());
@@ -126,7 +128,7 @@ TEST_F(SeveralDevices, TheOthersFinishForOneThatFails) {
 
 TEST_F(SeveralDevices, AFailedOneIsLeftOutOfLaterPictures) {
     const TemporaryFolder folder;
-    write_kernels_without_film(folder.path());
+    write_kernels_without_gather(folder.path());
     Device& broken = open(device(1).entry(), folder.path());
     const Scene scene = lit_floor();
     Renderer renderer(std::vector{&device(0), &broken}, scene);
