@@ -16,8 +16,8 @@ constexpr double kBlindPart = 0.1;
 constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
 /// The same where rows of numbers are asked for.
 constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 15u;
-/// Candidates of which rows are kept: 48 MiB.
-constexpr std::size_t kMostRowsKept = std::size_t{1} << 16u;
+/// Candidates of which rows are kept: 96 MiB, for some 10 000 VPLs.
+constexpr std::size_t kMostRowsKept = std::size_t{1} << 17u;
 
 std::size_t divide_rounding_up(std::size_t count, std::size_t by) {
     return (count + by - 1) / by;
@@ -82,6 +82,8 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
 JudgedCandidates judge(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates) {
     JudgedCandidates judged;
     const bool keep = candidates.size() <= kMostRowsKept;
+    judged.weights.reserve(candidates.size());
+    judged.rows.reserve(keep ? candidates.size() * 3 * task.view.importon_groups.group_count : 0);
     for_each_contribution(stages, task, candidates, [&](std::size_t, const GroupContribution& part) {
         judged.weights.insert(judged.weights.end(), part.errors.begin(), part.errors.end());
         if (keep) {
