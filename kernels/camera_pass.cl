@@ -7,7 +7,8 @@
 // sample has branch_count (1 or 2) receivers: at the first surface with two ways on (a coat, glass), branch 0
 // takes the base or the refraction and branch 1 the reflection, each with its full weight, so that a glossy
 // floor is not made of noise; later ones choose by chance. Branch 1 of a sample that never divides is absent.
-// One work-item a receiver; any work-group size. Random numbers depend on pixel and sample only.
+// One work-item a sample, for all its branches; any work-group size. Random numbers depend on pixel and
+// sample only.
 
 #include "lib/close_range.cl"
 #include "lib/emitter.cl"
@@ -159,6 +160,98 @@ inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* 
     return 2;
 }
 
+/// Where a camera path ends, and what it saw on the way.
+typedef struct CameraReceiver {
+    float3 position, normal;  // a normal of 0: there is no receiver
+    CameraVertex vertex;
+} CameraReceiver;
+
+inline CameraReceiver absent_receiver(void) {
+    CameraReceiver receiver;
+    receiver.position = (float3)(0.0f);
+    receiver.normal = (float3)(0.0f);
+    receiver.vertex.throughput = store3((float3)(0.0f));
+    receiver.vertex.depth = 0.0f;
+    receiver.vertex.albedo = store3((float3)(0.0f));
+    receiver.vertex.flags = 0;
+    receiver.vertex.emitted = store3((float3)(0.0f));
+    receiver.vertex.pad0 = 0.0f;
+    return receiver;
+}
+
+inline CameraPath start_path(const global PinholeCamera* camera, uint x, uint y, uint sample,
+                             uint sequence_length, uint branch_count, uint seed) {
+    const uint pixel = y * camera->width + x;
+    CameraPath path;
+    path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
+    // A single sample goes through the centre of its pixel.
+    const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
+    const float2 jitter = sequence_length > 1 ? sample_2d(sample, 0, pixel_key) : (float2)(0.5f);
+    path.origin = load3(camera->origin);
+    path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
+                               ((float)y + jitter.y) * load3(camera->step_y));
+    path.throughput = (float3)(1.0f);
+    path.emitted = (float3)(0.0f);
+    path.undivided = branch_count > 1;
+    return path;
+}
+
+/// Follows one branch to its receiver. Branch 0 finds the first surface, which branch 1 sees too.
+inline CameraReceiver follow_path(const SceneView* scene, const global CloseRange* close_range,
+                                  CameraPath* path, uint branch, SurfaceHit* first) {
+    CameraReceiver receiver = absent_receiver();
+    float3 albedo = (float3)(0.0f);
+    for (uint step = 0; step < MAX_CHAIN; ++step) {
+        const bool known = step == 0 && branch == 1;
+        const SurfaceHit hit = known ? *first : trace_camera(scene, path->origin, path->direction);
+        if (step == 0) {
+            *first = hit;
+        }
+        if (hit.t < 0.0f) {
+            path->emitted += path->throughput * environment_radiance(scene, path->direction);
+            break;
+        }
+        if (step == 0) {
+            receiver.vertex.depth = hit.t;
+        }
+        if (hit.front) {
+            path->emitted += path->throughput * load3(scene->materials[hit.material].emission);
+        }
+        const uint outcome = scatter(scene, path, &hit, branch, step, &albedo);
+        if (outcome == 2) {
+            receiver.position = offset_point(scene, hit.position, hit.geometric);
+            receiver.normal = hit.shading;
+            receiver.vertex.throughput = store3(path->throughput);
+            receiver.vertex.albedo = store3(albedo);
+            receiver.vertex.flags = in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
+        }
+        if (outcome != 1) {
+            break;
+        }
+    }
+    receiver.vertex.emitted = store3(path->emitted);
+    return receiver;
+}
+
+/// Branch 1 of a path that never divides: what branch 0 met, but no light.
+inline void leave_to_branch_0(CameraReceiver* receiver) {
+    receiver->vertex.throughput = store3((float3)(0.0f));
+    receiver->vertex.albedo = store3((float3)(0.0f));
+    receiver->vertex.emitted = store3((float3)(0.0f));
+    receiver->normal = (float3)(0.0f);
+}
+
+inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to, uint lane,
+                           global CameraVertex* vertex) {
+    to->px[lane] = from->position.x;
+    to->py[lane] = from->position.y;
+    to->pz[lane] = from->position.z;
+    to->nx[lane] = from->normal.x;
+    to->ny[lane] = from->normal.y;
+    to->nz[lane] = from->normal.z;
+    *vertex = from->vertex;
+}
+
 kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
                         const global CloseRange* restrict close_range, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
@@ -166,10 +259,8 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
                         global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
-    const uint packet = index / NEARLIGHT_PACKET_SIZE;
-    const uint branch = packet % branch_count;
-    const uint sample = packet / branch_count % sample_count;
-    const uint tile = packet / (branch_count * sample_count);
+    const uint sample = index / NEARLIGHT_PACKET_SIZE % sample_count;
+    const uint tile = index / NEARLIGHT_PACKET_SIZE / sample_count;
     const uint tiles_x = (camera->width + 7) / 8;
     if (tile >= tiles_x * tile_row_count) {
         return;
@@ -177,69 +268,22 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
     const SceneView scene = SCENE_VIEW;
     const uint x = tile % tiles_x * 8 + lane % 8;
     const uint y = (first_tile_row + tile / tiles_x) * 8 + lane / 8;
-
-    CameraVertex vertex;
-    vertex.throughput = store3((float3)(0.0f));
-    vertex.depth = 0.0f;
-    vertex.albedo = store3((float3)(0.0f));
-    vertex.flags = 0;
-    vertex.emitted = store3((float3)(0.0f));
-    vertex.pad0 = 0.0f;
-    float3 position = (float3)(0.0f);
-    float3 normal = (float3)(0.0f);
-
-    if (x < camera->width && y < camera->height) {
-        const uint pixel = y * camera->width + x;
-        CameraPath path;
-        path.key = random_uint4((uint4)(pixel, first_sample + sample, seed, 0xca3e7au)).x;
-        // A single sample goes through the centre of its pixel.
-        const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-        const float2 jitter =
-            sequence_length > 1 ? sample_2d(first_sample + sample, 0, pixel_key) : (float2)(0.5f);
-        path.origin = load3(camera->origin);
-        path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
-                                   ((float)y + jitter.y) * load3(camera->step_y));
-        path.throughput = (float3)(1.0f);
-        path.emitted = (float3)(0.0f);
-        path.undivided = branch_count > 1;
-        float3 albedo = (float3)(0.0f);
-        for (uint step = 0; step < MAX_CHAIN; ++step) {
-            const SurfaceHit hit = trace_camera(&scene, path.origin, path.direction);
-            if (hit.t < 0.0f) {
-                path.emitted += path.throughput * environment_radiance(&scene, path.direction);
-                break;
-            }
-            if (step == 0) {
-                vertex.depth = hit.t;
-            }
-            if (hit.front) {
-                path.emitted += path.throughput * load3(scene.materials[hit.material].emission);
-            }
-            const uint outcome = scatter(&scene, &path, &hit, branch, step, &albedo);
-            if (outcome == 2) {
-                position = offset_point(&scene, hit.position, hit.geometric);
-                normal = hit.shading;
-                vertex.throughput = store3(path.throughput);
-                vertex.albedo = store3(albedo);
-                vertex.flags = in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
-            }
-            if (outcome != 1) {
-                break;
-            }
+    const bool in_picture = x < camera->width && y < camera->height;
+    const CameraPath start =
+        start_path(camera, x, y, first_sample + sample, sequence_length, branch_count, seed);
+    CameraReceiver receiver = absent_receiver();
+    SurfaceHit first;
+    bool divided = false;
+    for (uint branch = 0; branch < branch_count; ++branch) {
+        if (in_picture && (branch == 0 || divided)) {
+            CameraPath path = start;
+            receiver = follow_path(&scene, close_range, &path, branch, &first);
+            divided = !path.undivided;
+        } else if (branch == 1) {
+            leave_to_branch_0(&receiver);
         }
-        if (branch == 1 && path.undivided) {
-            vertex.throughput = store3((float3)(0.0f));
-            vertex.albedo = store3((float3)(0.0f));
-            normal = (float3)(0.0f);
-            path.emitted = (float3)(0.0f);
-        }
-        vertex.emitted = store3(path.emitted);
+        const uint packet = (tile * sample_count + sample) * branch_count + branch;
+        store_receiver(&receiver, receivers + packet, lane,
+                       vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + lane);
     }
-    receivers[packet].px[lane] = position.x;
-    receivers[packet].py[lane] = position.y;
-    receivers[packet].pz[lane] = position.z;
-    receivers[packet].nx[lane] = normal.x;
-    receivers[packet].ny[lane] = normal.y;
-    receivers[packet].nz[lane] = normal.z;
-    vertices[index] = vertex;
 }

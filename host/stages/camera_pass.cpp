@@ -14,10 +14,10 @@ CameraPass::CameraPass(Device& device)
 void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
-    camera_pass_.launch_items(packet_count(band, image_width) * NEARLIGHT_PACKET_SIZE, scene, camera,
-                              close_range, band.first_tile_row, band.tile_row_count, band.first_sample,
-                              band.sample_count, band.samples_per_pixel, band.branch_count, seed, receivers,
-                              vertices);
+    const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;
+    camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
+                              band.first_tile_row, band.tile_row_count, band.first_sample, band.sample_count,
+                              band.samples_per_pixel, band.branch_count, seed, receivers, vertices);
 }
 
 }  // namespace nearlight

@@ -4,10 +4,7 @@
 #define NEARLIGHT_LIB_MATERIAL
 
 #include "lib/scene.cl"
-
-inline float srgb_to_linear(float x) {
-    return x <= 0.04045f ? x / 12.92f : pow((x + 0.055f) / 1.055f, 2.4f);
-}
+#include "lib/srgb_table.cl"
 
 inline float3 load_texel(const SceneView* scene, const global Texture* texture, int x, int y) {
     const int width = (int)texture->width;
@@ -17,10 +14,8 @@ inline float3 load_texel(const SceneView* scene, const global Texture* texture, 
     x += x < 0 ? width : 0;
     y += y < 0 ? height : 0;
     const uint texel = scene->texels[texture->first_texel + (uint)(y * width + x)];
-    const float scale = 1.0f / 255.0f;
-    return (float3)(srgb_to_linear((float)(texel & 255u) * scale),
-                    srgb_to_linear((float)((texel >> 8) & 255u) * scale),
-                    srgb_to_linear((float)((texel >> 16) & 255u) * scale));
+    return (float3)(kSrgbToLinear[texel & 255u], kSrgbToLinear[(texel >> 8) & 255u],
+                    kSrgbToLinear[(texel >> 16) & 255u]);
 }
 
 inline float3 sample_texture(const SceneView* scene, uint index, float2 uv) {

@@ -6,6 +6,7 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
+#include "host/image/color.h"
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
@@ -55,6 +56,23 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
         Buffer<uint> flags(probe.device(), kCount);
         probe.kernel().launch(kCount, 8, region, Buffer<Vec3>(probe.device(), points), flags);
         EXPECT_EQ(flags.download(), expected);
+    });
+}
+
+TEST_F(KernelLibraryTest, SrgbTableIsThatOfTheHost) {
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/srgb_table.cl\"\n"
+                          "kernel void probe(global float* linear) {\n"
+                          "    linear[get_global_id(0)] = kSrgbToLinear[get_global_id(0)];\n"
+                          "}\n");
+        Buffer<float> linear(probe.device(), 256);
+        probe.kernel().launch(256, 8, linear);
+        const std::vector<float> found = linear.download();
+        for (int code = 0; code < 256; ++code) {
+            const float expected = srgb_to_linear(static_cast<float>(code) / 255.0f);
+            EXPECT_NEAR(found[static_cast<std::size_t>(code)], expected, 1e-6f * expected) << code;
+        }
     });
 }
 
