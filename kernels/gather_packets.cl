@@ -2,7 +2,7 @@
 // Sums a VPL set over receivers, for CPUs: irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²)
 // · V.
 //
-// One work-item takes one packet of GATHER_PACKET_WIDTH receivers against a run of VPLs. The compiler does
+// A work-item takes packets of GATHER_PACKET_WIDTH receivers, each against a run of VPLs. The compiler does
 // not turn a divergent traversal loop into vector code, so the vectors are written out: a packet is groups of
 // 16 lanes that go through the wide tree together. What makes this fast:
 // - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle test
@@ -83,11 +83,14 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 }
 #endif
 
-/// BUNDLE_SIZE / GATHER_PACKET_WIDTH work-items for each of the bundles [first_bundle, end_bundle), over the
-/// VPLs [first_vpl, end_vpl). Each chunk of VPLs (GATHER_CHUNK, or a group), counted from VPL 0, is summed by
-/// itself and then added to the irradiance, so that the result does not depend on how launches divide the
-/// work; first_vpl must begin a chunk. Launches over the VPLs of one bundle must follow one another in order,
-/// from 0.
+/// Takes packets of the bundles [first_bundle, end_bundle) over the VPLs [first_vpl, end_vpl), one after
+/// another from the queue, until none is left: `next_packet`, 0 at the start, is the next one. Packets differ
+/// in cost by ten times, and runtimes deal work-items to threads by the dozen; launch as many work-items as
+/// there are packets, so that each thread has one.
+///
+/// Each chunk of VPLs (GATHER_CHUNK, or a group), counted from VPL 0, is summed by itself and then added to
+/// the irradiance, so that the result does not depend on how launches divide the work; first_vpl must begin a
+/// chunk. Launches over the VPLs of one bundle must follow one another in order, from 0.
 ///
 /// A group_size other than 0 asks for sums of each group of so many VPLs: `irradiance` then has packet_count
 /// packets for the sums of squares over all VPLs, and as many for each group.
@@ -95,44 +98,47 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
     uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
-    global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
-    const uint item = (uint)get_global_id(0);
-    const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
-    const Bundle bundle = bundle_at(index, packet_count, run_packets);
-    const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
-    if (index >= end_bundle || first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
-        return;
-    }
+    global IrradiancePacket* irradiance,
+    volatile global uint* next_packet GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
     PacketBounds bounds;
-    gather_receivers(&receivers, &bounds, packets, &bundle, first);
     Segments segments;
     Accumulator sum, squares;
-    const uint end = GATHER_END(index, end_vpl);
     const uint chunk_size = gather_chunk_size(group_size);
-    for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
-        clear(&sum);
-        clear(&squares);
-        for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
-            const uint i = GATHER_VPL(index, k);
-            connect(&segments, vpls + i, &receivers, clamp_radius_squared);
+    const uint count = (end_bundle - first_bundle) * ITEMS_PER_BUNDLE;
+    for (uint item = atomic_inc(next_packet); item < count; item = atomic_inc(next_packet)) {
+        const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
+        const Bundle bundle = bundle_at(index, packet_count, run_packets);
+        const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
+        if (first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
+            continue;
+        }
+        gather_receivers(&receivers, &bounds, packets, &bundle, first);
+        const uint end = GATHER_END(index, end_vpl);
+        for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
+            clear(&sum);
+            clear(&squares);
+            for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
+                const uint i = GATHER_VPL(index, k);
+                connect(&segments, vpls + i, &receivers, clamp_radius_squared);
 #ifdef GATHER_RECORD
-            record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, true);
+                record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, true);
 #endif
-            trace_segments(&segments, &bounds, nodes, blocks);
+                trace_segments(&segments, &bounds, nodes, blocks);
 #ifdef GATHER_RECORD
-            record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
+                record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
 #endif
-            const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
-            add_visible(&sum, &segments, scale, gather_squared(vpls + i));
-            if (group_size != 0) {
-                add_visible(&squares, &segments, scale * scale, true);
+                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
+                add_visible(&sum, &segments, scale, gather_squared(vpls + i));
+                if (group_size != 0) {
+                    add_visible(&squares, &segments, scale * scale, true);
+                }
             }
+            if (group_size != 0) {
+                add_to_irradiance(irradiance, &bundle, first, receivers.order, &squares, chunk == 0);
+            }
+            add_to_irradiance(irradiance + gather_slot(chunk, group_size, packet_count), &bundle, first,
+                              receivers.order, &sum, chunk == 0 || group_size != 0);
         }
-        if (group_size != 0) {
-            add_to_irradiance(irradiance, &bundle, first, receivers.order, &squares, chunk == 0);
-        }
-        add_to_irradiance(irradiance + gather_slot(chunk, group_size, packet_count), &bundle, first,
-                          receivers.order, &sum, chunk == 0 || group_size != 0);
     }
 }

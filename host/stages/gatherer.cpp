@@ -68,7 +68,8 @@ struct Gatherer::Course {
 Gatherer::Gatherer(Device& device, const GatherConfig& config)
     : device_(&device),
       config_(resolved(config, device)),
-      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)) {
+      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)),
+      next_packet_(device, 1) {
     kernel_of(false, false);
 }
 
@@ -118,21 +119,22 @@ Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done, s
 template <typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part,
                       Buffer<IrradiancePacket>& irradiance, const More&... more) {
-    const bool rays = config_.kernel == GatherKernel::rays;
     const BundleLayout layout = input.bundles();
-    const std::size_t item_width = rays ? 1 : config_.packet_width;
-    const std::size_t items = (part.end_bundle - part.first_bundle) * kBundleSize / item_width;
-    const auto launch_on = [&](std::size_t local_size, const auto& nodes, const auto& triangles) {
+    const std::size_t receivers = (part.end_bundle - part.first_bundle) * kBundleSize;
+    const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
+                               const auto& triangles, const auto&... rest) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
                       static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
                       layout.run_packets, static_cast<cl_uint>(part.first_bundle),
                       static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
-                      static_cast<cl_uint>(input.group_size), irradiance, more...);
+                      static_cast<cl_uint>(input.group_size), irradiance, rest...);
     };
-    if (rays) {
-        launch_on(device_->tunables().local_size, input.tree.nodes, input.tree.triangles);
+    if (config_.kernel == GatherKernel::rays) {
+        launch_on(receivers, device_->tunables().local_size, input.tree.nodes, input.tree.triangles, more...);
     } else {
-        launch_on(1, input.tree.wide_nodes, input.tree.blocks);
+        next_packet_.fill_zero();
+        launch_on(receivers / config_.packet_width, 1, input.tree.wide_nodes, input.tree.blocks, next_packet_,
+                  more...);
     }
 }
 

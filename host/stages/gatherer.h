@@ -114,7 +114,8 @@ class Gatherer {
 
     Device* device_;
     GatherConfig config_;
-    double launch_pairs_;  ///< of the next gather's first launch
+    double launch_pairs_;       ///< of the next gather's first launch
+    Buffer<uint> next_packet_;  ///< the queue of a launch of gather_packets: one number
     // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
     // recording one second.
     std::array<std::optional<Kernel>, 4> kernels_;
