@@ -18,7 +18,9 @@
 //   (lib/wide_traverse.cl).
 // - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in one
 //   vector (lib/packet_blocks.cl).
-// - A lane that is culled or occluded has t_max = −1, which no box passes: no other mask of lanes is kept.
+// - Which lanes are neither culled nor occluded is a bit mask of each group, looked at again before the
+// leaves
+//   that a few nodes led to are tested: by then some lanes have met their occluder.
 // A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other
 // lanes, and all tests before them are conservative: what shares a packet does not change a bit of the
 // result.
@@ -37,7 +39,7 @@ typedef struct Accumulator {
 inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_group(first_group(open))) {
         const uint group = first_group(open);
-        const float16 term = s->t_max[group] > 0.0f ? s->weight[group] : (float16)0.0f;
+        const float16 term = lanes_of(s->lanes[group]) ? s->weight[group] : (float16)0.0f;
         const float16 weight = squared ? term * term : term;
         sum->r[group] += scale.x * weight;
         sum->g[group] += scale.y * weight;
@@ -73,7 +75,7 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
     for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
-        const bool open = ((const float*)s->t_max)[i] > 0.0f;
+        const bool open = (s->lanes[i / 16] >> i % 16 & 1) != 0;
         if (packet < bundle->count) {
             global uchar* pair = record + gather_record_index(bundle->first + packet, vpl, vpl_count, lane);
             *pair = before ? (open ? GATHER_RECORD_VISIBLE : 0)

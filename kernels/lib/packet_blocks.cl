@@ -109,7 +109,7 @@ LANES_INLINE void intersect_triangle(Segments* s, const BlockAxes* axes, uint i,
                            dot16((float16)w[0], (float16)w[4], (float16)w[8], dx, dy, dz), (float16)*t);
     const uint hit_lanes = lane_bits16(hit) & visit->lanes;
     if (hit_lanes != 0) {
-        set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);
+        set_lanes(s, visit->group, s->lanes[visit->group] & ~hit_lanes);
     }
 }
 
@@ -133,10 +133,10 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
             min4(min4(dot4(axes->u, dx, dy, dz), dot4(axes->v, dx, dy, dz)), dot4(axes->w, dx, dy, dz));
         const int4 hit = (least >= 0.0f) & (axes->t > NEARLIGHT_SEGMENT_T_MIN * det) &
                          (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
-        hit_lanes |= lane_bits4(hit) != 0 ? lanes & -lanes : 0;
+        hit_lanes |= (lane_bits4(hit) != 0 ? 1u : 0u) << lane;
     }
     if (hit_lanes != 0) {
-        set_t_max(s, visit->group, lanes_of(hit_lanes) ? (float16)-1.0f : s->t_max[visit->group]);
+        set_lanes(s, visit->group, s->lanes[visit->group] & ~hit_lanes);
     }
 }
 
@@ -151,10 +151,12 @@ LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks
         prepare_block(&axes, s->origin, blocks + block);
         uint dense_count = 0;
         for (uint i = 0; i < count; ++i) {
-            if (popcount(visits[i].lanes) > FEW_LANES) {
-                dense[dense_count++] = visits[i];
+            LeafVisit visit = visits[i];
+            visit.lanes &= s->lanes[visit.group];
+            if (popcount(visit.lanes) > FEW_LANES) {
+                dense[dense_count++] = visit;
             } else {
-                intersect_few(s, &axes, visits + i);
+                intersect_few(s, &axes, &visit);
             }
         }
         if (dense_count == 0) {

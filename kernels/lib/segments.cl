@@ -9,10 +9,10 @@
 typedef struct Segments {
     float16 dx[GATHER_GROUPS], dy[GATHER_GROUPS], dz[GATHER_GROUPS];
     float16 reciprocal_x[GATHER_GROUPS], reciprocal_y[GATHER_GROUPS], reciprocal_z[GATHER_GROUPS];
-    float16 t_max[GATHER_GROUPS];   // −1: culled or occluded
-    float16 weight[GATHER_GROUPS];  // what has no open lane is not set, but for t_max
+    float16 weight[GATHER_GROUPS];  // what has no open lane is not set
     float3 origin;
-    uint open;  // one bit for each cluster that has a lane neither culled nor occluded
+    uint lanes[GATHER_GROUPS];  // of each group those neither culled nor occluded, a bit each
+    uint open;                  // one bit for each cluster that has a lane neither culled nor occluded
     Shaft shaft;
     ClusterShafts clusters;
 } Segments;
@@ -35,11 +35,10 @@ LANES_INLINE uint clusters_of_lanes(uint group, uint lanes) {
     return clusters << GROUP_CLUSTERS * group;
 }
 
-/// Sets what is left of a group's segments.
-LANES_INLINE void set_t_max(Segments* s, uint group, float16 t_max) {
-    s->t_max[group] = t_max;
-    const uint open = clusters_of_lanes(group, lane_bits16(t_max > 0.0f));
-    s->open = (s->open & ~clusters_of_group(group)) | open;
+/// Sets which of a group's segments are left.
+LANES_INLINE void set_lanes(Segments* s, uint group, uint lanes) {
+    s->lanes[group] = lanes;
+    s->open = (s->open & ~clusters_of_group(group)) | clusters_of_lanes(group, lanes);
 }
 
 /// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry term.
@@ -58,7 +57,7 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
         // Half of the groups in a room face away: they need no division.
         const int16 facing = (cos_vpl > 0.0f) & (cos_receiver > 0.0f);
         if (lane_bits16(facing) == 0) {
-            s->t_max[group] = (float16)-1.0f;
+            s->lanes[group] = 0;
             continue;
         }
         const float16 r2 = dx * dx + dy * dy + dz * dz;
@@ -72,7 +71,7 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
         s->reciprocal_y[group] = reciprocal16(dy);
         s->reciprocal_z[group] = reciprocal16(dz);
         s->weight[group] = weight;
-        set_t_max(s, group, open ? (float16)NEARLIGHT_SEGMENT_T_MAX : (float16)-1.0f);
+        set_lanes(s, group, lane_bits16(open));
     }
 }
 
@@ -82,14 +81,14 @@ LANES_INLINE uint lanes_in_box(const Segments* s, uint group, const Planes* p) {
     const float16 x0 = p->x0 * s->reciprocal_x[group], x1 = p->x1 * s->reciprocal_x[group];
     const float16 y0 = p->y0 * s->reciprocal_y[group], y1 = p->y1 * s->reciprocal_y[group];
     const float16 z0 = p->z0 * s->reciprocal_z[group], z1 = p->z1 * s->reciprocal_z[group];
-    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN, t_max = s->t_max[group];
+    const float16 t_min = (float16)NEARLIGHT_SEGMENT_T_MIN, t_max = (float16)NEARLIGHT_SEGMENT_T_MAX;
     if (!s->shaft.straddles) {
         const float16 enter = max16(max16(x0, y0), max16(z0, t_min));
-        return lane_bits16(enter <= min16(min16(x1, y1), min16(z1, t_max)));
+        return s->lanes[group] & lane_bits16(enter <= min16(min16(x1, y1), min16(z1, t_max)));
     }
     const float16 enter = max16(max16(min16(x0, x1), min16(y0, y1)), max16(min16(z0, z1), t_min));
     const float16 leave = min16(min16(max16(x0, x1), max16(y0, y1)), min16(max16(z0, z1), t_max));
-    return lane_bits16(enter <= leave);
+    return s->lanes[group] & lane_bits16(enter <= leave);
 }
 
 #endif

@@ -47,62 +47,74 @@ LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint group, uint lanes) 
     work->leaf_count += lanes != 0 ? 1 : 0;
 }
 
-/// Keeps a child that some of `clusters` meet. An inner child is tested with the lanes of two groups, and may
-/// pass for the sake of others; a leaf with those of all.
-LANES_INLINE void visit_child(Traversal* work, const Segments* s, const ChildPlanes* relative, uint slot,
-                              uint child, uint clusters) {
-    const Planes planes = planes_of(relative, slot);
-    const uint meeting = clusters & clusters_in_box(&s->clusters, s->shaft.straddles != 0, &planes);
-    if (meeting == 0) {
-        return;
-    }
+/// Keeps an inner child that some clusters may meet: it is tested with the lanes of two groups, and may pass
+/// for the sake of others.
+LANES_INLINE void visit_inner(Traversal* work, const Segments* s, const Planes* planes, uint child,
+                              uint meeting) {
     const uint group0 = first_group(meeting);
     const uint others = meeting & ~clusters_of_group(group0);
     const uint group1 = others != 0 ? first_group(others) : group0;
-    const uint lanes0 = lanes_in_box(s, group0, &planes);
-    const uint lanes1 = lanes_in_box(s, group1, &planes);
-    if ((child & NEARLIGHT_LEAF_BIT) == 0) {
-        keep_node(work, child,
-                  meeting & ~(lanes0 == 0 ? clusters_of_group(group0) : 0) &
-                      ~(lanes1 == 0 ? clusters_of_group(group1) : 0));
-        return;
-    }
-    keep_leaf(work, child, group0, lanes0);
-    keep_leaf(work, child, group1, others != 0 ? lanes1 : 0);
-    uint rest = others & ~clusters_of_group(group1);
-    while (rest != 0) {
-        const uint group = first_group(rest);
-        rest &= ~clusters_of_group(group);
-        keep_leaf(work, child, group, lanes_in_box(s, group, &planes));
-    }
+    const uint lanes0 = lanes_in_box(s, group0, planes);
+    const uint lanes1 = lanes_in_box(s, group1, planes);
+    keep_node(work, child,
+              meeting & ~(lanes0 == 0 ? clusters_of_group(group0) : 0) &
+                  ~(lanes1 == 0 ? clusters_of_group(group1) : 0));
 }
 
-/// The same where only one cluster is left, which is known to meet the child.
-LANES_INLINE void visit_child_alone(Traversal* work, const Segments* s, const ChildPlanes* relative,
-                                    uint slot, uint child, uint cluster) {
-    const Planes planes = planes_of(relative, slot);
-    const uint group = first_group(cluster);
-    const uint lanes = lanes_in_box(s, group, &planes);
-    if ((child & NEARLIGHT_LEAF_BIT) == 0) {
-        keep_node(work, child, lanes != 0 ? cluster : 0);
-    } else {
-        keep_leaf(work, child, group, lanes);
-    }
+/// Keeps a leaf with those lanes of some clusters that meet it.
+LANES_INLINE void visit_leaf(Traversal* work, const Segments* s, const Planes* planes, uint child,
+                             uint meeting) {
+    do {
+        const uint group = first_group(meeting);
+        meeting &= ~clusters_of_group(group);
+        keep_leaf(work, child, group, lanes_in_box(s, group, planes));
+    } while (meeting != 0);
 }
 
-/// Keeps those of a node's children in `met` that segments of `clusters` meet.
+/// Keeps those of a node's children in `met` that segments of several clusters meet. First all are tested
+/// with the clusters, because a branch after each such test cannot be predicted.
 LANES_INLINE void visit_children(Traversal* work, const Segments* s, const global WideNode* nodes,
                                  const global TriangleBlock* blocks, NodeVisit visit,
-                                 const ChildPlanes* relative, uint met, bool alone) {
+                                 const ChildPlanes* relative, uint met) {
     const global WideNode* node = nodes + visit.node;
+    uint meeting[NEARLIGHT_WIDE_CHILDREN];
+    uint kept = 0;
+    for (; met != 0; met &= met - 1) {
+        const uint slot = lowest_bit(met);
+        prefetch_child(nodes, blocks, node->child[slot]);
+        const Planes planes = planes_of(relative, slot);
+        meeting[slot] = visit.clusters & clusters_in_box(&s->clusters, s->shaft.straddles != 0, &planes);
+        kept |= (meeting[slot] != 0 ? 1u : 0u) << slot;
+    }
+    const uint leaves = lane_bits8(vload8(0, (const global int*)node->child) < 0);
+    for (uint inner = kept & ~leaves; inner != 0; inner &= inner - 1) {
+        const uint slot = lowest_bit(inner);
+        const Planes planes = planes_of(relative, slot);
+        visit_inner(work, s, &planes, node->child[slot], meeting[slot]);
+    }
+    for (uint leaf = kept & leaves; leaf != 0; leaf &= leaf - 1) {
+        const uint slot = lowest_bit(leaf);
+        const Planes planes = planes_of(relative, slot);
+        visit_leaf(work, s, &planes, node->child[slot], meeting[slot]);
+    }
+}
+
+/// The same where only one cluster is left, which is known to meet them.
+LANES_INLINE void visit_children_alone(Traversal* work, const Segments* s, const global WideNode* nodes,
+                                       const global TriangleBlock* blocks, NodeVisit visit,
+                                       const ChildPlanes* relative, uint met) {
+    const global WideNode* node = nodes + visit.node;
+    const uint group = first_group(visit.clusters);
     for (; met != 0; met &= met - 1) {
         const uint slot = lowest_bit(met);
         const uint child = node->child[slot];
         prefetch_child(nodes, blocks, child);
-        if (alone) {
-            visit_child_alone(work, s, relative, slot, child, visit.clusters);
+        const Planes planes = planes_of(relative, slot);
+        const uint lanes = lanes_in_box(s, group, &planes);
+        if ((child & NEARLIGHT_LEAF_BIT) == 0) {
+            keep_node(work, child, lanes != 0 ? visit.clusters : 0);
         } else {
-            visit_child(work, s, relative, slot, child, visit.clusters);
+            keep_leaf(work, child, group, lanes);
         }
     }
 }
@@ -127,10 +139,10 @@ LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global W
             const uint cluster = lowest_bit(visit.clusters);
             const int8 met =
                 children_in_cluster(&s->clusters, &s->shaft, cluster, s->origin, node, &relative);
-            visit_children(work, s, nodes, blocks, visit, &relative, lane_bits8(met), true);
+            visit_children_alone(work, s, nodes, blocks, visit, &relative, lane_bits8(met));
         } else {
             const int8 met = children_in_shaft(&s->shaft, s->origin, node, &relative);
-            visit_children(work, s, nodes, blocks, visit, &relative, lane_bits8(met), false);
+            visit_children(work, s, nodes, blocks, visit, &relative, lane_bits8(met));
         }
     }
 }
@@ -149,7 +161,7 @@ LANES_INLINE void visit_leaves(Traversal* work, Segments* s, const global Triang
     work->leaf_count = 0;
 }
 
-/// Ends the segments (t_max = −1) that meet anything.
+/// Ends the segments that meet anything.
 LANES_INLINE void trace_segments(Segments* s, const PacketBounds* bounds, const global WideNode* nodes,
                                  const global TriangleBlock* blocks) {
     if (s->open == 0) {
