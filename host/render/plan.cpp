@@ -9,7 +9,7 @@ namespace {
 
 /// So that the first rows are there soon, and of several devices the last to finish keeps the others waiting
 /// for half a short band on average.
-constexpr std::size_t kBandsPerDevice = 12;
+constexpr std::size_t kBandsPerDevice = 30;
 /// Of a batch's receivers, what keeps a device busy; several devices get bands of single tile rows even so.
 constexpr std::size_t kLeastPart = 8;
 
