@@ -28,9 +28,8 @@ std::array<float, 3> rgb_at(const Image& image, std::size_t pixel) {
 }
 
 std::uint32_t to_byte(float value) {
-    return std::isfinite(value)
-               ? static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f))
-               : 0u;
+    return std::isfinite(value) ? static_cast<std::uint32_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f)
+                                : 0u;
 }
 
 TextureImage to_texture(const Image& image, const std::string& name, bool linear) {
