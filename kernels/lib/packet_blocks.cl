@@ -95,22 +95,24 @@ LANES_INLINE int16 hits(float16 det, float16 u, float16 v, float16 w, float16 t)
            (t < NEARLIGHT_SEGMENT_T_MAX * det);
 }
 
-/// Ends the segments of a visit that hit triangle i of a block.
-LANES_INLINE void intersect_triangle(Segments* s, const BlockAxes* axes, uint i, const LeafVisit* visit) {
-    const float* u = (const float*)&axes->u + i;
-    const float* v = (const float*)&axes->v + i;
-    const float* w = (const float*)&axes->w + i;
-    const float* n = (const float*)&axes->n + i;
-    const float* t = (const float*)&axes->t + i;
+/// Ends the segments of a visit that hit any of some triangles of a block.
+LANES_INLINE void intersect_triangles(Segments* s, const BlockAxes* axes, uint triangles,
+                                      const LeafVisit* visit) {
     const float16 dx = s->dx[visit->group], dy = s->dy[visit->group], dz = s->dz[visit->group];
-    const float16 det = dot16((float16)n[0], (float16)n[4], (float16)n[8], dx, dy, dz);
-    const int16 hit = hits(det, dot16((float16)u[0], (float16)u[4], (float16)u[8], dx, dy, dz),
-                           dot16((float16)v[0], (float16)v[4], (float16)v[8], dx, dy, dz),
-                           dot16((float16)w[0], (float16)w[4], (float16)w[8], dx, dy, dz), (float16)*t);
-    const uint hit_lanes = lane_bits16(hit) & visit->lanes;
-    if (hit_lanes != 0) {
-        set_lanes(s, visit->group, s->lanes[visit->group] & ~hit_lanes);
+    int16 hit = (int16)0;
+    for (; triangles != 0; triangles &= triangles - 1) {
+        const uint i = lowest_bit(triangles);
+        const float* u = (const float*)&axes->u + i;
+        const float* v = (const float*)&axes->v + i;
+        const float* w = (const float*)&axes->w + i;
+        const float* n = (const float*)&axes->n + i;
+        const float* t = (const float*)&axes->t + i;
+        const float16 det = dot16((float16)n[0], (float16)n[4], (float16)n[8], dx, dy, dz);
+        hit |= hits(det, dot16((float16)u[0], (float16)u[4], (float16)u[8], dx, dy, dz),
+                    dot16((float16)v[0], (float16)v[4], (float16)v[8], dx, dy, dz),
+                    dot16((float16)w[0], (float16)w[4], (float16)w[8], dx, dy, dz), (float16)*t);
     }
+    end_lanes(s, visit->group, lane_bits16(hit) & visit->lanes);
 }
 
 LANES_INLINE float4 dot4(Axis4 axis, float dx, float dy, float dz) {
@@ -135,9 +137,7 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
                          (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
         hit_lanes |= (lane_bits4(hit) != 0 ? 1u : 0u) << lane;
     }
-    if (hit_lanes != 0) {
-        set_lanes(s, visit->group, s->lanes[visit->group] & ~hit_lanes);
-    }
+    end_lanes(s, visit->group, hit_lanes);
 }
 
 /// Ends the segments of some visits to one leaf that hit a triangle of it.
@@ -162,10 +162,9 @@ LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks
         if (dense_count == 0) {
             continue;
         }
-        for (uint may = triangles_in_shaft(&s->shaft, &axes); may != 0; may &= may - 1) {
-            for (uint i = 0; i < dense_count; ++i) {
-                intersect_triangle(s, &axes, lowest_bit(may), dense + i);
-            }
+        const uint may = triangles_in_shaft(&s->shaft, &axes);
+        for (uint i = 0; i < dense_count; ++i) {
+            intersect_triangles(s, &axes, may, dense + i);
         }
     }
 }

@@ -41,6 +41,11 @@ LANES_INLINE void set_lanes(Segments* s, uint group, uint lanes) {
     s->open = (s->open & ~clusters_of_group(group)) | clusters_of_lanes(group, lanes);
 }
 
+/// Ends some of a group's segments. Cheap enough to be called for none, which no branch could predict.
+LANES_INLINE void end_lanes(Segments* s, uint group, uint lanes) {
+    set_lanes(s, group, s->lanes[group] & ~lanes);
+}
+
 /// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry term.
 inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receivers,
                     float clamp_radius_squared) {
