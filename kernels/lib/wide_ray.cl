@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traversal of the wide tree by one ray: any hit and closest hit, with the eight boxes of a node in one
+// vector and the four triangles of a block in another. For CPUs; what it finds is what lib/bvh_traverse.cl
+// finds, bit by bit, but for rays that meet two triangles at the same distance.
+//
+// Stack: a path has at most NEARLIGHT_MAX_BVH_DEPTH nodes, each of which leaves all children but one.
+#ifndef NEARLIGHT_LIB_WIDE_RAY
+#define NEARLIGHT_LIB_WIDE_RAY
+
+#include "lib/ray.cl"
+#include "lib/wide_tree.cl"
+
+#if NEARLIGHT_WIDE_RAYS
+
+#define WIDE_RAY_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + 1)
+
+typedef struct WideRay {
+    float3 origin, direction;
+    float3 by;     // reciprocals of the direction, neither 0 nor infinite
+    uint near[3];  // floats from a plane of a node's `low` to the one where the ray enters
+    float t_min;
+} WideRay;
+
+LANES_INLINE WideRay make_wide_ray(float3 origin, float3 direction, float t_min) {
+    WideRay ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    // The infinite planes of missing children times 0 would be not-a-number.
+    ray.by = safe_reciprocal(clamp(direction, -1e37f, 1e37f));
+    ray.near[0] = ray.by.x < 0.0f ? WIDE_UPPER : 0;
+    ray.near[1] = ray.by.y < 0.0f ? WIDE_UPPER : 0;
+    ray.near[2] = ray.by.z < 0.0f ? WIDE_UPPER : 0;
+    ray.t_min = t_min;
+    return ray;
+}
+
+/// One bit for each child of which the ray meets the box before t_max; `enter` gets the distances.
+LANES_INLINE uint children_on_ray(const WideRay* ray, const global WideNode* node, float t_max,
+                                  float8* enter) {
+    const global float* x = node->low[0] + ray->near[0];
+    const global float* y = node->low[1] + ray->near[1];
+    const global float* z = node->low[2] + ray->near[2];
+    const global float* far_x = node->low[0] + (WIDE_UPPER - ray->near[0]);
+    const global float* far_y = node->low[1] + (WIDE_UPPER - ray->near[1]);
+    const global float* far_z = node->low[2] + (WIDE_UPPER - ray->near[2]);
+    const float8 x0 = (vload8(0, x) - ray->origin.x) * ray->by.x;
+    const float8 y0 = (vload8(0, y) - ray->origin.y) * ray->by.y;
+    const float8 z0 = (vload8(0, z) - ray->origin.z) * ray->by.z;
+    const float8 x1 = (vload8(0, far_x) - ray->origin.x) * ray->by.x;
+    const float8 y1 = (vload8(0, far_y) - ray->origin.y) * ray->by.y;
+    const float8 z1 = (vload8(0, far_z) - ray->origin.z) * ray->by.z;
+    *enter = max8(max8(x0, y0), max8(z0, (float8)ray->t_min));
+    return lane_bits8(*enter <= min8(min8(x1, y1), min8(z1, (float8)t_max)));
+}
+
+// As dot() and cross() of one vector compute them, without fused operations.
+LANES_INLINE float4 plain_dot4(Axis4 a, Axis4 b) {
+#pragma OPENCL FP_CONTRACT OFF
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+LANES_INLINE Axis4 plain_cross4(Axis4 a, Axis4 b) {
+#pragma OPENCL FP_CONTRACT OFF
+    const Axis4 axis = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return axis;
+}
+
+/// What hit_triangle computes before it divides, of four triangles.
+typedef struct BlockHit {
+    float4 scale, t, u, v;
+} BlockHit;
+
+/// One bit for each triangle of the block that the ray hits.
+LANES_INLINE uint hit_block(const global TriangleBlock* block, const WideRay* ray, float t_max,
+                            BlockHit* hit) {
+    const Axis4 edge1 = load_axis(block->edge1[0]);
+    const Axis4 edge2 = load_axis(block->edge2[0]);
+    const Axis4 v0 = load_axis(block->v0[0]);
+    const Axis4 normal = plain_cross4(edge1, edge2);
+    const Axis4 direction = {(float4)ray->direction.x, (float4)ray->direction.y, (float4)ray->direction.z};
+    const Axis4 to_origin = {ray->origin.x - v0.x, ray->origin.y - v0.y, ray->origin.z - v0.z};
+    const float4 determinant = -plain_dot4(direction, normal);
+    const float4 side = copysign((float4)1.0f, determinant);
+    const Axis4 crossed = plain_cross4(to_origin, direction);
+    hit->scale = fabs(determinant);
+    hit->u = plain_dot4(edge2, crossed) * side;
+    hit->v = -plain_dot4(edge1, crossed) * side;
+    hit->t = plain_dot4(to_origin, normal) * side;
+    return lane_bits4((hit->scale > 0.0f) & (hit->u >= 0.0f) & (hit->v >= 0.0f) &
+                      (hit->u + hit->v <= hit->scale) & (hit->t > ray->t_min * hit->scale) &
+                      (hit->t < t_max * hit->scale));
+}
+
+/// True if anything lies on the ray strictly inside (t_min, t_max).
+inline bool wide_occluded(const global WideNode* nodes, const global TriangleBlock* blocks, float3 origin,
+                          float3 direction, float t_min, float t_max) {
+    if (!is_finite_ray(origin, direction, t_max)) {
+        return false;
+    }
+    t_max = fmin(t_max, FLT_MAX);
+    const WideRay ray = make_wide_ray(origin, direction, t_min);
+    uint stack[WIDE_RAY_STACK_SIZE];
+    uint top = 1;
+    stack[0] = 0;
+    float8 enter;
+    BlockHit hit;
+    while (top != 0) {
+        const uint child = stack[--top];
+        if ((child & NEARLIGHT_LEAF_BIT) == 0) {
+            const global WideNode* node = nodes + child;
+            for (uint met = children_on_ray(&ray, node, t_max, &enter); met != 0; met &= met - 1) {
+                stack[top] = node->child[lowest_bit(met)];
+                prefetch_child(nodes, blocks, stack[top++]);
+            }
+            continue;
+        }
+        const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
+        const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+        for (uint block = first; block <= last; ++block) {
+            if (hit_block(blocks + block, &ray, t_max, &hit) != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Takes over the nearest of the hits in a block; `lanes` were nearer than what was found before.
+LANES_INLINE void keep_nearest(RayHit* best, const BlockHit* hit, uint lanes, uint block) {
+    const float* scales = (const float*)&hit->scale;
+    const float* ts = (const float*)&hit->t;
+    const float* us = (const float*)&hit->u;
+    const float* vs = (const float*)&hit->v;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const uint lane = lowest_bit(lanes);
+        if (ts[lane] < best->t * scales[lane]) {
+            const float inverse = 1.0f / scales[lane];
+            best->t = ts[lane] * inverse;
+            best->u = us[lane] * inverse;
+            best->v = vs[lane] * inverse;
+            best->slot = block * NEARLIGHT_BLOCK_TRIANGLES + lane;
+        }
+    }
+}
+
+/// A child that is yet to be visited: its distance in the upper half, so that the nearest compare least.
+typedef ulong RayVisit;
+
+/// The closest hit strictly inside (t_min, t_max): slot is 4 · block + column, or ~0u if there is none.
+inline RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
+                               float3 origin, float3 direction, float t_min, float t_max) {
+    RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
+    if (!is_finite_ray(origin, direction, t_max)) {
+        return best;
+    }
+    const WideRay ray = make_wide_ray(origin, direction, t_min);
+    RayVisit stack[WIDE_RAY_STACK_SIZE];
+    uint top = 1;
+    stack[0] = 0;
+    float8 enter;
+    BlockHit hit;
+    while (top != 0) {
+        const RayVisit visit = stack[--top];
+        const uint child = (uint)visit;
+        if (as_float((uint)(visit >> 32)) > best.t) {
+            continue;
+        }
+        if ((child & NEARLIGHT_LEAF_BIT) == 0) {
+            const global WideNode* node = nodes + child;
+            const uint base = top;
+            for (uint met = children_on_ray(&ray, node, best.t, &enter); met != 0; met &= met - 1) {
+                const uint lane = lowest_bit(met);
+                prefetch_child(nodes, blocks, node->child[lane]);
+                const RayVisit next =
+                    ((ulong)as_uint(((const float*)&enter)[lane]) << 32) | node->child[lane];
+                uint at = top++;
+                for (; at > base && stack[at - 1] < next; --at) {
+                    stack[at] = stack[at - 1];
+                }
+                stack[at] = next;
+            }
+            continue;
+        }
+        const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
+        const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+        for (uint block = first; block <= last; ++block) {
+            const uint lanes = hit_block(blocks + block, &ray, best.t, &hit);
+            if (lanes != 0) {
+                keep_nearest(&best, &hit, lanes, block);
+            }
+        }
+    }
+    return best;
+}
+
+#endif
+#endif
