@@ -14,6 +14,9 @@
 
 #define WIDE_RAY_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + 1)
 
+// Copies in every place that traces a ray would cost a tenth more time to compile, and gain nothing.
+#define ONCE_A_PROGRAM __attribute__((noinline))
+
 typedef struct WideRay {
     float3 origin, direction;
     float3 by;     // reciprocals of the direction, neither 0 nor infinite
@@ -91,106 +94,150 @@ LANES_INLINE uint hit_block(const global TriangleBlock* block, const WideRay* ra
                       (hit->t < t_max * hit->scale));
 }
 
+LANES_INLINE uint first_block(uint leaf) {
+    return leaf & NEARLIGHT_LEAF_FIRST_MASK;
+}
+LANES_INLINE uint last_block(uint leaf) {
+    return first_block(leaf) + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+}
+
+LANES_INLINE bool leaf_occludes(const global TriangleBlock* blocks, uint leaf, const WideRay* ray,
+                                float t_max) {
+    BlockHit ignored;
+    for (uint block = first_block(leaf); block <= last_block(leaf); ++block) {
+        if (hit_block(blocks + block, ray, t_max, &ignored) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// True if anything lies on the ray strictly inside (t_min, t_max).
-inline bool wide_occluded(const global WideNode* nodes, const global TriangleBlock* blocks, float3 origin,
-                          float3 direction, float t_min, float t_max) {
+ONCE_A_PROGRAM bool wide_occluded(const global WideNode* nodes, const global TriangleBlock* blocks,
+                                  float3 origin, float3 direction, float t_min, float t_max) {
     if (!is_finite_ray(origin, direction, t_max)) {
         return false;
     }
     t_max = fmin(t_max, FLT_MAX);
     const WideRay ray = make_wide_ray(origin, direction, t_min);
     uint stack[WIDE_RAY_STACK_SIZE];
-    uint top = 1;
-    stack[0] = 0;
-    float8 enter;
-    BlockHit hit;
-    while (top != 0) {
-        const uint child = stack[--top];
+    uint top = 0;
+    uint child = 0;
+    float8 ignored;
+    for (;;) {
         if ((child & NEARLIGHT_LEAF_BIT) == 0) {
             const global WideNode* node = nodes + child;
-            for (uint met = children_on_ray(&ray, node, t_max, &enter); met != 0; met &= met - 1) {
-                stack[top] = node->child[lowest_bit(met)];
-                prefetch_child(nodes, blocks, stack[top++]);
+            uint met = children_on_ray(&ray, node, t_max, &ignored);
+            if (met != 0) {
+                // The last is the largest, which is likeliest to occlude.
+                child = node->child[lowest_bit(met)];
+                for (met &= met - 1; met != 0; met &= met - 1) {
+                    stack[top++] = child;
+                    child = node->child[lowest_bit(met)];
+                    prefetch_child(nodes, blocks, child);
+                }
+                continue;
             }
-            continue;
+        } else if (leaf_occludes(blocks, child, &ray, t_max)) {
+            return true;
         }
-        const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
-        const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-        for (uint block = first; block <= last; ++block) {
-            if (hit_block(blocks + block, &ray, t_max, &hit) != 0) {
-                return true;
-            }
+        if (top == 0) {
+            return false;
         }
-    }
-    return false;
-}
-
-/// Takes over the nearest of the hits in a block; `lanes` were nearer than what was found before.
-LANES_INLINE void keep_nearest(RayHit* best, const BlockHit* hit, uint lanes, uint block) {
-    const float* scales = (const float*)&hit->scale;
-    const float* ts = (const float*)&hit->t;
-    const float* us = (const float*)&hit->u;
-    const float* vs = (const float*)&hit->v;
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const uint lane = lowest_bit(lanes);
-        if (ts[lane] < best->t * scales[lane]) {
-            const float inverse = 1.0f / scales[lane];
-            best->t = ts[lane] * inverse;
-            best->u = us[lane] * inverse;
-            best->v = vs[lane] * inverse;
-            best->slot = block * NEARLIGHT_BLOCK_TRIANGLES + lane;
-        }
+        child = stack[--top];
     }
 }
 
-/// A child that is yet to be visited: its distance in the upper half, so that the nearest compare least.
+/// Takes over those hits in a leaf that are nearer than `best`, one after the other.
+LANES_INLINE void keep_nearest(const global TriangleBlock* blocks, uint leaf, const WideRay* ray,
+                               RayHit* best) {
+    BlockHit hit;
+    for (uint block = first_block(leaf); block <= last_block(leaf); ++block) {
+        for (uint met = hit_block(blocks + block, ray, best->t, &hit); met != 0; met &= met - 1) {
+            const uint column = lowest_bit(met);
+            const float scale = ((const float*)&hit.scale)[column];
+            const float t = ((const float*)&hit.t)[column];
+            if (t < best->t * scale) {
+                const float inverse = 1.0f / scale;
+                best->t = t * inverse;
+                best->u = ((const float*)&hit.u)[column] * inverse;
+                best->v = ((const float*)&hit.v)[column] * inverse;
+                best->slot = block * NEARLIGHT_BLOCK_TRIANGLES + column;
+            }
+        }
+    }
+}
+
+/// A child to be visited: its distance in the upper half, so that the nearest is the least.
 typedef ulong RayVisit;
+LANES_INLINE RayVisit make_visit(float enter, uint child) {
+    return (ulong)as_uint(enter) << 32 | child;
+}
+LANES_INLINE float enter_of(RayVisit visit) {
+    return as_float((uint)(visit >> 32));
+}
+
+/// The nearest child of those in `met`, of which there are some; the others are put onto the stack, the
+/// nearer the higher.
+LANES_INLINE uint take_nearest(RayVisit* stack, uint* top, const global WideNode* nodes,
+                               const global TriangleBlock* blocks, const global WideNode* node, uint met,
+                               const float8* enter) {
+    const float* enters = (const float*)enter;
+    const uint slot = lowest_bit(met);
+    met &= met - 1;
+    if (met == 0) {
+        return node->child[slot];
+    }
+    prefetch_child(nodes, blocks, node->child[slot]);
+    RayVisit nearest = make_visit(enters[slot], node->child[slot]);
+    const uint base = *top;
+    for (; met != 0; met &= met - 1) {
+        const uint other_slot = lowest_bit(met);
+        prefetch_child(nodes, blocks, node->child[other_slot]);
+        const RayVisit other = make_visit(enters[other_slot], node->child[other_slot]);
+        const RayVisit farther = max(nearest, other);
+        nearest = min(nearest, other);
+        uint at = (*top)++;
+        for (; at > base && stack[at - 1] < farther; --at) {
+            stack[at] = stack[at - 1];
+        }
+        stack[at] = farther;
+    }
+    return (uint)nearest;
+}
 
 /// The closest hit strictly inside (t_min, t_max): slot is 4 · block + column, or ~0u if there is none.
-inline RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
-                               float3 origin, float3 direction, float t_min, float t_max) {
+ONCE_A_PROGRAM RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
+                                       float3 origin, float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
     if (!is_finite_ray(origin, direction, t_max)) {
         return best;
     }
     const WideRay ray = make_wide_ray(origin, direction, t_min);
     RayVisit stack[WIDE_RAY_STACK_SIZE];
-    uint top = 1;
-    stack[0] = 0;
+    uint top = 0;
+    uint child = 0;
     float8 enter;
-    BlockHit hit;
-    while (top != 0) {
-        const RayVisit visit = stack[--top];
-        const uint child = (uint)visit;
-        if (as_float((uint)(visit >> 32)) > best.t) {
-            continue;
-        }
+    for (;;) {
         if ((child & NEARLIGHT_LEAF_BIT) == 0) {
             const global WideNode* node = nodes + child;
-            const uint base = top;
-            for (uint met = children_on_ray(&ray, node, best.t, &enter); met != 0; met &= met - 1) {
-                const uint lane = lowest_bit(met);
-                prefetch_child(nodes, blocks, node->child[lane]);
-                const RayVisit next =
-                    ((ulong)as_uint(((const float*)&enter)[lane]) << 32) | node->child[lane];
-                uint at = top++;
-                for (; at > base && stack[at - 1] < next; --at) {
-                    stack[at] = stack[at - 1];
-                }
-                stack[at] = next;
+            const uint met = children_on_ray(&ray, node, best.t, &enter);
+            if (met != 0) {
+                child = take_nearest(stack, &top, nodes, blocks, node, met, &enter);
+                continue;
             }
-            continue;
+        } else {
+            keep_nearest(blocks, child, &ray, &best);
         }
-        const uint first = child & NEARLIGHT_LEAF_FIRST_MASK;
-        const uint last = first + ((child >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-        for (uint block = first; block <= last; ++block) {
-            const uint lanes = hit_block(blocks + block, &ray, best.t, &hit);
-            if (lanes != 0) {
-                keep_nearest(&best, &hit, lanes, block);
+        RayVisit visit;
+        do {
+            if (top == 0) {
+                return best;
             }
-        }
+            visit = stack[--top];
+        } while (enter_of(visit) > best.t);
+        child = (uint)visit;
     }
-    return best;
 }
 
 #endif
