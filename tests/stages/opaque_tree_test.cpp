@@ -65,7 +65,7 @@ TEST_F(OpaqueTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
     });
 }
 
-TEST_F(OpaqueTreeTest, PacketsRefuseOneThatIsNotWide) {
+TEST_F(OpaqueTreeTest, KernelsRefuseOneOfTheOtherShape) {
     on_each_device([&](Device& device) {
         DeviceTree tree = upload_both_trees(device, data_.bvh);
         tree.wide_nodes = {};
@@ -75,6 +75,8 @@ TEST_F(OpaqueTreeTest, PacketsRefuseOneThatIsNotWide) {
         const GatherInput input{tree, vpls, vpls.count(), receivers, receivers.count(), data_.clamp_radius};
         EXPECT_THROW(Gatherer(device, {GatherKernel::packets}).gather(input, irradiance), Error);
         EXPECT_TRUE(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance));
+        tree.nodes = {};
+        EXPECT_THROW(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance), Error);
     });
 }
 
