@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casts given rays: the traversal of lib/bvh_traverse.cl by itself, so that it can be compared with other ray
+// Casts given rays: the traversal of lib/ray_tree.cl by itself, so that it can be compared with other ray
 // casters ray by ray.
 //
 // One work-item a ray, independent of each other; any work-group size.
 
-#include "lib/bvh_traverse.cl"
+#include "lib/ray_tree.cl"
 
-kernel void cast_closest(const global BvhNode* restrict nodes, const global BvhTriangle* restrict triangles,
-                         const global RayQuery* restrict rays, uint ray_count, global RayHit* restrict hits) {
+kernel void cast_closest(const global TreeNode* restrict nodes,
+                         const global TreeTriangles* restrict triangles, const global RayQuery* restrict rays,
+                         uint ray_count, global RayHit* restrict hits) {
     const uint index = (uint)get_global_id(0);
     if (index >= ray_count) {
         return;
     }
     const RayQuery ray = rays[index];
     hits[index] =
-        closest_hit(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max);
+        tree_closest_hit(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max);
 }
 
 /// is_occluded: 1 where the ray meets anything.
-kernel void cast_any(const global BvhNode* restrict nodes, const global BvhTriangle* restrict triangles,
+kernel void cast_any(const global TreeNode* restrict nodes, const global TreeTriangles* restrict triangles,
                      const global RayQuery* restrict rays, uint ray_count,
                      global uint* restrict is_occluded) {
     const uint index = (uint)get_global_id(0);
@@ -27,5 +28,6 @@ kernel void cast_any(const global BvhNode* restrict nodes, const global BvhTrian
     }
     const RayQuery ray = rays[index];
     is_occluded[index] =
-        occluded(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max) ? 1 : 0;
+        tree_occluded(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max) ? 1
+                                                                                                       : 0;
 }

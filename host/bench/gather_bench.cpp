@@ -21,10 +21,11 @@ struct Tracer {
     std::function<TracerAnswer()> answer;
 };
 
-/// The set on the device, for all our kernels in turn.
+/// The set on the device, for a kernel of ours or (automatic) for each in turn.
 struct DeviceSegments {
     DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh, GatherKernel kernel)
-        : tree(upload_tree(device, bvh, kernel)),
+        : tree(kernel == GatherKernel::automatic ? upload_both_trees(device, bvh)
+                                                 : upload_tree(device, bvh, kernel)),
           vpls(device, segments.vpls),
           receivers(device, segments.receivers),
           irradiance(device, segments.receivers.size()),
@@ -89,10 +90,7 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
         tracers.push_back(
             make_embree_tracer(embree, segments, mode, config.threads > 0 ? config.threads : cores));
     }
-    // A tree for packets serves both kernels.
-    const bool rays_only = config.kernel == GatherKernel::rays;
-    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh,
-                                                      rays_only ? GatherKernel::rays : GatherKernel::packets);
+    const auto job = std::make_shared<DeviceSegments>(device, segments, bvh, config.kernel);
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
         if (config.kernel == GatherKernel::automatic || config.kernel == kernel) {
             tracers.push_back(make_own_tracer(device, job, kernel, 0.0f));

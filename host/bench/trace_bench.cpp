@@ -40,21 +40,19 @@ std::size_t count_differing(std::span<const float> distances, std::span<const fl
     return count;
 }
 
-/// The tree on the device.
-struct DeviceTree {
-    DeviceTree(Device& on, const Bvh& bvh)
-        : device(&on), caster(on), nodes(on, bvh.nodes), triangles(on, bvh.triangles) {}
+/// What our side needs.
+struct OurTracer {
+    OurTracer(Device& on, const Bvh& bvh) : device(&on), caster(on), tree(upload_ray_tree(on, bvh)) {}
     Device* device;
     RayCaster caster;
-    Buffer<BvhNode> nodes;
-    Buffer<BvhTriangle> triangles;
+    DeviceTree tree;
 };
 
-Contestant ours(DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
+Contestant ours(OurTracer& own, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
     return {"nearlight", [&](std::vector<float>& distances) {
                 const TwoClocks clocks(TwoClocks::Of::process);
-                tree.caster.cast(tree.nodes, tree.triangles, rays, hits);
-                tree.device->finish();
+                own.caster.cast(own.tree, rays, hits);
+                own.device->finish();
                 const Seconds seconds = clocks.seconds();
                 distances.clear();
                 for (const RayHit& hit : hits.download()) {
@@ -100,12 +98,12 @@ std::vector<std::vector<Seconds>> race(const std::vector<Contestant>& contestant
     return runs;
 }
 
-RaySetResult bench_set(DeviceTree& tree, const EmbreeRays& embree, const std::string& name,
+RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::string& name,
                        std::span<const RayQuery> rays, const TraceBenchConfig& config) {
-    const Buffer<RayQuery> on_device(*tree.device, rays);
-    Buffer<RayHit> hits(*tree.device, rays.size());
+    const Buffer<RayQuery> on_device(*own.device, rays);
+    Buffer<RayHit> hits(*own.device, rays.size());
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<Contestant> contestants{ours(tree, on_device, hits)};
+    std::vector<Contestant> contestants{ours(own, on_device, hits)};
     std::ranges::move(embrees(embree, rays, config.threads > 0 ? config.threads : cores),
                       std::back_inserter(contestants));
     RaySetResult result{.name = name, .rays = rays.size(), .hits = 0, .tracers = {}, .best = {}};
@@ -117,7 +115,7 @@ RaySetResult bench_set(DeviceTree& tree, const EmbreeRays& embree, const std::st
     result.best = result.tracers[best].name;
     result.ratio = ratio(runs[best], runs[0], &Seconds::wall).median;
     result.ratio_processor =
-        tree.device->is_cpu() ? ratio(runs[best], runs[0], &Seconds::processor).median : 0.0;
+        own.device->is_cpu() ? ratio(runs[best], runs[0], &Seconds::processor).median : 0.0;
     const auto most = std::max(1.0, kMostDiffering * static_cast<double>(rays.size()));
     result.agrees = static_cast<double>(result.tracers[0].differing) <= most;
     return result;
@@ -128,10 +126,10 @@ RaySetResult bench_set(DeviceTree& tree, const EmbreeRays& embree, const std::st
 TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenchConfig& config) {
     const Bvh bvh = build_scene_bvhs(scene).opaque;
     const std::vector<uint> ids = distinct_triangles(bvh);
-    DeviceTree tree(device, bvh);
+    OurTracer own(device, bvh);
     const EmbreeRays embree(scene, ids);
     const auto bench = [&](const std::string& name, const std::vector<RayQuery>& rays) {
-        return bench_set(tree, embree, name, rays, config);
+        return bench_set(own, embree, name, rays, config);
     };
     return {.device = device.name(),
             .triangles = ids.size(),

@@ -43,6 +43,7 @@ class Widener {
     Widener(const CollapsePlan& plan, uint triangle_count) : plan_(plan) {
         wide_.nodes.reserve(triangle_count / 8 + 1);
         wide_.blocks.reserve(triangle_count / 3 + 1);
+        wide_.triangle_ids.reserve(NEARLIGHT_BLOCK_TRIANGLES * (triangle_count / 3 + 1));
     }
 
     /// Reference to what stands for the binary one.
@@ -78,11 +79,15 @@ class Widener {
             return;
         }
         for (uint i = 0; i < leaf_count(reference); ++i) {
-            const BvhTriangle& triangle = plan_.bvh().triangles[leaf_first(reference) + i];
+            const uint slot = leaf_first(reference) + i;
+            const BvhTriangle& triangle = plan_.bvh().triangles[slot];
             const std::size_t column = count++ % NEARLIGHT_BLOCK_TRIANGLES;
             if (column == 0) {
                 wide_.blocks.emplace_back();
+                wide_.triangle_ids.resize(wide_.triangle_ids.size() + NEARLIGHT_BLOCK_TRIANGLES, ~0u);
             }
+            wide_.triangle_ids[wide_.triangle_ids.size() - NEARLIGHT_BLOCK_TRIANGLES + column] =
+                plan_.bvh().triangle_ids[slot];
             TriangleBlock& block = wide_.blocks.back();
             put(block.v0, column, triangle.v0);
             put(block.edge1, column, triangle.edge1);
@@ -137,7 +142,10 @@ void copy_part(const Part& part, std::span<const Part> parts, WideBvh& wide) {
         }
         wide.nodes[part.node_offset + i] = node;
     }
-    std::ranges::copy(part.made.blocks, wide.blocks.begin() + static_cast<std::ptrdiff_t>(part.block_offset));
+    const auto first_block = static_cast<std::ptrdiff_t>(part.block_offset);
+    std::ranges::copy(part.made.blocks, wide.blocks.begin() + first_block);
+    std::ranges::copy(part.made.triangle_ids,
+                      wide.triangle_ids.begin() + NEARLIGHT_BLOCK_TRIANGLES * first_block);
 }
 
 template <typename Body>
@@ -172,6 +180,7 @@ WideBvh widen(const Bvh& bvh) {
     WideBvh wide;
     wide.nodes.resize(node_count);
     wide.blocks.resize(block_count);
+    wide.triangle_ids.resize(NEARLIGHT_BLOCK_TRIANGLES * block_count);
     for_each_part(parts, [&](const Part& part) { copy_part(part, parts, wide); });
     return wide;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree for packets of rays: eight children a node, triangles in blocks of four.
+// The tree for CPUs: eight children a node, triangles in blocks of four.
 #pragma once
 
 #include <string>
@@ -13,6 +13,8 @@ namespace nearlight {
 struct WideBvh {
     std::vector<WideNode> nodes;  ///< at least one; node 0 is the root
     std::vector<TriangleBlock> blocks;
+    /// Index in Scene::triangles of each column of each block, 4 · block + column; ~0u where there is none.
+    std::vector<uint> triangle_ids;
 };
 
 /// Collapses a binary tree at the least cost (collapse_plan.h). Children stand by growing surface, so that a

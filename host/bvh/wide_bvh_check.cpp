@@ -9,12 +9,13 @@
 namespace nearlight {
 namespace {
 
-/// v0, edge1 and edge2, to be sorted and compared.
-using Corners = std::array<float, 9>;
+/// Which triangle, its v0, edge1 and edge2: to be sorted and compared.
+using Corners = std::pair<uint, std::array<float, 9>>;
 
-Corners corners_of(const BvhTriangle& triangle) {
-    return {triangle.v0.x,    triangle.v0.y,    triangle.v0.z,    triangle.edge1.x, triangle.edge1.y,
-            triangle.edge1.z, triangle.edge2.x, triangle.edge2.y, triangle.edge2.z};
+Corners corners_of(uint id, const BvhTriangle& triangle) {
+    return {id,
+            {triangle.v0.x, triangle.v0.y, triangle.v0.z, triangle.edge1.x, triangle.edge1.y,
+             triangle.edge1.z, triangle.edge2.x, triangle.edge2.y, triangle.edge2.z}};
 }
 
 Vec3 column_of(const float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column) {
@@ -32,8 +33,11 @@ class WideChecker {
         if (wide_.nodes.empty()) {
             return {"there is no node"};
         }
-        for (const BvhTriangle& triangle : bvh_.triangles) {
-            wanted_.push_back(corners_of(triangle));
+        if (wide_.triangle_ids.size() != NEARLIGHT_BLOCK_TRIANGLES * wide_.blocks.size()) {
+            return {"there are not as many triangle ids as columns of blocks"};
+        }
+        for (std::size_t i = 0; i < bvh_.triangles.size(); ++i) {
+            wanted_.push_back(corners_of(bvh_.triangle_ids[i], bvh_.triangles[i]));
         }
         std::sort(wanted_.begin(), wanted_.end());
         visit_node(0);
@@ -95,10 +99,11 @@ class WideChecker {
                 const Vec3 v0 = column_of(block.v0, column);
                 const Vec3 edge1 = column_of(block.edge1, column);
                 const Vec3 edge2 = column_of(block.edge2, column);
-                if (is_zero(v0) && is_zero(edge1) && is_zero(edge2)) {
+                const uint id = wide_.triangle_ids[NEARLIGHT_BLOCK_TRIANGLES * i + column];
+                if (id == ~0u && is_zero(v0) && is_zero(edge1) && is_zero(edge2)) {
                     continue;  // no triangle
                 }
-                found_.push_back(corners_of({v0, edge1, edge2, {}}));
+                found_.push_back(corners_of(id, {v0, edge1, edge2, {}}));
                 if (stands_once(found_.back())) {
                     // The sums may be rounded away from the vertices; the middle is well inside.
                     box.extend(v0 + (edge1 + edge2) * (1.0f / 3.0f));

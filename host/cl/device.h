@@ -7,6 +7,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host/cl/device_list.h"
@@ -22,6 +23,8 @@ struct DeviceOptions {
     std::filesystem::path kernel_dir;
     /// Compiled programs and tunables are kept here; empty: default_cache_dir(). "none" keeps nothing.
     std::filesystem::path cache_dir;
+    /// Single rays go through the wide tree; unset: on CPUs. (The other form is for tests and comparisons.)
+    std::optional<bool> wide_rays{};
     /// Compiles for this device; empty: one of its own. Devices of a kind that share one compile once.
     std::shared_ptr<ProgramCompiler> compiler{};
 };
@@ -40,6 +43,8 @@ class Device {
     [[nodiscard]] const DeviceEntry& entry() const { return entry_; }
     [[nodiscard]] const std::string& name() const { return entry_.name; }
     [[nodiscard]] bool is_cpu() const { return entry_.kind == DeviceKind::cpu; }
+    /// Which tree kernels take that trace one ray (kernels/lib/ray_tree.cl).
+    [[nodiscard]] bool has_wide_rays() const { return options_.wide_rays.value_or(is_cpu()); }
     [[nodiscard]] const DeviceOptions& options() const { return options_; }
     [[nodiscard]] const cl::Context& context() const { return context_; }
     [[nodiscard]] const cl::CommandQueue& queue() const { return queue_; }

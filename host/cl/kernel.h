@@ -48,6 +48,10 @@ class Kernel {
   private:
     template <typename T>
     void set_arguments(cl_uint& index, const Buffer<T>& buffer) {
+        if (buffer.handle()() == nullptr) {
+            throw Error(ExitCode::runtime, "kernel " + name_ + ": argument " + std::to_string(index) +
+                                               " is a buffer that was never made; upload what it needs");
+        }
         handle_->setArg(index++, buffer.handle());
     }
     /// Something that stands for several buffers, such as a DeviceScene: it visits them in the kernel's

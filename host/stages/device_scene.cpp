@@ -89,10 +89,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
         return Buffer<T>(device, std::span<const T>(values));
     };
     on_device.tree = upload_tree(device, bvhs.opaque, kernel);
-    on_device.triangle_ids = put(bvhs.opaque.triangle_ids);
-    on_device.glass_nodes = put(bvhs.glass.nodes);
-    on_device.glass_triangles = put(bvhs.glass.triangles);
-    on_device.glass_ids = put(bvhs.glass.triangle_ids);
+    on_device.glass = upload_ray_tree(device, bvhs.glass);
     on_device.vertices = put(scene.vertices);
     on_device.triangles = put(scene.triangles);
     on_device.materials = put(scene.materials);

@@ -8,11 +8,8 @@
 namespace nearlight {
 
 struct DeviceScene {
-    OpaqueTree tree;
-    Buffer<uint> triangle_ids;  ///< of the tree
-    Buffer<BvhNode> glass_nodes;
-    Buffer<BvhTriangle> glass_triangles;
-    Buffer<uint> glass_ids;
+    DeviceTree tree;   ///< of opaque surfaces
+    DeviceTree glass;  ///< of what only the camera sees
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
@@ -32,11 +29,10 @@ struct DeviceScene {
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
     double total_area = 0.0;   ///< of all triangles, m²
 
-    /// In the order of SCENE_PARAMETERS, which leave the wide tree out.
+    /// In the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
-        visit(tree.nodes), visit(tree.triangles), visit(triangle_ids);
-        visit(glass_nodes), visit(glass_triangles), visit(glass_ids);
+        visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
         visit(info);

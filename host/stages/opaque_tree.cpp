@@ -4,6 +4,30 @@
 #include "host/bvh/wide_bvh.h"
 
 namespace nearlight {
+namespace {
+
+DeviceTree upload(Device& device, const Bvh& bvh, bool binary, bool wide) {
+    DeviceTree tree;
+    tree.has_wide_rays = device.has_wide_rays();
+    if (wide) {
+        const WideBvh widened = widen(bvh);
+        tree.wide_nodes = {device, widened.nodes};
+        tree.blocks = {device, widened.blocks};
+        if (tree.has_wide_rays) {
+            tree.triangle_ids = {device, widened.triangle_ids};
+        }
+    }
+    if (binary) {
+        tree.nodes = {device, bvh.nodes};
+        tree.triangles = {device, bvh.triangles};
+    }
+    if (!tree.has_wide_rays) {
+        tree.triangle_ids = {device, bvh.triangle_ids};
+    }
+    return tree;
+}
+
+}  // namespace
 
 GatherKernel choose_kernel(GatherKernel kernel, const Device& device) {
     if (kernel == GatherKernel::automatic) {
@@ -12,15 +36,17 @@ GatherKernel choose_kernel(GatherKernel kernel, const Device& device) {
     return kernel;
 }
 
-OpaqueTree upload_tree(Device& device, const Bvh& bvh, GatherKernel kernel) {
-    OpaqueTree tree{
-        .nodes = {device, bvh.nodes}, .triangles = {device, bvh.triangles}, .wide_nodes = {}, .blocks = {}};
-    if (choose_kernel(kernel, device) == GatherKernel::packets) {
-        const WideBvh wide = widen(bvh);
-        tree.wide_nodes = {device, wide.nodes};
-        tree.blocks = {device, wide.blocks};
-    }
-    return tree;
+DeviceTree upload_ray_tree(Device& device, const Bvh& bvh) {
+    return upload(device, bvh, !device.has_wide_rays(), device.has_wide_rays());
+}
+
+DeviceTree upload_tree(Device& device, const Bvh& bvh, GatherKernel kernel) {
+    const bool packets = choose_kernel(kernel, device) == GatherKernel::packets;
+    return upload(device, bvh, !device.has_wide_rays() || !packets, device.has_wide_rays() || packets);
+}
+
+DeviceTree upload_both_trees(Device& device, const Bvh& bvh) {
+    return upload(device, bvh, true, true);
 }
 
 }  // namespace nearlight

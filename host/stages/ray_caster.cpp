@@ -9,30 +9,28 @@ RayCaster::RayCaster(Device& device)
       cast_closest_(program_, "cast_closest"),
       cast_any_(program_, "cast_any") {}
 
-void RayCaster::cast(const Buffer<BvhNode>& nodes, const Buffer<BvhTriangle>& triangles,
-                     const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
-    cast_closest_.launch_items(rays.count(), nodes, triangles, rays, static_cast<uint>(rays.count()), hits);
+void RayCaster::cast(const DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
+    cast_closest_.launch_items(rays.count(), tree, rays, static_cast<uint>(rays.count()), hits);
 }
 
 std::vector<BvhHit> RayCaster::closest_hits(const Bvh& bvh, std::span<const RayQuery> rays) {
-    const Buffer<BvhNode> nodes(*device_, bvh.nodes);
-    const Buffer<BvhTriangle> triangles(*device_, bvh.triangles);
+    const DeviceTree tree = upload_ray_tree(*device_, bvh);
     const Buffer<RayQuery> queries(*device_, rays);
     Buffer<RayHit> found(*device_, rays.size());
-    cast(nodes, triangles, queries, found);
+    cast(tree, queries, found);
+    const std::vector<uint> triangle_ids = tree.triangle_ids.download();
     std::vector<BvhHit> hits;
     for (const RayHit& hit : found.download()) {
-        hits.push_back(hit.slot == ~0u ? BvhHit{} : BvhHit{hit.t, hit.u, hit.v, bvh.triangle_ids[hit.slot]});
+        hits.push_back(hit.slot == ~0u ? BvhHit{} : BvhHit{hit.t, hit.u, hit.v, triangle_ids[hit.slot]});
     }
     return hits;
 }
 
 std::vector<uint> RayCaster::any_hits(const Bvh& bvh, std::span<const RayQuery> rays) {
-    const Buffer<BvhNode> nodes(*device_, bvh.nodes);
-    const Buffer<BvhTriangle> triangles(*device_, bvh.triangles);
+    const DeviceTree tree = upload_ray_tree(*device_, bvh);
     const Buffer<RayQuery> queries(*device_, rays);
     const Buffer<uint> occluded(*device_, rays.size());
-    cast_any_.launch_items(rays.size(), nodes, triangles, queries, static_cast<uint>(rays.size()), occluded);
+    cast_any_.launch_items(rays.size(), tree, queries, static_cast<uint>(rays.size()), occluded);
     return occluded.download();
 }
 

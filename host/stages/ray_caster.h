@@ -8,6 +8,7 @@
 #include "host/bvh/bvh.h"
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
+#include "host/stages/opaque_tree.h"
 
 namespace nearlight {
 
@@ -16,8 +17,7 @@ class RayCaster {
     explicit RayCaster(Device& device);
 
     /// Enqueues: for each ray the closest hit.
-    void cast(const Buffer<BvhNode>& nodes, const Buffer<BvhTriangle>& triangles,
-              const Buffer<RayQuery>& rays, Buffer<RayHit>& hits);
+    void cast(const DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits);
     /// For each ray the closest hit (triangle ~0u: none). Uploads the tree anew; waits for the device.
     std::vector<BvhHit> closest_hits(const Bvh& bvh, std::span<const RayQuery> rays);
     /// For each ray 1 if it hits anything, else 0.

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the shared BVH by one ray: any hit and closest hit.
+// Traversal of the binary tree by one ray: any hit and closest hit.
 //
-// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so it cannot overflow. Directions are kept
-// away from zero, so the slab test meets no 0·∞; NaN in a ray makes every comparison false, so it hits
-// nothing.
+// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so it cannot overflow. NaN in a ray makes
+// every comparison false, so it hits nothing.
 #ifndef NEARLIGHT_LIB_BVH_TRAVERSE
 #define NEARLIGHT_LIB_BVH_TRAVERSE
 
-#include "lib/math.cl"
-
-inline float away_from_zero(float x) {
-    return fabs(x) < 1e-20f ? copysign(1e-20f, x) : x;
-}
-inline float3 safe_reciprocal(float3 d) {
-    return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
-}
-
-/// A ray with NaN or infinity in it (other than an infinite t_max) hits nothing; without this test it would
-/// visit every node, for fmin and fmax pass over NaN.
-inline bool is_finite_ray(float3 origin, float3 direction, float t_max) {
-    return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z) &&
-           !isnan(t_max);
-}
+#include "lib/ray.cl"
 
 /// Entry distance of the ray into the box, or infinity if it misses; t_max is finite, so the two differ.
 inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min,

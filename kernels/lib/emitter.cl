@@ -182,7 +182,7 @@ inline float3 environment_irradiance(const SceneView* scene, float3 x, float3 n,
     }
     const float cosine = dot(n, direction);
     if (!(cosine > 0.0f) || is_black(radiance) ||
-        occluded(scene->nodes, scene->bvh_triangles, x, direction, 0.0f, INFINITY)) {
+        tree_occluded(scene->nodes, scene->tree_triangles, x, direction, 0.0f, INFINITY)) {
         return (float3)(0.0f);
     }
     return radiance * (cosine / (0.5f * (cosine / M_PI_F + table_pdf)));

@@ -7,10 +7,6 @@
 
 #include "lib/segments.cl"
 
-typedef struct Axis4 {
-    float4 x, y, z;
-} Axis4;
-
 /// For each triangle of a block, which are turned towards the origin so that the sign of t is the same for
 /// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
 /// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its
@@ -28,14 +24,6 @@ typedef struct LeafVisit {
 // Lanes of a group, at most, that are tested one after the other.
 #define FEW_LANES 8
 
-LANES_INLINE Axis4 load_axis(const global float* rows) {
-    const Axis4 axis = {vload4(0, rows), vload4(1, rows), vload4(2, rows)};
-    return axis;
-}
-LANES_INLINE Axis4 cross4(Axis4 a, Axis4 b) {
-    const Axis4 axis = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    return axis;
-}
 LANES_INLINE Axis4 minus4(Axis4 a, Axis4 b) {
     const Axis4 axis = {a.x - b.x, a.y - b.y, a.z - b.z};
     return axis;

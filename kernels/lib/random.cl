@@ -44,24 +44,24 @@ inline uint owen_scramble(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-/// Second coordinate of the (0, 2)-sequence of Sobol'; the first is reverse_bits(index).
-inline uint sobol_second(uint index) {
-    uint result = 0;
-    for (uint v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
-        if (index & 1u) {
-            result ^= v;
-        }
-    }
-    return result;
+/// Second coordinate of the (0, 2)-sequence of Sobol' from the first, which is reverse_bits(index). Its
+/// matrix is Pascal's triangle modulo 2, where binomial (k, j) is odd if all bits of j are set in k: so each
+/// bit of a position is a step by itself.
+inline uint sobol_second(uint first) {
+    first ^= (first << 1) & 0xaaaaaaaau;
+    first ^= (first << 2) & 0xccccccccu;
+    first ^= (first << 4) & 0xf0f0f0f0u;
+    first ^= (first << 8) & 0xff00ff00u;
+    return first ^ (first << 16);
 }
 
 /// Point `index` of a randomised (0, 2)-sequence. Different `dimension`s are independent of each other: the
 /// sequence is shuffled and scrambled anew for each, so that any number of them can be put side by side.
 inline float2 sample_2d(uint index, uint dimension, uint seed) {
     const uint4 keys = random_uint4((uint4)(dimension, seed, 0x9e3779b9u, 0x7f4a7c15u));
-    const uint shuffled = owen_scramble(index, keys.x);
-    return (float2)(to_unit_float(owen_scramble(reverse_bits(shuffled), keys.y)),
-                    to_unit_float(owen_scramble(sobol_second(shuffled), keys.z)));
+    const uint first = reverse_bits(owen_scramble(index, keys.x));
+    return (float2)(to_unit_float(owen_scramble(first, keys.y)),
+                    to_unit_float(owen_scramble(sobol_second(first), keys.z)));
 }
 
 #endif

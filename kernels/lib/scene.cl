@@ -6,12 +6,12 @@
 #ifndef NEARLIGHT_LIB_SCENE
 #define NEARLIGHT_LIB_SCENE
 
-#include "lib/bvh_traverse.cl"
+#include "lib/ray_tree.cl"
 
 #define SCENE_PARAMETERS                                                                                     \
-    const global BvhNode *restrict scene_nodes, const global BvhTriangle *restrict scene_bvh_triangles,      \
-        const global uint *restrict scene_triangle_ids, const global BvhNode *restrict scene_glass_nodes,    \
-        const global BvhTriangle *restrict scene_glass_triangles,                                            \
+    const global TreeNode *restrict scene_nodes, const global TreeTriangles *restrict scene_tree_triangles,  \
+        const global uint *restrict scene_triangle_ids, const global TreeNode *restrict scene_glass_nodes,   \
+        const global TreeTriangles *restrict scene_glass_triangles,                                          \
         const global uint *restrict scene_glass_ids, const global Vertex *restrict scene_vertices,           \
         const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,    \
         const global Texture *restrict scene_textures, const global uint *restrict scene_texels,             \
@@ -20,18 +20,18 @@
         const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
 #define SCENE_VIEW                                                                                           \
     {                                                                                                        \
-        scene_nodes, scene_bvh_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,      \
+        scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,     \
             scene_glass_ids, scene_vertices, scene_triangles, scene_materials, scene_textures, scene_texels, \
             scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf,    \
             scene_info                                                                                       \
     }
 
 typedef struct SceneView {
-    const global BvhNode* nodes;  // opaque
-    const global BvhTriangle* bvh_triangles;
-    const global uint* triangle_ids;  // of a BVH slot, in `triangles`
-    const global BvhNode* glass_nodes;
-    const global BvhTriangle* glass_triangles;
+    const global TreeNode* nodes;  // opaque
+    const global TreeTriangles* tree_triangles;
+    const global uint* triangle_ids;  // of a slot of the tree, in `triangles`
+    const global TreeNode* glass_nodes;
+    const global TreeTriangles* glass_triangles;
     const global uint* glass_ids;
     const global Vertex* vertices;
     const global Triangle* triangles;
@@ -58,18 +58,20 @@ typedef struct SurfaceHit {
     uint front;  // 1: the ray met the front
 } SurfaceHit;
 
-inline SurfaceHit make_surface_hit(const SceneView* scene, const global BvhTriangle* bvh_triangle,
-                                   uint triangle_id, float3 direction, float t, float u, float v) {
+inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* of_tree, uint triangle_id,
+                                   float3 direction, RayHit ray_hit) {
     SurfaceHit hit;
+    const float u = ray_hit.u;
+    const float v = ray_hit.v;
     const Triangle triangle = scene->triangles[triangle_id];
     const global Vertex* a = scene->vertices + triangle.v0;
     const global Vertex* b = scene->vertices + triangle.v1;
     const global Vertex* c = scene->vertices + triangle.v2;
     const float w = 1.0f - u - v;
-    hit.t = t;
+    hit.t = ray_hit.t;
     // From the triangle, not from the ray: as exact as the vertices are.
-    hit.position = load3(bvh_triangle->v0) + u * load3(bvh_triangle->edge1) + v * load3(bvh_triangle->edge2);
-    const float3 normal = normalize(load3(bvh_triangle->normal));
+    hit.position = of_tree->v0 + u * of_tree->edge1 + v * of_tree->edge2;
+    const float3 normal = normalize(of_tree->normal);
     hit.front = dot(normal, direction) < 0.0f;
     hit.geometric = hit.front ? normal : -normal;
     const float3 interpolated = w * load3(a->normal) + u * load3(b->normal) + v * load3(c->normal);
@@ -82,42 +84,47 @@ inline SurfaceHit make_surface_hit(const SceneView* scene, const global BvhTrian
     return hit;
 }
 
+inline SurfaceHit no_surface(void) {
+    SurfaceHit none;
+    none.t = -1.0f;
+    return none;
+}
+
 /// The nearest opaque surface.
 inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 direction, float t_max) {
-    const RayHit hit = closest_hit(scene->nodes, scene->bvh_triangles, origin, direction, 0.0f, t_max);
+    const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, 0.0f, t_max);
     if (hit.slot == ~0u) {
-        SurfaceHit none;
-        none.t = -1.0f;
-        return none;
+        return no_surface();
     }
-    return make_surface_hit(scene, scene->bvh_triangles + hit.slot, scene->triangle_ids[hit.slot], direction,
-                            hit.t, hit.u, hit.v);
+    const TreeTriangle triangle = tree_triangle(scene->tree_triangles, hit.slot);
+    return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
 }
 
 /// The nearest surface, glass included: for camera paths only.
 inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 direction) {
-    const RayHit opaque = closest_hit(scene->nodes, scene->bvh_triangles, origin, direction, 0.0f, INFINITY);
+    const global TreeTriangles* triangles = scene->tree_triangles;
+    const global uint* ids = scene->triangle_ids;
+    RayHit hit = tree_closest_hit(scene->nodes, triangles, origin, direction, 0.0f, INFINITY);
     if (scene->info->has_glass) {
         const RayHit glass =
-            closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, 0.0f, opaque.t);
+            tree_closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, 0.0f, hit.t);
         if (glass.slot != ~0u) {
-            return make_surface_hit(scene, scene->glass_triangles + glass.slot, scene->glass_ids[glass.slot],
-                                    direction, glass.t, glass.u, glass.v);
+            hit = glass;
+            triangles = scene->glass_triangles;
+            ids = scene->glass_ids;
         }
     }
-    if (opaque.slot == ~0u) {
-        SurfaceHit none;
-        none.t = -1.0f;
-        return none;
+    if (hit.slot == ~0u) {
+        return no_surface();
     }
-    return make_surface_hit(scene, scene->bvh_triangles + opaque.slot, scene->triangle_ids[opaque.slot],
-                            direction, opaque.t, opaque.u, opaque.v);
+    const TreeTriangle triangle = tree_triangle(triangles, hit.slot);
+    return make_surface_hit(scene, &triangle, ids[hit.slot], direction, hit);
 }
 
 /// True if no opaque surface lies between two points that both stand off their surfaces.
 inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
-    return !occluded(scene->nodes, scene->bvh_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN,
-                     NEARLIGHT_SEGMENT_T_MAX);
+    return !tree_occluded(scene->nodes, scene->tree_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN,
+                          NEARLIGHT_SEGMENT_T_MAX);
 }
 
 inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {

@@ -4,8 +4,9 @@
 #ifndef NEARLIGHT_LIB_SHAFT
 #define NEARLIGHT_LIB_SHAFT
 
-#include "lib/bvh_traverse.cl"
 #include "lib/packet_receivers.cl"
+#include "lib/ray.cl"
+#include "lib/wide_tree.cl"
 
 /// Bounds keep so far outside of what they bound, relatively: several roundings.
 #define SHAFT_SLACK 4e-7f
@@ -36,9 +37,6 @@ typedef struct ChildPlanes {
 typedef struct Planes {
     float x0, x1, y0, y1, z0, z1;
 } Planes;
-
-// Floats from a lower plane of a WideNode to the upper one.
-#define WIDE_UPPER (3 * NEARLIGHT_WIDE_CHILDREN)
 
 /// What holds the segments from `origin` to everything within the bounds.
 inline void make_shaft(Shaft* shaft, float3 origin, const PacketBounds* bounds) {

@@ -27,14 +27,6 @@ typedef struct Traversal {
     uint leaf_count;
 } Traversal;
 
-/// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
-LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
-                                 uint child) {
-    const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
-    prefetch_lines(leaf ? (const global void*)(blocks + (child & NEARLIGHT_LEAF_FIRST_MASK))
-                        : (const global void*)(nodes + child));
-}
-
 // Both write always and count only what is kept, which costs less than a branch that nobody can predict.
 LANES_INLINE void keep_node(Traversal* work, uint node, uint clusters) {
     const NodeVisit visit = {node, clusters};

@@ -50,9 +50,10 @@ typedef struct BvhTriangle {
     Vec3 normal;
 } BvhTriangle;
 
-/// A node of the wide tree, which packets of rays go through: the boxes of eight children, plane by plane (x,
-/// y, z), so that a vector register holds one plane of all. Node 0 is the root. A child reference is that of
-/// a BvhNode, but a leaf counts and names TriangleBlocks. Where there is no child, low is +∞ and high −∞.
+/// A node of the wide tree, which packets of rays go through, and on CPUs single rays too: the boxes of eight
+/// children, plane by plane (x, y, z), so that a vector register holds one plane of all. Node 0 is the root.
+/// A child reference is that of a BvhNode, but a leaf counts and names TriangleBlocks. Where there is no
+/// child, low is +∞ and high −∞.
 #define NEARLIGHT_WIDE_CHILDREN 8
 typedef struct WideNode {
     float low[3][NEARLIGHT_WIDE_CHILDREN];
@@ -82,7 +83,7 @@ typedef struct RayHit {
     float t;    // t_max where nothing is hit
     float u;    // weight of v1
     float v;    // weight of v2
-    uint slot;  // index into the BvhTriangle array; ~0u: nothing hit
+    uint slot;  // index into the BvhTriangle array, or 4 · block + column of the wide tree; ~0u: nothing hit
 } RayHit;
 
 /// A vertex. A zero normal means: use the triangle's own.

@@ -142,6 +142,11 @@ TEST(WideBvhCheck, SeesWhatIsWrong) {
                 Contains(HasSubstr("reached 0 times")));
     EXPECT_THAT(complaints_after([](WideBvh& wide) { wide.blocks[7].v0[1][0] += 1e-3f; }),
                 Contains(HasSubstr("other triangles")));
+    EXPECT_THAT(
+        complaints_after([](WideBvh& wide) { std::swap(wide.triangle_ids[0], wide.triangle_ids[4]); }),
+        Contains(HasSubstr("other triangles")));
+    EXPECT_THAT(complaints_after([](WideBvh& wide) { wide.triangle_ids.pop_back(); }),
+                Contains(HasSubstr("triangle ids")));
 }
 
 }  // namespace

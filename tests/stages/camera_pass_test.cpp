@@ -86,7 +86,7 @@ Scene open_room() {
 class CameraPassTest : public test::DeviceTest {};
 
 TEST_F(CameraPassTest, PixelCentresFindWhatEmbreeFinds) {
-    on_each_device([](Device& device) {
+    on_each_ray_tree([](Device& device) {
         const Scene scene = open_room();
         Shooting shooting(device, scene, 93, 61, 2.0f);
         const GBuffer found = shooting.shoot_all(1, 1);
@@ -111,7 +111,7 @@ TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
     lamp.emission = {1, 0, 0};
     add_quad(scene, {0.5f, 0.5f, 2}, {0, 0.4f, 0}, {0.4f, 0, 0}, add_material(scene, lamp));
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const GBuffer found = Shooting(device, scene, 16, 16).shoot_all(1, 1);
         // The lamp's middle (0.7, 0.7, 2) is 0.35 from the axis: pixel 8 − 0.35·8 = 5.2 from the left and
         // top.
@@ -130,7 +130,7 @@ TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
     Material lamp = lambertian({0.5f, 0.5f, 0.5f});
     lamp.emission = {3, 2, 1};
     add_quad(scene, {-9, -9, 2}, {0, 18, 0}, {18, 0, 0}, add_material(scene, lamp));
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         set_camera(scene, {0, 0, 0}, {0, 0, 1}, 40);
         EXPECT_EQ(Shooting(device, scene, 8, 8).shoot_all(1, 1).vertices[9].emitted.y, 2.0f);
         set_camera(scene, {0, 0, 4}, {0, 0, 1}, 40);
@@ -143,7 +143,7 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
     Scene scene = open_room();
     scene.materials[0] = coat_material({0.5f, 0.5f, 0.5f}, {1, 1, 1}, 1.5, 0.2f, false);
     set_constant_sky(scene, {1, 2, 3});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 37, 29);
         constexpr uint kSamples = 6;
         const uint tiles_x = 5;
@@ -191,7 +191,7 @@ Branches branches_of(const GBuffer& found, std::size_t tile_sample, std::size_t 
 TEST_F(CameraPassTest, WithoutLobesTheSecondBranchIsAbsent) {
     Scene scene = open_room();
     set_constant_sky(scene, {1, 1, 1});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const GBuffer found = Shooting(device, scene, 32, 32).shoot_all(2, 2);
         std::size_t receivers = 0;
         for (std::size_t i = 0; i < found.vertices.size() / 2; ++i) {
@@ -213,7 +213,7 @@ TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
     add_quad(scene, {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, coat);
     add_quad(scene, {-9, 0, 3}, {0, 9, 0}, {18, 0, 0}, wall);
     set_camera(scene, {0, 1, 0}, {0, 0, 1.5}, 20);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 24, 16);
         const GBuffer found = shooting.shoot_all(1, 2);
         for (std::size_t i = 0; i < found.vertices.size() / 2; ++i) {
@@ -248,7 +248,7 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
         }
         set_constant_sky(scene, {1, 2, 3});
         set_camera(scene, {0, 0, 0}, {0.2, 0.1, 1}, 50);
-        on_each_device([&](Device& device) {
+        on_each_ray_tree([&](Device& device) {
             const GBuffer found = Shooting(device, scene, 16, 16).shoot_all(8, 2);
             for (std::size_t i = 0; i < found.vertices.size() / 2; ++i) {
                 const Branches b = branches_of(found, i / NEARLIGHT_PACKET_SIZE, i % NEARLIGHT_PACKET_SIZE);
@@ -265,7 +265,7 @@ TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     scene.materials[0] = coat_material({0.6f, 0.5f, 0.4f}, {1, 1, 1}, 1.5, 0.1f, true);
     add_quad(scene, {-1, -1, -0.2f}, {0, 2, 0}, {2, 0, 0.3f}, add_material(scene, glass_material(1.5, true)));
     set_constant_sky(scene, {1, 1, 1});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 16, 16);
         const auto mean = [&](uint branches) {
             double emitted = 0;
@@ -315,7 +315,7 @@ TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
             const Vec3 to_viewer{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
             set_camera(scene, {to_viewer.x, to_viewer.y, to_viewer.z}, {0, 0, 0}, 0.01);
             const auto [reflected, transmitted] = lobe_weights(glass, to_viewer, 200'000);
-            on_each_device([&](Device& device) {
+            on_each_ray_tree([&](Device& device) {
                 const GBuffer found = Shooting(device, scene, 8, 8).shoot_all(2048, 2);
                 double sums[2] = {0, 0};
                 for (std::size_t i = 0; i < found.vertices.size(); ++i) {

@@ -85,7 +85,7 @@ TEST_F(DirectLightTest, SixteenPointAndSpotLightsAgreeWithEmbree) {
     const std::vector<ReceiverPacket> receivers = random_receivers(2000);
     std::vector<IrradiancePacket> expected(receivers.size());
     direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 1);
         std::size_t lit = 0;
         std::size_t different = 0;
@@ -103,7 +103,7 @@ TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     add_point_light(scene, {1, 2, 0}, {8, 4, 2});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto e = illuminate(device, scene,
                                   test::pack_receivers({{{1, 0, 0}, {0, 1, 0}},
                                                         {{1, 0, 2}, {0, 1, 0}},
@@ -128,7 +128,7 @@ TEST_F(DirectLightTest, SpotFallsOffLinearlyInTheAngle) {
         points.push_back({direction * 2.0f, -direction});
         expected.push_back(3.0f / 4.0f * std::clamp((40 - degrees) / 20, 0.0f, 1.0f));
     }
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto e = illuminate(device, scene, test::pack_receivers(points), 1);
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_NEAR(irradiance_at(e, i).y, expected[i], 2e-5f) << "receiver " << i;
@@ -171,7 +171,7 @@ TEST_F(DirectLightTest, AreaLightAgreesWithQuadrature) {
     const Vec3 corner{-0.5f, 0.2f, 0.8f};
     add_quad(scene, corner, {0, 1.5f, 0}, {1.5f, 0, 0}, add_material(scene, lamp));  // faces −Z
     const std::vector<ReceiverPoint> points = cluster();
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
         double ratio = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -194,7 +194,7 @@ TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
             .radiance = std::vector<Vec3>(static_cast<std::size_t>(2 * size * size), {0.5f, 1, 2}),
             .to_world = rotation(1, 2, 3, 40)};
         const std::vector<ReceiverPoint> points = cluster();
-        on_each_device([&](Device& device) {
+        on_each_ray_tree([&](Device& device) {
             const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
             double mean = 0;
             for (std::size_t i = 0; i < points.size(); ++i) {
@@ -211,7 +211,7 @@ TEST_F(DirectLightTest, HalfASkyGivesHalf) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 1, .height = 2, .radiance = {{2, 2, 2}, {0, 0, 0}}, .to_world = {}};
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto e = illuminate(
             device, scene,
             test::pack_receivers({{{0, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, -1, 0}}, {{0, 0, 0}, {0, 0, 1}}}),
@@ -233,7 +233,7 @@ TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
     const std::vector<ReceiverPacket> receivers = test::pack_receivers(cluster());
     std::vector<IrradiancePacket> expected(receivers.size());
     direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 2048);
         double want = 0;
         double have = 0;
@@ -274,7 +274,7 @@ TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
                     kSamples;
         }
     }
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto found = illuminate(device, scene, test::pack_receivers(points), 1024);
         double have = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -288,7 +288,7 @@ TEST_F(DirectLightTest, PacketsDoNotKnowOfEachOther) {
     Scene scene = scattered_squares();
     scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
     const std::vector<ReceiverPacket> receivers = random_receivers(500);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const std::vector<IrradiancePacket> all = illuminate(device, scene, receivers, 4);
         for (const std::size_t p : {std::size_t{0}, receivers.size() - 1}) {
             const auto alone = illuminate(device, scene, {receivers[p]}, 4);
@@ -301,7 +301,7 @@ TEST_F(DirectLightTest, PacketsDoNotKnowOfEachOther) {
 }
 
 TEST_F(DirectLightTest, WithoutLightsItIsDark) {
-    on_each_device([](Device& device) {
+    on_each_ray_tree([](Device& device) {
         const auto e = illuminate(device, scattered_squares(), random_receivers(64), 4);
         for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
             EXPECT_TRUE(is_zero(irradiance_at(e, i)));

@@ -55,7 +55,7 @@ TEST_F(LightTracerTest, ClosedFurnaceKeepsItsPowerAtEveryDepth) {
     Scene scene;
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian(albedo)));
     add_point_light(scene, {0.2f, 0.1f, -0.3f}, {1, 2, 3});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         for (const float mean_albedo : {0.3f, 0.6f, 0.9f}) {
             const LightWalks walks{
                 .walk_count = 20'000, .bounce_count = 5, .mean_albedo = mean_albedo, .seed = 4};
@@ -80,7 +80,7 @@ TEST_F(LightTracerTest, DepositsStandOffTheSurfaceTheyLieOn) {
     Scene scene;
     add_inward_sphere(scene, 1.0f, 3, add_material(scene, lambertian({0.8f, 0.8f, 0.8f})));
     add_point_light(scene, {0, 0, 0}, {1, 1, 1});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const std::vector<Vpl> vpls =
             trace_all(device, scene, {.walk_count = 2000, .bounce_count = 3, .mean_albedo = 0.8f, .seed = 5});
         Vec3 mean{0, 0, 0};
@@ -105,7 +105,7 @@ double emitted_power(Device& device, Scene scene) {
 }
 
 TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
-    on_each_device([](Device& device) {
+    on_each_ray_tree([](Device& device) {
         Scene spot;
         add_point_light(spot, {0.3f, 0, 0}, {2, 2, 2});
         spot.delta_emitters[0].type = NEARLIGHT_EMITTER_SPOT;
@@ -131,7 +131,7 @@ TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
     white.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
     add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, white));
     scene.environment = {.width = 2, .height = 1, .radiance = {{3, 2, 1}, {3, 2, 1}}, .to_world = {}};
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const auto vpls = trace_all(
             device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7});
         double up = 0;
@@ -148,7 +148,7 @@ TEST_F(LightTracerTest, BacksOfOneSidedSurfacesSwallowLight) {
     Scene scene;
     add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({1, 1, 1})));
     add_point_light(scene, {0, 0, -1}, {1, 1, 1});
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         EXPECT_TRUE(trace_all(device, scene, {.walk_count = 1000, .bounce_count = 2, .seed = 8}).empty());
     });
 }
@@ -184,7 +184,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
         return std::max(std::abs(v.position.x), std::abs(v.position.y)) < v.position.z + slack;
     };
     constexpr float kStandOff = 1e-4f;
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const SceneOnDevice on_device(device, scene);
         const CloseRegion region = make_region(device, on_device.buffers, range, 1);
         const LightWalks walks{.walk_count = 5000, .bounce_count = 4, .mean_albedo = 0.7f, .seed = 9};
@@ -228,7 +228,7 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
     add_point_light(scene, {0.1f, 0.2f, 0.3f}, {1, 1, 1});
     constexpr uint kWalks = 1000;
     constexpr uint kBounces = 3;
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const SceneOnDevice on_device(device, scene);
         const CloseRegion region = make_region(device, on_device.buffers, {}, 0);
         const Buffer<float> walks_at_depth(device, std::vector<float>{1000.0f, 700.5f, 490.25f});
@@ -256,13 +256,14 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
 }
 
 TEST_F(LightTracerTest, NothingToDoGivesNothing) {
-    Scene scene;
-    add_inward_sphere(scene, 1.0f, 0, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
-    on_each_device([&](Device& device) {
-        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 100, .bounce_count = 2}).empty());  // no light
-        add_point_light(scene, {0, 0, 0}, {1, 1, 1});
-        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 100, .bounce_count = 0}).empty());
-        EXPECT_TRUE(trace_all(device, scene, {.walk_count = 0, .bounce_count = 2}).empty());
+    Scene dark;
+    add_inward_sphere(dark, 1.0f, 0, add_material(dark, lambertian({0.7f, 0.7f, 0.7f})));
+    Scene lit = dark;
+    add_point_light(lit, {0, 0, 0}, {1, 1, 1});
+    on_each_ray_tree([&](Device& device) {
+        EXPECT_TRUE(trace_all(device, dark, {.walk_count = 100, .bounce_count = 2}).empty());
+        EXPECT_TRUE(trace_all(device, lit, {.walk_count = 100, .bounce_count = 0}).empty());
+        EXPECT_TRUE(trace_all(device, lit, {.walk_count = 0, .bounce_count = 2}).empty());
     });
 }
 

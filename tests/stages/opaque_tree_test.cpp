@@ -27,50 +27,56 @@ bool holds(const Buffer<T>& buffer, const std::vector<T>& expected) {
            std::memcmp(found.data(), expected.data(), found.size() * sizeof(T)) == 0;
 }
 
-TEST_F(OpaqueTreeTest, IsWidenedForPackets) {
-    const WideBvh wide = widen(data_.bvh);
-    on_each_device([&](Device& device) {
-        const OpaqueTree tree = upload_tree(device, data_.bvh, GatherKernel::packets);
-        EXPECT_TRUE(tree.is_wide());
-        EXPECT_TRUE(holds(tree.nodes, data_.bvh.nodes));
-        EXPECT_TRUE(holds(tree.triangles, data_.bvh.triangles));
-        EXPECT_TRUE(holds(tree.wide_nodes, wide.nodes));
-        EXPECT_TRUE(holds(tree.blocks, wide.blocks));
-    });
+/// Nothing of a shape that was not asked for.
+void expect_tree(const DeviceTree& tree, const Bvh& bvh, bool binary, bool wide) {
+    const WideBvh widened = widen(bvh);
+    EXPECT_EQ(tree.is_binary(), binary);
+    EXPECT_EQ(tree.is_wide(), wide);
+    EXPECT_TRUE(holds(tree.nodes, binary ? bvh.nodes : std::vector<BvhNode>{}));
+    EXPECT_TRUE(holds(tree.triangles, binary ? bvh.triangles : std::vector<BvhTriangle>{}));
+    EXPECT_TRUE(holds(tree.wide_nodes, wide ? widened.nodes : std::vector<WideNode>{}));
+    EXPECT_TRUE(holds(tree.blocks, wide ? widened.blocks : std::vector<TriangleBlock>{}));
+    EXPECT_TRUE(holds(tree.triangle_ids, tree.has_wide_rays ? widened.triangle_ids : bvh.triangle_ids));
 }
 
-TEST_F(OpaqueTreeTest, IsBinaryAloneForRays) {
-    on_each_device([&](Device& device) {
-        const OpaqueTree tree = upload_tree(device, data_.bvh, GatherKernel::rays);
-        EXPECT_FALSE(tree.is_wide());
-        EXPECT_EQ(tree.wide_nodes.count(), 0u);
-        EXPECT_EQ(tree.blocks.count(), 0u);
-        EXPECT_TRUE(holds(tree.nodes, data_.bvh.nodes));
-        EXPECT_TRUE(holds(tree.triangles, data_.bvh.triangles));
+TEST_F(OpaqueTreeTest, HasTheShapesThatWereAskedFor) {
+    on_each_ray_tree([&](Device& device) {
+        const bool wide_rays = device.has_wide_rays();
+        expect_tree(upload_ray_tree(device, data_.bvh), data_.bvh, !wide_rays, wide_rays);
+        expect_tree(upload_tree(device, data_.bvh, GatherKernel::packets), data_.bvh, !wide_rays, true);
+        expect_tree(upload_tree(device, data_.bvh, GatherKernel::rays), data_.bvh, true, wide_rays);
+        expect_tree(upload_both_trees(device, data_.bvh), data_.bvh, true, true);
     });
 }
 
 TEST_F(OpaqueTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
+    Scene scene = data_.scene;
+    scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
+    const SceneBvhs bvhs = build_scene_bvhs(scene);
     on_each_device([&](Device& device) {
-        EXPECT_EQ(upload_tree(device, data_.bvh).is_wide(), device.is_cpu());
+        const bool cpu = device.is_cpu();
+        EXPECT_EQ(device.has_wide_rays(), cpu);
         EXPECT_EQ(Gatherer(device).kernel(), choose_kernel(GatherKernel::automatic, device));
-        Scene scene = data_.scene;
-        scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
-        const SceneBvhs bvhs = build_scene_bvhs(scene);
-        EXPECT_EQ(upload_scene(device, scene, bvhs).tree.is_wide(), device.is_cpu());
-        EXPECT_FALSE(upload_scene(device, scene, bvhs, GatherKernel::rays).tree.is_wide());
+        expect_tree(upload_tree(device, data_.bvh), data_.bvh, !cpu, cpu);
+        const DeviceScene on_device = upload_scene(device, scene, bvhs);
+        expect_tree(on_device.tree, bvhs.opaque, !cpu, cpu);
+        expect_tree(on_device.glass, bvhs.glass, !cpu, cpu);
+        expect_tree(upload_scene(device, scene, bvhs, GatherKernel::rays).tree, bvhs.opaque, true, cpu);
     });
 }
 
-TEST_F(OpaqueTreeTest, PacketsRefuseOneThatIsNotWide) {
+TEST_F(OpaqueTreeTest, KernelsRefuseOneOfTheOtherShape) {
     on_each_device([&](Device& device) {
-        const OpaqueTree tree = upload_tree(device, data_.bvh, GatherKernel::rays);
+        DeviceTree tree = upload_both_trees(device, data_.bvh);
+        tree.wide_nodes = {};
         const Buffer<Vpl> vpls(device, data_.vpls);
         const Buffer<ReceiverPacket> receivers(device, data_.receivers);
         Buffer<IrradiancePacket> irradiance(device, data_.receivers.size());
         const GatherInput input{tree, vpls, vpls.count(), receivers, receivers.count(), data_.clamp_radius};
         EXPECT_THROW(Gatherer(device, {GatherKernel::packets}).gather(input, irradiance), Error);
         EXPECT_TRUE(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance));
+        tree.nodes = {};
+        EXPECT_THROW(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance), Error);
     });
 }
 

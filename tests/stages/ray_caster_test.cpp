@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "host/selftest/ray_comparison.h"
@@ -28,6 +29,30 @@ Bvh build_all(const Scene& scene) {
     return build_bvh(scene, ids);
 }
 
+/// The same device, with one or the other tree for single rays.
+std::unique_ptr<Device> with_ray_tree(const Device& device, bool wide) {
+    DeviceOptions options = device.options();
+    options.wide_rays = wide;
+    return std::make_unique<Device>(device.entry(), options);
+}
+
+/// Hits of the same triangle whose numbers are not the same bits.
+std::size_t count_different_bits(const std::vector<BvhHit>& a, const std::vector<BvhHit>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const bool same = a[i].t == b[i].t && a[i].u == b[i].u && a[i].v == b[i].v;
+        count += a[i].triangle == b[i].triangle && !same ? 1 : 0;
+    }
+    return count;
+}
+
+std::vector<RayQuery> normalised(std::vector<RayQuery> rays) {
+    for (RayQuery& ray : rays) {
+        ray.direction = normalize(ray.direction);
+    }
+    return rays;
+}
+
 /// Every dispute is printed; each must be a tie, and ties rare unless the rays seek edges.
 void expect_agreement(const std::string& oracle, const Scene& scene, const RayFamily& family,
                       const std::vector<BvhHit>& expected, const std::vector<BvhHit>& found) {
@@ -48,7 +73,7 @@ TEST_F(RayCasterTest, ClosestHitsAgreeWithBruteForceHostAndEmbree) {
         const std::vector<BvhHit> brute_force = brute_force_hits(scene, family.rays);
         const std::vector<BvhHit> host = host_hits(bvh, family.rays);
         const std::vector<BvhHit> embree = embree_hits(scene, family.rays);
-        on_each_device([&](Device& device) {
+        on_each_ray_tree([&](Device& device) {
             const std::vector<BvhHit> found = RayCaster(device).closest_hits(bvh, family.rays);
             expect_agreement("brute force", scene, family, brute_force, found);
             expect_agreement("host tree", scene, family, host, found);
@@ -60,7 +85,7 @@ TEST_F(RayCasterTest, ClosestHitsAgreeWithBruteForceHostAndEmbree) {
 TEST_F(RayCasterTest, AnyHitIsWhetherThereIsAClosestHit) {
     const Scene scene = make_triangle_soup(kTriangles, 13);
     const Bvh bvh = build_all(scene);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         RayCaster caster(device);
         for (const RayFamily& family : make_ray_families(scene, kRays, 14)) {
             const std::vector<BvhHit> closest = caster.closest_hits(bvh, family.rays);
@@ -79,7 +104,7 @@ TEST_F(RayCasterTest, BrokenRaysHitNothing) {
     const Scene scene = make_triangle_soup(kTriangles, 15);
     const Bvh bvh = build_all(scene);
     const std::vector<RayQuery> rays = make_broken_rays();
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         RayCaster caster(device);
         const std::vector<BvhHit> closest = caster.closest_hits(bvh, rays);
         const std::vector<uint> any = caster.any_hits(bvh, rays);
@@ -96,11 +121,16 @@ TEST_F(RayCasterTest, BrokenTrianglesAreNeverHit) {
     Bvh bvh = build_all(scene);
     for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
         BvhTriangle& triangle = bvh.triangles[i];
-        (i % 2 == 0 ? triangle.normal.x : triangle.v0.y) = i % 4 < 2 ? kNaN : kInfinity;
+        const float broken = i % 4 < 2 ? kNaN : kInfinity;
+        if (i % 2 == 0) {
+            triangle.edge1.x = triangle.normal.y = triangle.normal.z = broken;  // made of one another
+        } else {
+            triangle.v0.y = broken;
+        }
     }
     const RayFamily family = make_ray_families(scene, kRays, 17).front();
     const std::vector<BvhHit> expected = host_hits(bvh, family.rays);
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         const std::vector<BvhHit> found = RayCaster(device).closest_hits(bvh, family.rays);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].triangle != ~0u) {
@@ -110,6 +140,55 @@ TEST_F(RayCasterTest, BrokenTrianglesAreNeverHit) {
             }
         }
         EXPECT_EQ(compare_hits(scene, family.rays, expected, found).mismatches(), 0u);
+    });
+}
+
+/// What the two trees answer is rounded alike, so nothing but ties may tell them apart.
+TEST_F(RayCasterTest, WideAndBinaryTreesGiveTheSameHits) {
+    const Scene scene = make_triangle_soup(20 * kTriangles, 20);
+    std::vector<uint> ids(scene.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    for (const BvhQuality quality : {BvhQuality::fast, BvhQuality::quality}) {
+        const Bvh bvh = build_bvh(scene, ids, {.quality = quality});
+        on_each_device([&](Device& device) {
+            const std::unique_ptr<Device> wide = with_ray_tree(device, true);
+            const std::unique_ptr<Device> binary = with_ray_tree(device, false);
+            for (const RayFamily& family : make_ray_families(scene, kRays, 21)) {
+                const std::vector<BvhHit> expected = RayCaster(*binary).closest_hits(bvh, family.rays);
+                const std::vector<BvhHit> found = RayCaster(*wide).closest_hits(bvh, family.rays);
+                expect_agreement("the binary tree", scene, family, expected, found);
+                EXPECT_LE(count_different_bits(expected, found), device.is_cpu() ? 0u : found.size());
+            }
+        });
+    }
+}
+
+/// Directions of which parts are zero, tiny or huge, on either side of zero, and intervals without an end:
+/// what makes reciprocals zero, infinite or not a number where nobody took care.
+TEST_F(RayCasterTest, ExtremeDirectionsAreNoTrouble) {
+    const Scene scene = make_triangle_soup(kTriangles, 22);
+    const Bvh bvh = build_all(scene);
+    const std::vector<float> parts{0.0f, -0.0f, 1e-38f, -1e-38f, 1e-25f, 1.0f, -1.0f, 1e25f, 1e38f, -1e38f};
+    std::vector<RayQuery> rays;
+    for (const float x : parts) {
+        for (const float y : parts) {
+            for (const float z : parts) {
+                rays.push_back({{0.1f, -0.2f, 0.3f}, 0.0f, {x, y, z}, kInfinity});
+            }
+        }
+    }
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<BvhHit> closest = RayCaster(device).closest_hits(bvh, rays);
+        const std::vector<uint> any = RayCaster(device).any_hits(bvh, rays);
+        const std::vector<BvhHit> unit = RayCaster(device).closest_hits(bvh, normalised(rays));
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            EXPECT_EQ(any[i] != 0, closest[i].triangle != ~0u) << "ray " << i;
+            const Vec3 d = rays[i].direction;
+            // Products of three huge or three tiny numbers leave the range of single precision.
+            if (const float square = dot(d, d); square > 1e-9f && square < 1e9f) {
+                EXPECT_EQ(closest[i].triangle, unit[i].triangle) << "ray " << i;
+            }
+        }
     });
 }
 
@@ -124,7 +203,7 @@ TEST_F(RayCasterTest, TheEndsOfTheIntervalAreExcluded) {
     const auto ray = [](float t_min, float t_max) { return RayQuery{{1, 1, 1}, t_min, {0, 0, -1}, t_max}; };
     const std::vector<RayQuery> rays{ray(0.5f, 1.5f), ray(1, 2), ray(0, 1),
                                      ray(std::nextafter(1.0f, 0.0f), std::nextafter(1.0f, 2.0f))};
-    on_each_device([&](Device& device) {
+    on_each_ray_tree([&](Device& device) {
         EXPECT_EQ(RayCaster(device).any_hits(bvh, rays), (std::vector<uint>{1, 0, 0, 1}));
         const BvhHit hit = RayCaster(device).closest_hits(bvh, rays)[0];
         EXPECT_EQ(hit.t, 1.0f);
@@ -134,7 +213,7 @@ TEST_F(RayCasterTest, TheEndsOfTheIntervalAreExcluded) {
 }
 
 TEST_F(RayCasterTest, NoRaysAndNoTriangles) {
-    on_each_device([](Device& device) {
+    on_each_ray_tree([](Device& device) {
         RayCaster caster(device);
         const Bvh empty = build_all(Scene{});
         EXPECT_TRUE(caster.closest_hits(empty, {}).empty());

@@ -28,6 +28,20 @@ class DeviceTest : public ::testing::Test {
             check(*device);
         }
     }
+    /// The same, and once more with the binary tree where single rays go through the wide one.
+    template <typename Check>
+    void on_each_ray_tree(Check&& check) {
+        on_each_device([&](Device& device) {
+            check(device);
+            if (device.has_wide_rays()) {
+                SCOPED_TRACE("single rays through the binary tree");
+                DeviceOptions options = device.options();
+                options.wide_rays = false;
+                Device other(device.entry(), options);
+                check(other);
+            }
+        });
+    }
     [[nodiscard]] const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
 
   private:

@@ -18,7 +18,7 @@ namespace nearlight::test {
 class Uploaded {
   public:
     Uploaded(Device& device, const GatherCase& data)
-        : tree_(upload_tree(device, data.bvh, GatherKernel::packets)),  // serves both kernels
+        : tree_(upload_both_trees(device, data.bvh)),
           vpls_(device, data.vpls),
           receivers_(device, data.receivers),
           // Whatever the memory holds must not matter.

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tree that single rays go through: the wide one where NEARLIGHT_WIDE_RAYS is 1 (on CPUs, which have
+// vectors for a single ray), else the binary one. A *slot* names a triangle of it.
+#ifndef NEARLIGHT_LIB_RAY_TREE
+#define NEARLIGHT_LIB_RAY_TREE
+
+#include "lib/bvh_traverse.cl"
+#include "lib/wide_ray.cl"
+
+/// A triangle of the tree. normal = edge1 × edge2.
+typedef struct TreeTriangle {
+    float3 v0, edge1, edge2, normal;
+} TreeTriangle;
+
+#if NEARLIGHT_WIDE_RAYS
+
+typedef WideNode TreeNode;
+typedef TriangleBlock TreeTriangles;
+
+inline RayHit tree_closest_hit(const global TreeNode* nodes, const global TreeTriangles* triangles,
+                               float3 origin, float3 direction, float t_min, float t_max) {
+    return wide_closest_hit(nodes, triangles, origin, direction, t_min, t_max);
+}
+inline bool tree_occluded(const global TreeNode* nodes, const global TreeTriangles* triangles, float3 origin,
+                          float3 direction, float t_min, float t_max) {
+    return wide_occluded(nodes, triangles, origin, direction, t_min, t_max);
+}
+
+inline float3 column_of(const global float* rows, uint column) {
+    return (float3)(rows[column], rows[NEARLIGHT_BLOCK_TRIANGLES + column],
+                    rows[2 * NEARLIGHT_BLOCK_TRIANGLES + column]);
+}
+inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
+    const global TriangleBlock* block = triangles + slot / NEARLIGHT_BLOCK_TRIANGLES;
+    const uint column = slot % NEARLIGHT_BLOCK_TRIANGLES;
+    TreeTriangle triangle;
+    triangle.v0 = column_of(block->v0[0], column);
+    triangle.edge1 = column_of(block->edge1[0], column);
+    triangle.edge2 = column_of(block->edge2[0], column);
+    triangle.normal = cross(triangle.edge1, triangle.edge2);
+    return triangle;
+}
+
+#else
+
+typedef BvhNode TreeNode;
+typedef BvhTriangle TreeTriangles;
+
+inline RayHit tree_closest_hit(const global TreeNode* nodes, const global TreeTriangles* triangles,
+                               float3 origin, float3 direction, float t_min, float t_max) {
+    return closest_hit(nodes, triangles, origin, direction, t_min, t_max);
+}
+inline bool tree_occluded(const global TreeNode* nodes, const global TreeTriangles* triangles, float3 origin,
+                          float3 direction, float t_min, float t_max) {
+    return occluded(nodes, triangles, origin, direction, t_min, t_max);
+}
+
+inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
+    TreeTriangle triangle;
+    triangle.v0 = load3(triangles[slot].v0);
+    triangle.edge1 = load3(triangles[slot].edge1);
+    triangle.edge2 = load3(triangles[slot].edge2);
+    triangle.normal = load3(triangles[slot].normal);
+    return triangle;
+}
+
+#endif
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nodes and triangles of the wide tree, for packets and for single rays.
+#ifndef NEARLIGHT_LIB_WIDE_TREE
+#define NEARLIGHT_LIB_WIDE_TREE
+
+#include "lib/lanes.cl"
+#include "shared/types.h"
+
+// Floats from a lower plane of a WideNode to the upper one.
+#define WIDE_UPPER (3 * NEARLIGHT_WIDE_CHILDREN)
+
+/// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
+LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
+                                 uint child) {
+    const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
+    prefetch_lines(leaf ? (const global void*)(blocks + (child & NEARLIGHT_LEAF_FIRST_MASK))
+                        : (const global void*)(nodes + child));
+}
+
+/// A vector of each triangle of a block.
+typedef struct Axis4 {
+    float4 x, y, z;
+} Axis4;
+
+LANES_INLINE Axis4 load_axis(const global float* rows) {
+    const Axis4 axis = {vload4(0, rows), vload4(1, rows), vload4(2, rows)};
+    return axis;
+}
+LANES_INLINE Axis4 cross4(Axis4 a, Axis4 b) {
+    const Axis4 axis = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return axis;
+}
+
+#endif
