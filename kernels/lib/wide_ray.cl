@@ -14,7 +14,7 @@
 
 #define WIDE_RAY_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + 1)
 
-// Copies in every place that traces a ray would cost a tenth more time to compile, and gain nothing.
+// Inlined wherever a ray is traced it would be no faster, and more to compile.
 #define ONCE_A_PROGRAM __attribute__((noinline))
 
 typedef struct WideRay {
