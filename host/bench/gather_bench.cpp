@@ -35,7 +35,7 @@ struct DeviceSegments {
         return {tree, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
     }
 
-    OpaqueTree tree;
+    DeviceTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;

@@ -81,7 +81,7 @@ struct GatherJob {
         return {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius};
     }
 
-    OpaqueTree tree;
+    DeviceTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
     Buffer<IrradiancePacket> irradiance;

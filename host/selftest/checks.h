@@ -5,7 +5,7 @@
 
 #include "host/cl/device.h"
 #include "host/selftest/check.h"
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 
 namespace nearlight {
 

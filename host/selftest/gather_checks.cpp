@@ -23,7 +23,7 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
     EdgeExcuse edges(bvh.triangles, max_component(bounds(scene).size()));
 
-    const OpaqueTree tree = upload_tree(device, bvh, kernel);
+    const DeviceTree tree = upload_tree(device, bvh, kernel);
     const Buffer<Vpl> vpl_buffer(device, vpls);
     const Buffer<ReceiverPacket> receiver_buffer(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());

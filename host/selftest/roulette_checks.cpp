@@ -22,7 +22,7 @@ constexpr double kMostErrors = 5.5;
 struct RouletteCase {
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
-    OpaqueTree tree;
+    DeviceTree tree;
     Buffer<Vpl> vpl_buffer;
     Buffer<ReceiverPacket> receiver_buffer;
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 
 namespace nearlight {
 

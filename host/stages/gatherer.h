@@ -11,7 +11,7 @@
 
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 #include "host/stages/roulette.h"
 #include "kernels/shared/types.h"
 
@@ -30,7 +30,7 @@ struct GatherConfig {
 
 /// What is gathered. Counts may be smaller than the buffers'.
 struct GatherInput {
-    const OpaqueTree& tree;  ///< uploaded for the gatherer's kernel
+    const DeviceTree& tree;  ///< uploaded for the gatherer's kernel
     const Buffer<Vpl>& vpls;
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;

@@ -8,7 +8,7 @@
 #include "host/bvh/bvh.h"
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 
 namespace nearlight {
 

@@ -42,7 +42,7 @@ class GatherBenchTest : public DeviceTest {
     /// One gather of the work; `pairs` says what became of each pair.
     static std::vector<IrradiancePacket> gather(Device& device, GatherKernel kernel, const Workload& work,
                                                 std::vector<GatherPair>& pairs) {
-        const OpaqueTree tree = upload_tree(device, work.bvh, kernel);
+        const DeviceTree tree = upload_tree(device, work.bvh, kernel);
         const Buffer<Vpl> vpls(device, work.vpls);
         const Buffer<ReceiverPacket> receivers(device, work.receivers);
         Buffer<IrradiancePacket> irradiance(device, work.receivers.size());

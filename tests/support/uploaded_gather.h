@@ -44,7 +44,7 @@ class Uploaded {
         return packet;
     }
 
-    OpaqueTree tree_;
+    DeviceTree tree_;
     Buffer<Vpl> vpls_;
     Buffer<ReceiverPacket> receivers_;
     Buffer<IrradiancePacket> irradiance_;

@@ -41,9 +41,6 @@ struct DeviceTree {
         }
     }
 };
-/// That of the opaque surfaces, which gathers ask.
-using OpaqueTree = DeviceTree;
-
 /// For single rays alone.
 DeviceTree upload_ray_tree(Device& device, const Bvh& bvh);
 /// For single rays and for gathers with `kernel`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace nearlight::test {
 namespace {
 
-class OpaqueTreeTest : public DeviceTest {
+class DeviceTreeTest : public DeviceTest {
   protected:
     const GatherCase data_ = room_of_boxes(20, 10, 1, 1);
 };
@@ -39,7 +39,7 @@ void expect_tree(const DeviceTree& tree, const Bvh& bvh, bool binary, bool wide)
     EXPECT_TRUE(holds(tree.triangle_ids, tree.has_wide_rays ? widened.triangle_ids : bvh.triangle_ids));
 }
 
-TEST_F(OpaqueTreeTest, HasTheShapesThatWereAskedFor) {
+TEST_F(DeviceTreeTest, HasTheShapesThatWereAskedFor) {
     on_each_ray_tree([&](Device& device) {
         const bool wide_rays = device.has_wide_rays();
         expect_tree(upload_ray_tree(device, data_.bvh), data_.bvh, !wide_rays, wide_rays);
@@ -49,7 +49,7 @@ TEST_F(OpaqueTreeTest, HasTheShapesThatWereAskedFor) {
     });
 }
 
-TEST_F(OpaqueTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
+TEST_F(DeviceTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
     Scene scene = data_.scene;
     scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
     const SceneBvhs bvhs = build_scene_bvhs(scene);
@@ -65,7 +65,7 @@ TEST_F(OpaqueTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
     });
 }
 
-TEST_F(OpaqueTreeTest, KernelsRefuseOneOfTheOtherShape) {
+TEST_F(DeviceTreeTest, KernelsRefuseOneOfTheOtherShape) {
     on_each_device([&](Device& device) {
         DeviceTree tree = upload_both_trees(device, data_.bvh);
         tree.wide_nodes = {};

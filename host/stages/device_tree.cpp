@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stages/opaque_tree.h"
+#include "host/stages/device_tree.h"
 
 #include "host/bvh/wide_bvh.h"
 
