@@ -12,11 +12,17 @@ typedef struct Polygon {
 
 /// The part of the polygon where dot(normal, p) + offset ≥ 0. [Sutherland & Hodgman 1974]
 inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
-    Polygon clipped;
-    clipped.count = 0;
-    if (polygon->count == 0) {
+    // Most triangles lie on one side of a plane.
+    uint inside = 0;
+    for (uint i = 0; i < polygon->count; ++i) {
+        inside += dot(normal, polygon->vertices[i]) + offset >= 0.0f ? 1 : 0;
+    }
+    if (inside == 0 || inside == polygon->count) {
+        polygon->count = inside;
         return;
     }
+    Polygon clipped;
+    clipped.count = 0;
     float3 from = polygon->vertices[polygon->count - 1];
     float from_height = dot(normal, from) + offset;
     for (uint i = 0; i < polygon->count; ++i) {
