@@ -8,8 +8,11 @@ target_compile_options(nearlight_options INTERFACE
   # Host arithmetic must not depend on whether the compiler fused a multiply and an add.
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 if(NEARLIGHT_SANITIZE)
-  target_compile_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -fno-omit-frame-pointer)
-  target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE})
+  target_compile_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # The sanitizer's own dlopen() does the program's, and looks along the program's run path only if that is of
+  # the old kind.
+  target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
 # Modules that programs load when they need them, found by their run path.
