@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# check_kernels(TARGET FILES … INCLUDED … DEFINES …): where clang exists, each kernel file is syntax-checked during the build, so
-# that a typo is found without a device. Files in lib/ and shared/ are checked through their includers.
+# check_kernels(TARGET FILES … INCLUDED … DEFINES …): where clang exists, each kernel file is syntax-checked
+# during the build, so that a typo is found without a device. Files in lib/ and shared/ are checked through
+# their includers.
 
 find_program(NEARLIGHT_CLANG NAMES clang clang-14 clang-15 clang-16 clang-17 clang-18 clang-19)
 

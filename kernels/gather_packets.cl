@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums a VPL set over receivers, for CPUs: irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²)
-// · V.
+// Sums a VPL set over receivers, for CPUs:
+// irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²) · V.
 //
-// A work-item takes packets of GATHER_PACKET_WIDTH receivers, each against a run of VPLs. The compiler does
-// not turn a divergent traversal loop into vector code, so the vectors are written out: a packet is groups of
-// 16 lanes that go through the wide tree together. What makes this fast:
-// - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle test
-// is
-//   four dot products a lane with constants of the (VPL, triangle) pair, without a division.
+// A work-item takes packets of GATHER_PACKET_WIDTH receivers, each against a run of VPLs. The compiler
+// does not turn a divergent traversal loop into vector code, so the vectors are written out: a packet is
+// groups of 16 lanes that go through the wide tree together. What makes this fast:
+// - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle
+//   test is four dot products a lane with constants of the (VPL, triangle) pair, without a division.
 // - Receivers are put in order once, so that 16 runs of them are clusters with small boxes
 //   (lib/packet_receivers.cl).
-// - A node tests its eight children at once against the shaft from the VPL to the box of all receivers, and
-// each
-//   that meets it against the shafts to the boxes of the 16 clusters at once (lib/shaft.cl). Only where a
-//   cluster meets a box are its lanes tested with it.
+// - A node tests its eight children at once against the shaft from the VPL to the box of all receivers,
+//   and each that meets it against the shafts to the boxes of the 16 clusters at once (lib/shaft.cl).
+//   Only where a cluster meets a box are its lanes tested with it.
 // - Nodes and leaves are taken several at a time, almost without branches that depend on tests
 //   (lib/wide_traverse.cl).
-// - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in one
-//   vector (lib/packet_blocks.cl).
-// - Which lanes are neither culled nor occluded is a bit mask of each group, looked at again before the
-// leaves
-//   that a few nodes led to are tested: by then some lanes have met their occluder.
+// - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in
+//   one vector (lib/packet_blocks.cl).
+// - Which lanes are neither culled nor occluded is a bit mask of each group. Leaves that some nodes led
+//   to ask it again when their turn comes: by then some lanes have met their occluder.
 // A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other
 // lanes, and all tests before them are conservative: what shares a packet does not change a bit of the
 // result.

@@ -41,6 +41,7 @@ struct DeviceTree {
         }
     }
 };
+
 /// For single rays alone.
 DeviceTree upload_ray_tree(Device& device, const Bvh& bvh);
 /// For single rays and for gathers with `kernel`.

@@ -132,9 +132,8 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
 LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks, const LeafVisit* visits,
                                  uint count) {
     LeafVisit dense[GATHER_GROUPS + 1];
-    const uint first = visits->leaf & NEARLIGHT_LEAF_FIRST_MASK;
-    const uint last = first + ((visits->leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-    for (uint block = first; block <= last; ++block) {
+    const uint last = last_block(visits->leaf);
+    for (uint block = first_block(visits->leaf); block <= last; ++block) {
         BlockAxes axes;
         prepare_block(&axes, s->origin, blocks + block);
         uint dense_count = 0;

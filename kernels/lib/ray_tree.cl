@@ -16,15 +16,8 @@ typedef struct TreeTriangle {
 
 typedef WideNode TreeNode;
 typedef TriangleBlock TreeTriangles;
-
-inline RayHit tree_closest_hit(const global TreeNode* nodes, const global TreeTriangles* triangles,
-                               float3 origin, float3 direction, float t_min, float t_max) {
-    return wide_closest_hit(nodes, triangles, origin, direction, t_min, t_max);
-}
-inline bool tree_occluded(const global TreeNode* nodes, const global TreeTriangles* triangles, float3 origin,
-                          float3 direction, float t_min, float t_max) {
-    return wide_occluded(nodes, triangles, origin, direction, t_min, t_max);
-}
+#define tree_closest_hit wide_closest_hit
+#define tree_occluded wide_occluded
 
 inline float3 column_of(const global float* rows, uint column) {
     return (float3)(rows[column], rows[NEARLIGHT_BLOCK_TRIANGLES + column],
@@ -45,15 +38,8 @@ inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint sl
 
 typedef BvhNode TreeNode;
 typedef BvhTriangle TreeTriangles;
-
-inline RayHit tree_closest_hit(const global TreeNode* nodes, const global TreeTriangles* triangles,
-                               float3 origin, float3 direction, float t_min, float t_max) {
-    return closest_hit(nodes, triangles, origin, direction, t_min, t_max);
-}
-inline bool tree_occluded(const global TreeNode* nodes, const global TreeTriangles* triangles, float3 origin,
-                          float3 direction, float t_min, float t_max) {
-    return occluded(nodes, triangles, origin, direction, t_min, t_max);
-}
+#define tree_closest_hit closest_hit
+#define tree_occluded occluded
 
 inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
     TreeTriangle triangle;

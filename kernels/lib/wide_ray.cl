@@ -94,13 +94,6 @@ LANES_INLINE uint hit_block(const global TriangleBlock* block, const WideRay* ra
                       (hit->t < t_max * hit->scale));
 }
 
-LANES_INLINE uint first_block(uint leaf) {
-    return leaf & NEARLIGHT_LEAF_FIRST_MASK;
-}
-LANES_INLINE uint last_block(uint leaf) {
-    return first_block(leaf) + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
-}
-
 LANES_INLINE bool leaf_occludes(const global TriangleBlock* blocks, uint leaf, const WideRay* ray,
                                 float t_max) {
     BlockHit ignored;

@@ -9,11 +9,19 @@
 // Floats from a lower plane of a WideNode to the upper one.
 #define WIDE_UPPER (3 * NEARLIGHT_WIDE_CHILDREN)
 
+/// The blocks of a leaf, the last one included.
+LANES_INLINE uint first_block(uint leaf) {
+    return leaf & NEARLIGHT_LEAF_FIRST_MASK;
+}
+LANES_INLINE uint last_block(uint leaf) {
+    return first_block(leaf) + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
+}
+
 /// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
 LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
                                  uint child) {
     const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
-    prefetch_lines(leaf ? (const global void*)(blocks + (child & NEARLIGHT_LEAF_FIRST_MASK))
+    prefetch_lines(leaf ? (const global void*)(blocks + first_block(child))
                         : (const global void*)(nodes + child));
 }
 
