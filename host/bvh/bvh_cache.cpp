@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -21,37 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be changed whenever the builder makes other trees, or files look different.
-constexpr std::uint64_t kVersion = 5;
+constexpr std::uint64_t kVersion = 6;
 constexpr const char* kExtension = ".tree";
 
-using Key = std::array<std::uint64_t, 2>;
+using Key = Hash128;
 
-/// Of 8 bytes at a time: byte by byte it would take as long as reading a tree.
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word, std::uint64_t factor) {
-    hash = (hash ^ word) * factor;
-    return hash ^ (hash >> 29u);
-}
-
-Key hash_part(std::span<const std::byte> bytes) {
-    Key hash{0x9e3779b97f4a7c15ull, 0xc2b2ae3d27d4eb4full};
-    const auto add = [&](std::uint64_t word) {
-        hash = {mixed(hash[0], word, 0xff51afd7ed558ccdull), mixed(hash[1], word, 0xc4ceb9fe1a85ec53ull)};
-    };
-    while (!bytes.empty()) {
-        std::uint64_t word = 0;
-        const std::size_t count = std::min(bytes.size(), sizeof word);
-        std::memcpy(&word, bytes.data(), count);
-        add(word);
-        bytes = bytes.subspan(count);
-    }
-    return hash;
+void add_hash(Key& key, const Hash128& hash) {
+    key = mixed(mixed(key, hash[0]), hash[1]);
 }
 
 template <typename T>
 void add_to(Key& key, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const Key hash = hash_part(std::as_bytes(std::span(&value, 1)));
-    key = {mixed(key[0], hash[0], 0xff51afd7ed558ccdull), mixed(key[1], hash[1], 0xc4ceb9fe1a85ec53ull)};
+    add_hash(key, hash128(std::as_bytes(std::span(&value, 1))));
 }
 
 /// In parts of fixed length, so that threads may share the work.
@@ -62,16 +43,16 @@ void add_to(Key& key, const std::vector<T>& values) {
     std::vector<Key> parts((bytes.size() + kPart - 1) / kPart);
     parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            parts[i] = hash_part(bytes.subspan(i * kPart, std::min(kPart, bytes.size() - i * kPart)));
+            parts[i] = hash128(bytes.subspan(i * kPart, std::min(kPart, bytes.size() - i * kPart)));
         }
     });
     add_to(key, bytes.size());
     for (const Key& part : parts) {
-        add_to(key, part);
+        add_hash(key, part);
     }
 }
 
-Key key_of(const Scene& scene, const BvhConfig& config) {
+Key key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes) {
     Key key{};
     add_to(key, kVersion);
     add_to(key, static_cast<int>(config.quality));
@@ -80,6 +61,8 @@ Key key_of(const Scene& scene, const BvhConfig& config) {
     add_to(key, config.traversal_cost);
     add_to(key, config.intersection_cost);
     add_to(key, config.max_duplication);
+    add_to(key, shapes.binary);
+    add_to(key, shapes.wide);
     std::vector<std::uint8_t> glass;
     for (const Material& material : scene.materials) {
         glass.push_back(is_glass(material) ? 1 : 0);
@@ -90,80 +73,87 @@ Key key_of(const Scene& scene, const BvhConfig& config) {
     return key;
 }
 
-/// At the start of a file; both trees' nodes and triangle ids follow.
+/// At the start of a file; the arrays of both trees follow.
 struct Header {
     std::array<char, 8> magic{'N', 'L', 'T', 'R', 'E', 'E', '0', '1'};
     Key key{};
     Key checksum{};  ///< of the header without it, and of what follows
     struct Tree {
-        std::uint64_t nodes = 0, triangles = 0;
+        std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
         double sah_cost = 0;
         std::int64_t depth = 0;
     };
     Tree opaque{}, glass{};
     std::uint64_t has_glass = 0;
-
-    [[nodiscard]] std::uint64_t file_size() const {
-        return sizeof(Header) + (opaque.nodes + glass.nodes) * sizeof(BvhNode) +
-               (opaque.triangles + glass.triangles) * sizeof(uint);
-    }
 };
 
-Key checksum_of(Header header, const SceneBvhs& bvhs) {
+Header::Tree describe(const ShapedBvh& tree) {
+    return {tree.binary.nodes.size(), tree.binary.triangle_ids.size(),
+            tree.wide.nodes.size(),   tree.wide.triangle_ids.size(),
+            tree.binary.sah_cost,     tree.binary.depth};
+}
+
+/// Of a file without its header.
+std::uint64_t array_bytes(const Header::Tree& tree) {
+    return tree.nodes * sizeof(BvhNode) + tree.wide_nodes * sizeof(WideNode) +
+           (tree.triangles + tree.block_columns) * sizeof(uint);
+}
+
+/// What a file holds of a tree, in this order. Triangles are not in it: the scene has them.
+template <typename Trees, typename Visitor>
+void for_each_array(Trees& trees, const Visitor& visit) {
+    for (auto* tree : {&trees.opaque, &trees.glass}) {
+        visit(tree->binary.nodes), visit(tree->binary.triangle_ids);
+        visit(tree->wide.nodes), visit(tree->wide.triangle_ids);
+    }
+}
+
+Key checksum_of(Header header, const SceneTrees& trees) {
     header.checksum = {};
     Key key{};
     add_to(key, header);
-    for (const Bvh* bvh : {&bvhs.opaque, &bvhs.glass}) {
-        add_to(key, bvh->nodes);
-        add_to(key, bvh->triangle_ids);
-    }
+    for_each_array(trees, [&](const auto& values) { add_to(key, values); });
     return key;
 }
 
-template <typename T>
-void read_array(std::istream& file, std::vector<T>& values, std::uint64_t count) {
-    values.resize(count);
-    file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
-}
-template <typename T>
-void write_array(std::ostream& file, const std::vector<T>& values) {
-    file.write(reinterpret_cast<const char*>(values.data()),
-               static_cast<std::streamsize>(values.size() * sizeof(T)));
-}
-
-void read_tree(std::istream& file, const Header::Tree& tree, Bvh& bvh) {
-    read_array(file, bvh.nodes, tree.nodes);
-    read_array(file, bvh.triangle_ids, tree.triangles);
-    bvh.sah_cost = tree.sah_cost;
-    bvh.depth = static_cast<int>(tree.depth);
+ShapedBvh room_for(const Header::Tree& tree) {
+    ShapedBvh result;
+    result.binary.nodes.resize(tree.nodes);
+    result.binary.triangle_ids.resize(tree.triangles);
+    result.binary.sah_cost = tree.sah_cost;
+    result.binary.depth = static_cast<int>(tree.depth);
+    result.wide.nodes.resize(tree.wide_nodes);
+    result.wide.triangle_ids.resize(tree.block_columns);
+    return result;
 }
 
-std::optional<SceneBvhs> read(const fs::path& path, const Key& key, const Scene& scene) {
+std::optional<SceneTrees> read(const fs::path& path, const Key& key, const Scene& scene) {
     std::ifstream file(path, std::ios::binary);
     Header header;
     const Header expected;
     std::error_code ignored;
     if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != expected.magic ||
-        header.key != key || header.file_size() != fs::file_size(path, ignored)) {
+        header.key != key ||
+        sizeof header + array_bytes(header.opaque) + array_bytes(header.glass) !=
+            fs::file_size(path, ignored)) {
         return std::nullopt;
     }
-    SceneBvhs bvhs;
-    read_tree(file, header.opaque, bvhs.opaque);
-    read_tree(file, header.glass, bvhs.glass);
-    bvhs.has_glass = header.has_glass != 0;
-    if (!file || checksum_of(header, bvhs) != header.checksum) {
+    SceneTrees trees{room_for(header.opaque), room_for(header.glass), header.has_glass != 0};
+    for_each_array(trees, [&](auto& values) {
+        const auto bytes = std::as_writable_bytes(std::span(values));
+        file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    });
+    if (!file || checksum_of(header, trees) != header.checksum) {
         return std::nullopt;
     }
-    fetch_triangles(bvhs.opaque, scene);
-    fetch_triangles(bvhs.glass, scene);
-    return bvhs;
+    for (ShapedBvh* tree : {&trees.opaque, &trees.glass}) {
+        fetch_triangles(tree->binary, scene);
+        fetch_blocks(tree->wide, scene);
+    }
+    return trees;
 }
 
-Header::Tree describe(const Bvh& bvh) {
-    return {bvh.nodes.size(), bvh.triangle_ids.size(), bvh.sah_cost, bvh.depth};
-}
-
-void write(const fs::path& path, const Key& key, const SceneBvhs& bvhs) {
+void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
     // Renamed into place, so that another process never reads half a file.
@@ -171,15 +161,15 @@ void write(const fs::path& path, const Key& key, const SceneBvhs& bvhs) {
     std::ofstream file(temporary, std::ios::binary);
     Header header;
     header.key = key;
-    header.opaque = describe(bvhs.opaque);
-    header.glass = describe(bvhs.glass);
-    header.has_glass = bvhs.has_glass ? 1 : 0;
-    header.checksum = checksum_of(header, bvhs);
+    header.opaque = describe(trees.opaque);
+    header.glass = describe(trees.glass);
+    header.has_glass = trees.has_glass ? 1 : 0;
+    header.checksum = checksum_of(header, trees);
     file.write(reinterpret_cast<const char*>(&header), sizeof header);
-    for (const Bvh* bvh : {&bvhs.opaque, &bvhs.glass}) {
-        write_array(file, bvh->nodes);
-        write_array(file, bvh->triangle_ids);
-    }
+    for_each_array(trees, [&](const auto& values) {
+        const auto bytes = std::as_bytes(std::span(values));
+        file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    });
     file.close();
     if (!file) {
         fs::remove(temporary, ignored);
@@ -213,22 +203,23 @@ void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
 
 }  // namespace
 
-SceneBvhs find_or_build_scene_bvhs(const Scene& scene, const BvhConfig& config, const BvhCacheConfig& cache) {
+SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
+                                     const BvhCacheConfig& cache) {
     if (cache.folder.empty() || cache.folder == "none" || scene.triangles.size() < cache.least_triangles) {
-        return build_scene_bvhs(scene, config);
+        return build_scene_trees(scene, config, shapes);
     }
-    const Key key = key_of(scene, config);
+    const Key key = key_of(scene, config, shapes);
     const fs::path path = cache.folder / (hex_digits(key[0]) + kExtension);
-    if (std::optional<SceneBvhs> kept = read(path, key, scene)) {
+    if (std::optional<SceneTrees> kept = read(path, key, scene)) {
         std::error_code ignored;
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
         say_debug("trees taken from " + path.string());
         return std::move(*kept);
     }
-    SceneBvhs bvhs = build_scene_bvhs(scene, config);
-    write(path, key, bvhs);
+    SceneTrees trees = build_scene_trees(scene, config, shapes);
+    write(path, key, trees);
     shrink(cache.folder, cache.most_bytes);
-    return bvhs;
+    return trees;
 }
 
 }  // namespace nearlight

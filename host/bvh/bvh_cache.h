@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "host/bvh/bvh.h"
+#include "host/bvh/scene_trees.h"
 
 namespace nearlight {
 
@@ -15,9 +15,10 @@ struct BvhCacheConfig {
     std::uintmax_t most_bytes = 1u << 30u;  ///< of all trees; those that were not used for longest go
 };
 
-/// What build_scene_bvhs() gives, bit by bit: from the cache if it has the trees of the same vertices,
-/// triangles, choice of glass and `config`, else built and kept. Damaged files count as missing, and failing
-/// to write is no error. 40 bytes a triangle on disk.
-SceneBvhs find_or_build_scene_bvhs(const Scene& scene, const BvhConfig& config, const BvhCacheConfig& cache);
+/// What build_scene_trees() gives, bit by bit: from the cache if it has the trees of the same vertices,
+/// triangles, choice of glass, `config` and `shapes`, else built and kept. Damaged files count as missing,
+/// and failing to write is no error. 40 bytes a triangle and shape on disk.
+SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
+                                     const BvhCacheConfig& cache);
 
 }  // namespace nearlight

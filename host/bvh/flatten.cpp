@@ -64,13 +64,6 @@ uint place(const SahTree& tree, uint reference, Counts before, Bvh& bvh, int lev
     return before.nodes;
 }
 
-BvhTriangle fetch_triangle(const Scene& scene, const Triangle& triangle) {
-    const Vec3 v0 = scene.vertices[triangle.v0].position;
-    const Vec3 edge1 = scene.vertices[triangle.v1].position - v0;
-    const Vec3 edge2 = scene.vertices[triangle.v2].position - v0;
-    return {v0, edge1, edge2, cross(edge1, edge2)};
-}
-
 BvhNode root_of_one_leaf(const Aabb& box, uint leaf) {
     return {box.min, leaf, box.max, leaf, kFarPoint, 0, kFarPoint, 0};
 }
@@ -85,12 +78,22 @@ double half_area(Vec3 low, Vec3 high) {
 
 }  // namespace
 
+BvhTriangle fetch_triangle(const Scene& scene, uint id) {
+    if (id == ~0u) {
+        return kNoTriangle;
+    }
+    const Triangle& triangle = scene.triangles[id];
+    const Vec3 v0 = scene.vertices[triangle.v0].position;
+    const Vec3 edge1 = scene.vertices[triangle.v1].position - v0;
+    const Vec3 edge2 = scene.vertices[triangle.v2].position - v0;
+    return {v0, edge1, edge2, cross(edge1, edge2)};
+}
+
 void fetch_triangles(Bvh& bvh, const Scene& scene) {
     bvh.triangles.resize(bvh.triangle_ids.size());
     parallel_for(bvh.triangles.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const uint id = bvh.triangle_ids[i];
-            bvh.triangles[i] = id == ~0u ? kNoTriangle : fetch_triangle(scene, scene.triangles[id]);
+            bvh.triangles[i] = fetch_triangle(scene, bvh.triangle_ids[i]);
         }
     });
 }

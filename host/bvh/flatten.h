@@ -10,6 +10,9 @@ namespace nearlight {
 /// parent, fetches the triangles, and fills in depth and cost. Takes the tree's memory.
 Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config);
 
+/// A triangle of the scene as trees hold it; of id ~0u a degenerate one far away.
+BvhTriangle fetch_triangle(const Scene& scene, uint id);
+
 /// Fills in the triangles that triangle_ids names.
 void fetch_triangles(Bvh& bvh, const Scene& scene);
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "host/bvh/collapse_plan.h"
+#include "host/bvh/flatten.h"
 #include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
@@ -15,6 +17,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Subtrees of no more triangles are widened by one thread each.
 constexpr uint kPartTriangles = 1u << 14u;
+constexpr std::size_t kFetchGrain = 1u << 10u;
 
 /// Without references to children.
 WideNode make_node(const WideChildren& children) {
@@ -35,6 +38,23 @@ void put(float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t column, Vec3 v
     rows[0][column] = v.x;
     rows[1][column] = v.y;
     rows[2][column] = v.z;
+}
+void put(TriangleBlock& block, std::size_t column, const BvhTriangle& triangle) {
+    put(block.v0, column, triangle.v0);
+    put(block.edge1, column, triangle.edge1);
+    put(block.edge2, column, triangle.edge2);
+}
+
+/// As they are stored: columns without a triangle stay zero. But the first column always has one: the
+/// degenerate one of a tree without triangles, whose id is ~0u too.
+TriangleBlock fetch_block(const Scene& scene, std::span<const uint> ids) {
+    TriangleBlock block{};
+    for (std::size_t column = 0; column < ids.size(); ++column) {
+        if (column == 0 || ids[column] != ~0u) {
+            put(block, column, fetch_triangle(scene, ids[column]));
+        }
+    }
+    return block;
 }
 
 /// Widens one subtree, in depth-first order.
@@ -80,7 +100,6 @@ class Widener {
         }
         for (uint i = 0; i < leaf_count(reference); ++i) {
             const uint slot = leaf_first(reference) + i;
-            const BvhTriangle& triangle = plan_.bvh().triangles[slot];
             const std::size_t column = count++ % NEARLIGHT_BLOCK_TRIANGLES;
             if (column == 0) {
                 wide_.blocks.emplace_back();
@@ -88,10 +107,7 @@ class Widener {
             }
             wide_.triangle_ids[wide_.triangle_ids.size() - NEARLIGHT_BLOCK_TRIANGLES + column] =
                 plan_.bvh().triangle_ids[slot];
-            TriangleBlock& block = wide_.blocks.back();
-            put(block.v0, column, triangle.v0);
-            put(block.edge1, column, triangle.edge1);
-            put(block.edge2, column, triangle.edge2);
+            put(wide_.blocks.back(), column, plan_.bvh().triangles[slot]);
         }
     }
 
@@ -183,6 +199,17 @@ WideBvh widen(const Bvh& bvh) {
     wide.triangle_ids.resize(NEARLIGHT_BLOCK_TRIANGLES * block_count);
     for_each_part(parts, [&](const Part& part) { copy_part(part, parts, wide); });
     return wide;
+}
+
+void fetch_blocks(WideBvh& wide, const Scene& scene) {
+    wide.blocks.resize(wide.triangle_ids.size() / NEARLIGHT_BLOCK_TRIANGLES);
+    parallel_for(wide.blocks.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            wide.blocks[i] =
+                fetch_block(scene, std::span(wide.triangle_ids)
+                                       .subspan(NEARLIGHT_BLOCK_TRIANGLES * i, NEARLIGHT_BLOCK_TRIANGLES));
+        }
+    });
 }
 
 }  // namespace nearlight

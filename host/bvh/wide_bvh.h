@@ -22,6 +22,9 @@ struct WideBvh {
 /// by bit. In parallel, with the same result for any number of threads. Needs 200 bytes a triangle.
 WideBvh widen(const Bvh& bvh);
 
+/// Fills in the blocks that triangle_ids names.
+void fetch_blocks(WideBvh& wide, const Scene& scene);
+
 /// Checks that the wide tree holds the same triangles as `bvh`, each in boxes that hold it, and that
 /// references are in range and reached once. Returns what is wrong, one line each; empty if sound.
 std::vector<std::string> check_wide_bvh(const WideBvh& wide, const Bvh& bvh);

@@ -141,9 +141,7 @@ std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& 
 
 std::string ProgramRequest::key() const {
     return entry.platform + "\n" + entry.name + "\n" + entry.version + "\n" + entry.driver + "\n" + options +
-           "\n" + hex_digits(fnv1a(source)) +
-           hex_digits(fnv1a(source, fnv1a("second half of a 128-bit key"))) + "\n" +
-           std::to_string(source.size());
+           "\n" + hex_digits(hash128(source)) + "\n" + std::to_string(source.size());
 }
 
 cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {

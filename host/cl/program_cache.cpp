@@ -14,7 +14,7 @@ namespace {
 /// Key length and key, then checksum, then the binary.
 std::string header_of(const std::string& key, const std::string& binary) {
     return "nearlight program 1\n" + std::to_string(key.size()) + "\n" + key + "\n" +
-           hex_digits(fnv1a(binary)) + "\n";
+           hex_digits(hash128(binary)) + "\n";
 }
 
 }  // namespace

@@ -148,6 +148,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const Scene scene = load_scene(options.scene);
     const double load_seconds = loading.seconds();
     check_request(scene, settings);
+    // For the files' metadata; nobody should wait for it.
+    auto hash = std::async(std::launch::async, [&] { return scene_hash(scene); });
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
 
     if (options.seconds) {
@@ -161,7 +163,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         plain(devices), scene, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             files.open(started.width, started.height,
-                       render_metadata(scene, settings, started, view, devices));
+                       render_metadata(hash.get(), settings, started, view, devices));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);

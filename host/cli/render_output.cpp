@@ -36,7 +36,7 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
 
 }  // namespace
 
-Metadata render_metadata(const Scene& scene, const RenderSettings& settings, const RenderReport& report,
+Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
                          const View& view, const std::vector<std::unique_ptr<Device>>& devices) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
@@ -51,7 +51,7 @@ Metadata render_metadata(const Scene& scene, const RenderSettings& settings, con
     metadata["nearlight:seed"] = static_cast<int>(settings.seed);
     metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
     metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
-    metadata["nearlight:sceneHash"] = hex_digits(scene_hash(scene));
+    metadata["nearlight:sceneHash"] = hex_digits(scene_hash);
     return metadata;
 }
 

@@ -15,7 +15,7 @@
 namespace nearlight {
 
 /// The EXR's `nearlight:…` entries and those of its camera.
-Metadata render_metadata(const Scene& scene, const RenderSettings& settings, const RenderReport& report,
+Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
                          const View& view, const std::vector<std::unique_ptr<Device>>& devices);
 
 /// When the first rows of the picture came: how long one waits for a first answer.

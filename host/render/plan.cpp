@@ -29,11 +29,12 @@ uint samples_per_bundle(uint samples_per_pixel, uint branch_count) {
 }  // namespace
 
 std::vector<CameraBand> RenderPlan::batches(uint index) const {
-    const uint first_row = index * tile_rows_per_band;
+    const uint first_row = index == 0 ? 0 : tile_rows_in_first + (index - 1) * tile_rows_per_band;
+    const uint row_count = index == 0 ? tile_rows_in_first : tile_rows_per_band;
     std::vector<CameraBand> result;
     for (uint sample = 0; sample < samples_per_pixel; sample += samples_per_batch) {
         result.push_back({.first_tile_row = first_row,
-                          .tile_row_count = std::min(tile_rows_per_band, tile_row_count - first_row),
+                          .tile_row_count = std::min(row_count, tile_row_count - first_row),
                           .first_sample = sample,
                           .sample_count = std::min(samples_per_batch, samples_per_pixel - sample),
                           .samples_per_pixel = samples_per_pixel,
@@ -77,6 +78,7 @@ RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint he
     const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
     plan.tile_rows_per_band =
         static_cast<uint>(std::min<std::size_t>(std::max(wanted_rows, least_rows), plan.tile_rows_per_band));
+    plan.tile_rows_in_first = static_cast<uint>(std::min<std::size_t>(least_rows, plan.tile_rows_per_band));
     return plan;
 }
 

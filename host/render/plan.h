@@ -2,6 +2,7 @@
 // How a picture is cut into bands and batches of samples that fit a device.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,9 +12,10 @@
 
 namespace nearlight {
 
-/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. No cut changes any
-/// bit of the picture.
+/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. The first may be
+/// shorter, because somebody waits for it. No cut changes any bit of the picture.
 struct RenderPlan {
+    uint tile_rows_in_first = 1;  ///< at most tile_rows_per_band
     uint tile_rows_per_band = 1;
     uint tile_row_count = 0;
     uint samples_per_batch = 1;
@@ -21,7 +23,8 @@ struct RenderPlan {
     uint branch_count = 1;
 
     [[nodiscard]] uint band_count() const {
-        return (tile_row_count + tile_rows_per_band - 1) / tile_rows_per_band;
+        const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
+        return std::min(tile_row_count, 1u) + (others + tile_rows_per_band - 1) / tile_rows_per_band;
     }
     /// The batches of band `index`, in order.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;

@@ -89,7 +89,8 @@ struct Renderer::State {
           BvhQuality bvh_quality);
     [[nodiscard]] Device& leader() const { return devices.front()->stages.device; }
     [[nodiscard]] std::vector<const Device*> plain_devices() const;
-    void upload(const SceneBvhs& bvhs);
+    [[nodiscard]] TreeShapes wanted_shapes() const;
+    void upload(const SceneTrees& trees);
     void drop(std::size_t index);
     void lose(std::size_t index, const Error& error);
     [[nodiscard]] double compile_seconds();
@@ -114,10 +115,10 @@ Renderer::State::State(std::span<Device* const> on_devices, const Scene& of_scen
     }
     samplers.emplace(leader(), gather_config);
     Stopwatch watch;
-    const SceneBvhs bvhs =
-        find_or_build_scene_bvhs(scene, {.quality = bvh_quality}, {.folder = leader().options().cache_dir});
+    const SceneTrees trees = find_or_build_scene_trees(scene, {.quality = bvh_quality}, wanted_shapes(),
+                                                       {.folder = leader().options().cache_dir});
     seconds.build_bvh = watch.lap();
-    upload(bvhs);
+    upload(trees);
     seconds.upload = watch.lap();
     seconds.total = total.seconds();
 }
@@ -135,10 +136,19 @@ std::vector<const Device*> Renderer::State::plain_devices() const {
     return result;
 }
 
-void Renderer::State::upload(const SceneBvhs& bvhs) {
+TreeShapes Renderer::State::wanted_shapes() const {
+    TreeShapes all;
+    for (const auto& device : devices) {
+        const TreeShapes shapes = tree_shapes(device->stages.device, gather_config.kernel);
+        all = {.binary = all.binary || shapes.binary, .wide = all.wide || shapes.wide};
+    }
+    return all;
+}
+
+void Renderer::State::upload(const SceneTrees& trees) {
     for (std::size_t i = devices.size(); i-- > 0;) {
         try {
-            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, bvhs, gather_config.kernel);
+            devices[i]->scene = upload_scene(devices[i]->stages.device, scene, trees, gather_config.kernel);
         } catch (const Error& error) {
             lose(i, error);
         }

@@ -212,7 +212,11 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
     if (!present[0] || !present[1] || !present[2]) {
         fail(mesh.source, "PLY vertices have no x, y and z");
     }
+    const bool has_normals = present[3] && present[4] && present[5];
+    const bool has_uvs = present[6] && present[7];
     mesh.positions.reserve(element.count);
+    mesh.normals.reserve(has_normals ? element.count : 0);
+    mesh.uvs.reserve(has_uvs ? element.count : 0);
     for (std::size_t i = 0; i < element.count; ++i) {
         std::array<float, 8> values{};
         for (std::size_t p = 0; p < slots.size(); ++p) {
@@ -224,10 +228,10 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
             }
         }
         mesh.positions.push_back({values[0], values[1], values[2]});
-        if (present[3] && present[4] && present[5]) {
+        if (has_normals) {
             mesh.normals.push_back({values[3], values[4], values[5]});
         }
-        if (present[6] && present[7]) {
+        if (has_uvs) {
             mesh.uvs.push_back({values[6], values[7]});
         }
     }

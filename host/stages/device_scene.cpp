@@ -61,9 +61,8 @@ bool divides_camera_paths(const Material& material) {
            material.lobe == NEARLIGHT_LOBE_THIN_DIELECTRIC;
 }
 
-}  // namespace
-
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs, GatherKernel kernel) {
+/// All but the trees.
+DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool has_glass) {
     const EmitterTable emitters = build_emitter_table(scene);
     const EnvironmentTable environment = build_environment_table(scene);
     const TexturePool pool = pool_textures(scene);
@@ -73,7 +72,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     on_device.host_info = {.triangle_count = static_cast<uint>(scene.triangles.size()),
                            .emitter_count = static_cast<uint>(emitters.emitters.size()),
                            .delta_emitter_count = emitters.delta_emitter_count,
-                           .has_glass = bvhs.has_glass ? 1u : 0u,
+                           .has_glass = has_glass ? 1u : 0u,
                            .extent = max_component(size),
                            .pad0 = 0,
                            .pad1 = 0,
@@ -88,8 +87,6 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     const auto put = [&]<typename T>(const std::vector<T>& values) {
         return Buffer<T>(device, std::span<const T>(values));
     };
-    on_device.tree = upload_tree(device, bvhs.opaque, kernel);
-    on_device.glass = upload_ray_tree(device, bvhs.glass);
     on_device.vertices = put(scene.vertices);
     on_device.triangles = put(scene.triangles);
     on_device.materials = put(scene.materials);
@@ -101,6 +98,22 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     on_device.row_cdf = put(environment.row_cdf);
     on_device.column_cdf = put(environment.column_cdf);
     on_device.info = put(std::vector{on_device.host_info});
+    return on_device;
+}
+
+}  // namespace
+
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees, GatherKernel kernel) {
+    DeviceScene on_device = upload_surfaces_and_lights(device, scene, trees.has_glass);
+    on_device.tree = upload(device, trees.opaque, tree_shapes(device, kernel));
+    on_device.glass = upload(device, trees.glass, ray_tree_shapes(device));
+    return on_device;
+}
+
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs, GatherKernel kernel) {
+    DeviceScene on_device = upload_surfaces_and_lights(device, scene, bvhs.has_glass);
+    on_device.tree = upload_tree(device, bvhs.opaque, kernel);
+    on_device.glass = upload_ray_tree(device, bvhs.glass);
     return on_device;
 }
 

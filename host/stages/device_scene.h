@@ -39,7 +39,10 @@ struct DeviceScene {
     }
 };
 
-/// For gathers with `kernel`, see upload_tree().
+/// For gathers with `kernel`. The trees must have the shapes that the device wants (tree_shapes()).
+DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees,
+                         GatherKernel kernel = GatherKernel::automatic);
+/// The same with trees that are widened here where the device wants it.
 DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
                          GatherKernel kernel = GatherKernel::automatic);
 

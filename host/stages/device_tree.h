@@ -2,7 +2,7 @@
 // A tree in device memory, in the shapes that kernels go through.
 #pragma once
 
-#include "host/bvh/bvh.h"
+#include "host/bvh/scene_trees.h"
 #include "host/cl/buffer.h"
 
 namespace nearlight {
@@ -41,6 +41,13 @@ struct DeviceTree {
         }
     }
 };
+
+/// What a device wants of a tree for single rays, and for gathers with `kernel` too.
+TreeShapes ray_tree_shapes(const Device& device);
+TreeShapes tree_shapes(const Device& device, GatherKernel kernel);
+
+/// In those shapes, which the tree must have.
+DeviceTree upload(Device& device, const ShapedBvh& tree, const TreeShapes& shapes);
 
 /// For single rays alone.
 DeviceTree upload_ray_tree(Device& device, const Bvh& bvh);

@@ -22,21 +22,28 @@ class BvhCache : public testing::Test {
             scene_.triangles[i].material = 1;
         }
     }
-    SceneBvhs get(const BvhConfig& config = {}) const {
-        return find_or_build_scene_bvhs(
-            scene_, config, {.folder = folder_.path(), .least_triangles = 1, .most_bytes = most_bytes_});
+    SceneTrees get(const BvhConfig& config = {}) const {
+        return find_or_build_scene_trees(
+            scene_, config, shapes_,
+            {.folder = folder_.path(), .least_triangles = 1, .most_bytes = most_bytes_});
     }
-    void expect_right(const SceneBvhs& bvhs, const BvhConfig& config = {}) const {
+    void expect_right(const SceneTrees& trees, const BvhConfig& config = {}) const {
         const SceneBvhs built = build_scene_bvhs(scene_, config);
-        EXPECT_EQ(bvhs.has_glass, built.has_glass);
-        for (const auto& [one, other] :
-             {std::pair{&bvhs.opaque, &built.opaque}, {&bvhs.glass, &built.glass}}) {
-            EXPECT_TRUE(test::same_bits(one->nodes, other->nodes));
-            EXPECT_TRUE(test::same_bits(one->triangles, other->triangles));
-            EXPECT_EQ(one->triangle_ids, other->triangle_ids);
-            EXPECT_EQ(one->sah_cost, other->sah_cost);
-            EXPECT_EQ(one->depth, other->depth);
-        }
+        EXPECT_EQ(trees.has_glass, built.has_glass);
+        expect_right(trees.opaque, built.opaque);
+        expect_right(trees.glass, built.glass);
+    }
+    void expect_right(const ShapedBvh& tree, const Bvh& built) const {
+        const Bvh binary = shapes_.binary ? built : Bvh{};
+        EXPECT_TRUE(test::same_bits(tree.binary.nodes, binary.nodes));
+        EXPECT_TRUE(test::same_bits(tree.binary.triangles, binary.triangles));
+        EXPECT_EQ(tree.binary.triangle_ids, binary.triangle_ids);
+        EXPECT_EQ(tree.binary.sah_cost, binary.sah_cost);
+        EXPECT_EQ(tree.binary.depth, binary.depth);
+        const WideBvh wide = shapes_.wide ? widen(built) : WideBvh{};
+        EXPECT_TRUE(test::same_bits(tree.wide.nodes, wide.nodes));
+        EXPECT_TRUE(test::same_bits(tree.wide.blocks, wide.blocks));
+        EXPECT_EQ(tree.wide.triangle_ids, wide.triangle_ids);
     }
     [[nodiscard]] std::filesystem::path only_file() const {
         return std::filesystem::directory_iterator(folder_.path())->path();
@@ -44,6 +51,7 @@ class BvhCache : public testing::Test {
 
     TemporaryFolder folder_;
     Scene scene_ = test::random_soup(600, 0.3f, 5);
+    TreeShapes shapes_{.binary = true, .wide = true};
     std::uintmax_t most_bytes_ = 1u << 30u;
 };
 
@@ -52,6 +60,15 @@ TEST_F(BvhCache, GivesWhatWouldBeBuilt) {
     for (const BvhConfig& config : {BvhConfig{}, quality}) {
         expect_right(get(config), config);
         expect_right(get(config), config);
+    }
+    EXPECT_EQ(folder_.file_count(), 2u);
+}
+
+TEST_F(BvhCache, KeepsTheShapesThatAreWanted) {
+    for (const TreeShapes& shapes : {TreeShapes{.binary = true}, TreeShapes{.wide = true}}) {
+        shapes_ = shapes;
+        expect_right(get());
+        expect_right(get());
     }
     EXPECT_EQ(folder_.file_count(), 2u);
 }
@@ -113,9 +130,10 @@ TEST_F(BvhCache, ForgetsWhatWasNotUsedForLongest) {
 
 TEST_F(BvhCache, KeepsNothingWhereThereIsNoFolderOrLittleToBuild) {
     for (const char* folder : {"", "none"}) {
-        expect_right(find_or_build_scene_bvhs(scene_, {}, {.folder = folder, .least_triangles = 1}));
+        expect_right(
+            find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder, .least_triangles = 1}));
     }
-    expect_right(find_or_build_scene_bvhs(scene_, {}, {.folder = folder_.path()}));
+    expect_right(find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder_.path()}));
     EXPECT_EQ(folder_.file_count(), 0u);
     EXPECT_FALSE(std::filesystem::exists("none"));
 }

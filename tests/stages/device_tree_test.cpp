@@ -62,6 +62,9 @@ TEST_F(DeviceTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
         expect_tree(on_device.tree, bvhs.opaque, !cpu, cpu);
         expect_tree(on_device.glass, bvhs.glass, !cpu, cpu);
         expect_tree(upload_scene(device, scene, bvhs, GatherKernel::rays).tree, bvhs.opaque, true, cpu);
+        const SceneTrees trees = build_scene_trees(scene, {}, tree_shapes(device, GatherKernel::automatic));
+        expect_tree(upload_scene(device, scene, trees).tree, bvhs.opaque, !cpu, cpu);
+        expect_tree(upload_scene(device, scene, trees).glass, bvhs.glass, !cpu, cpu);
     });
 }
 
