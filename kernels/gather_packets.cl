@@ -93,11 +93,14 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 ///
 /// A group_size other than 0 asks for sums of each group of so many VPLs: `irradiance` then has packet_count
 /// packets for the sums of squares over all VPLs, and as many for each group.
+///
+/// With `has_least`, pairs count for nothing whose light, squared, would be less than the receiver's number
+/// in `least`.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
     uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
-    global IrradiancePacket* irradiance,
+    const global float* least, uint has_least, global IrradiancePacket* irradiance,
     volatile global uint* next_packet GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
     PacketBounds bounds;
@@ -113,13 +116,20 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
             continue;
         }
         gather_receivers(&receivers, &bounds, packets, &bundle, first);
+        if (has_least) {
+            load_least(&receivers, least, &bundle, first);
+        }
         const uint end = GATHER_END(index, end_vpl);
         for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
             clear(&sum);
             clear(&squares);
             for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
                 const uint i = GATHER_VPL(index, k);
+                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
                 connect(&segments, vpls + i, &receivers, clamp_radius_squared);
+                if (has_least) {
+                    leave_out_least(&segments, &receivers, gather_square_scale(vpls + i, scale));
+                }
 #ifdef GATHER_RECORD
                 record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, true);
 #endif
@@ -127,7 +137,6 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
 #ifdef GATHER_RECORD
                 record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
 #endif
-                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
                 add_visible(&sum, &segments, scale, gather_squared(vpls + i));
                 if (group_size != 0) {
                     add_visible(&squares, &segments, scale * scale, true);

@@ -26,11 +26,12 @@ inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum)
 }
 
 /// One work-item for each receiver of the bundles [first_bundle, end_bundle), over the VPLs [first_vpl,
-/// end_vpl). Chunks, groups and launches as in gather_packets.
+/// end_vpl). Chunks, groups, what is left out, and launches as in gather_packets.
 kernel void gather_rays(
     const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
     uint end_vpl, const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
     uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
+    const global float* least, uint has_least,
     global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const uint item = (uint)get_global_id(0);
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
@@ -48,6 +49,7 @@ kernel void gather_rays(
     float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
     const uint end = GATHER_END(index, end_vpl);
     const uint chunk_size = gather_chunk_size(group_size);
+    const float least_square = has_least ? least[packet * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
     for (uint chunk = first_vpl; chunk < end; chunk += chunk_size) {
         float3 sum = (float3)0.0f;
         float3 squares = (float3)0.0f;
@@ -57,10 +59,10 @@ kernel void gather_rays(
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
             const float term = geometry_term(segment, load3(vpl->normal), normal, clamp_radius_squared);
-            const bool open = term > 0.0f;
+            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, k);
+            const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < least_square);
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
-            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, k);
             sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
             squares += visible ? scale * scale * (term * term) : (float3)0.0f;
 #ifdef GATHER_RECORD

@@ -22,33 +22,14 @@ inline float sum_of_lanes(float16 v) {
     return c.x + c.y;
 }
 
-/// Squares of the geometry term without visibility, summed over receivers of the packet.
-inline float16 squares_of_packet(const global Vpl* vpl, const global ReceiverPacket* packet,
-                                 float clamp_radius_squared) {
-    const float3 origin = load3(vpl->position);
-    const float3 vpl_normal = load3(vpl->normal);
-    float16 squares = (float16)0.0f;
-    for (uint group = 0; group < NEARLIGHT_PACKET_SIZE / 16; ++group) {
-        const float16 dx = vload16(group, packet->px) - origin.x;
-        const float16 dy = vload16(group, packet->py) - origin.y;
-        const float16 dz = vload16(group, packet->pz) - origin.z;
-        const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
-        const float16 cos_receiver = -(vload16(group, packet->nx) * dx + vload16(group, packet->ny) * dy +
-                                       vload16(group, packet->nz) * dz);
-        const float16 r2 = dx * dx + dy * dy + dz * dz;
-        const float16 term = cos_vpl * cos_receiver / (r2 * fmax(r2, (float16)clamp_radius_squared));
-        const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (term < INFINITY);
-        squares += open ? term * term : (float16)0.0f;
-    }
-    return squares;
-}
-
 /// Root mean square over the receivers of the bundle.
 inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* packets, const Bundle* bundle,
                             float clamp_radius_squared) {
     float16 squares = (float16)0.0f;
     for (uint i = 0; i < bundle->count; ++i) {
-        squares += squares_of_packet(vpl, packets + bundle->first + i, clamp_radius_squared);
+        for (uint group = 0; group < NEARLIGHT_PACKET_SIZE / 16; ++group) {
+            squares += squared_terms(vpl, packets + bundle->first + i, group, clamp_radius_squared);
+        }
     }
     return sqrt(sum_of_lanes(squares) / (float)(max(bundle->count, 1u) * NEARLIGHT_PACKET_SIZE));
 }

@@ -10,9 +10,12 @@
 //   error of the picture is least when the probabilities follow this. The importance is that of squares.
 // `vpl_group_contribution` keeps the three channels, for each group of importons (a part of the picture):
 //   Σ response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
-//
 // One work-item a VPL, or a VPL and group, from the importance that arrived; any work-group size.
+//
+// `vpl_least_importance` says before the gather which importons are not worth a ray: few make up nearly all
+// of the error that a VPL would leave.
 
+#include "lib/gather.cl"
 #include "lib/math.cl"
 
 inline float3 arrived_importance(const global IrradiancePacket* importance, uint vpl) {
@@ -47,4 +50,24 @@ kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_cou
     const global IrradiancePacket* of_group = importance + (size_t)(1 + group) * packet_count;
     const float3 brought = arrived_importance(of_group, index) * load3(vpls[index].power);
     vstore3(brought * (scale * M_1_PI_F), slot, contribution);
+}
+
+/// least[i] = `part` of the mean, over importons, of the squares of the importance that would arrive at
+/// receiver i of the packets if nothing were in the way. One work-item for each 16 receivers.
+kernel void vpl_least_importance(const global Vpl* restrict importons, uint importon_count,
+                                 const global ReceiverPacket* restrict receivers, uint packet_count,
+                                 float clamp_radius_squared, float part, global float* restrict least) {
+    const uint item = (uint)get_global_id(0);
+    const uint packet = item / (NEARLIGHT_PACKET_SIZE / 16);
+    const uint group = item % (NEARLIGHT_PACKET_SIZE / 16);
+    if (packet >= packet_count) {
+        return;
+    }
+    float16 squares = (float16)0.0f;
+    for (uint i = 0; i < importon_count; ++i) {
+        const float square_scale = gather_square_scale(importons + i, gather_scale(importons + i));
+        squares +=
+            square_scale * squared_terms(importons + i, receivers + packet, group, clamp_radius_squared);
+    }
+    vstore16(squares * (part / (float)importon_count), item, least);
 }

@@ -12,12 +12,29 @@ namespace {
 constexpr double kRidge = 1e-4;
 /// Nearer to 0 or 1 than this is there.
 constexpr double kSettled = 1e-9;
+/// After so many changes, or where a column's square is so many times the mean of before, the inverse is
+/// begun again.
+constexpr std::size_t kExclusions = 64;
+constexpr double kMostGrowth = 16.0;
+/// Sums of squares of greater numbers might not be finite.
+constexpr float kMostNumber = 1e15f;
+
+/// Row and column `from` become `to`; nothing is left of them there.
+template <typename Matrix>
+void move_slot(Matrix& matrix, std::size_t from, std::size_t to) {
+    matrix[to] = matrix[from];
+    matrix[from].fill(0);
+    for (auto& row : matrix) {
+        row[to] = row[from];
+        row[from] = 0;
+    }
+}
 
 }  // namespace
 
 BalancedChoice::BalancedChoice(std::size_t row_length, double usual_length, Pcg32 random)
     : row_length_(row_length),
-      count_weight_(static_cast<float>(usual_length)),
+      count_weight_(static_cast<float>(std::min<double>(usual_length, kMostNumber))),
       random_(random),
       columns_((row_length + 1) * kMostOpen) {}
 
@@ -31,12 +48,18 @@ void BalancedChoice::offer(uint index, double probability, std::span<const float
     }
     const std::size_t slot = open_.size();
     open_.push_back({index, probability, 1.0 / probability, arrivals_++});
+    const auto factor = static_cast<float>(open_.back().factor);
     for (std::size_t k = 0; k < row_length_; ++k) {
-        const auto number = static_cast<float>(row[k] / probability);
-        columns_[k * kMostOpen + slot] = std::isfinite(number) ? number : 0.0f;
+        const float number = row[k] * factor;
+        columns_[k * kMostOpen + slot] = std::abs(number) < kMostNumber ? number : 0.0f;
     }
     columns_[row_length_ * kMostOpen + slot] = count_weight_;
     add_products(slot);
+    if (exclusions_ >= kExclusions || products_[slot][slot] > kMostGrowth * usual_square_) {
+        invert_again();
+    } else {
+        include(slot);
+    }
     while (open_.size() == kMostOpen) {
         settle_one();
     }
@@ -75,40 +98,62 @@ std::size_t BalancedChoice::oldest() const {
     return static_cast<std::size_t>(std::ranges::min_element(open_, {}, &Open::arrival) - open_.begin());
 }
 
-/// The direction that moves the oldest and changes the balance least: products · direction = 1 there, 0
-/// elsewhere, by Cholesky's decomposition. (The oldest is to go, so that the open ones stay near each other.)
-BalancedChoice::Direction BalancedChoice::least_change() const {
-    const std::size_t count = open_.size();
-    double mean_square = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        mean_square += products_[i][i] / static_cast<double>(count);
+/// Of the open columns.
+double BalancedChoice::mean_square() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+        sum += products_[i][i];
     }
-    const double ridge = mean_square > 0 ? kRidge * mean_square : 1.0;
-    auto root = products_;  // row by row, upper triangle: rootᵀ · root = products + ridge
-    Direction direction{};
-    direction[oldest()] = 1.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        // Rounding (products are sums of floats) must not make a root of what is not above 0.
-        const double pivot = std::sqrt(std::max(root[i][i] + ridge, 0.1 * ridge));
-        root[i][i] = pivot;
-        direction[i] /= pivot;
-        for (std::size_t j = i + 1; j < count; ++j) {
-            root[i][j] /= pivot;
-            direction[j] -= root[i][j] * direction[i];
-        }
-        for (std::size_t j = i + 1; j < count; ++j) {
-            for (std::size_t k = j; k < count; ++k) {
-                root[j][k] -= root[i][j] * root[i][k];
-            }
+    return sum / static_cast<double>(open_.size());
+}
+
+/// Borders the inverse by a slot.
+void BalancedChoice::include(std::size_t slot) {
+    Direction solution{};
+    double projected = 0;
+    for (std::size_t i = 0; i < kMostOpen; ++i) {
+        const double product = i == slot ? 0.0 : products_[slot][i];
+        for (std::size_t k = 0; k < kMostOpen; ++k) {
+            solution[k] += product * inverse_[i][k];
         }
     }
-    for (std::size_t i = count; i-- > 0;) {
-        for (std::size_t j = i + 1; j < count; ++j) {
-            direction[i] -= root[i][j] * direction[j];
-        }
-        direction[i] /= root[i][i];
+    for (std::size_t i = 0; i < kMostOpen; ++i) {
+        projected += i == slot ? 0.0 : products_[slot][i] * solution[i];
     }
-    return direction;
+    // Rounding (products are sums of floats) must not make a pivot of what is not above 0.
+    const double pivot = std::max(products_[slot][slot] + ridge_ - projected, 0.1 * ridge_);
+    solution[slot] = -1.0;
+    for (std::size_t i = 0; i < kMostOpen; ++i) {
+        for (std::size_t k = 0; k < kMostOpen; ++k) {
+            inverse_[i][k] += solution[i] / pivot * solution[k];
+        }
+    }
+}
+
+/// Takes a slot out of the inverse.
+void BalancedChoice::exclude(std::size_t slot) {
+    const Direction row = inverse_[slot];
+    for (std::size_t i = 0; i < kMostOpen; ++i) {
+        for (std::size_t k = 0; k < kMostOpen; ++k) {
+            inverse_[i][k] -= row[i] / row[slot] * row[k];
+        }
+    }
+    inverse_[slot].fill(0);
+    for (Direction& other : inverse_) {
+        other[slot] = 0;
+    }
+    ++exclusions_;
+}
+
+/// Begins the inverse again: with a ridge for the columns of now, and without rounding errors of before.
+void BalancedChoice::invert_again() {
+    usual_square_ = mean_square();
+    ridge_ = usual_square_ > 0 ? kRidge * usual_square_ : 1.0;
+    inverse_ = {};
+    exclusions_ = 0;
+    for (std::size_t slot = 0; slot < open_.size(); ++slot) {
+        include(slot);
+    }
 }
 
 /// `sign` 1: along the direction; −1: the other way.
@@ -125,9 +170,11 @@ BalancedChoice::Limit BalancedChoice::limit(const Direction& direction, double s
     return nearest;
 }
 
-/// One step of the walk. Its expectation is no step at all, so that each keeps its probability.
+/// One step of the walk. Its expectation is no step at all, so that each keeps its probability. The direction
+/// moves the oldest (it is to go, so that the open ones stay near each other) and changes the balance least:
+/// products · direction = 1 there, 0 elsewhere.
 void BalancedChoice::settle_one() {
-    const Direction direction = least_change();
+    const Direction direction = inverse_[oldest()];
     const Limit ahead = limit(direction, 1.0);
     const Limit behind = limit(direction, -1.0);
     const bool go_ahead = random_.uniform() * (ahead.step + behind.step) < behind.step;
@@ -150,17 +197,15 @@ void BalancedChoice::settle(std::size_t slot, bool drawn) {
     if (drawn) {
         drawn_.emplace_back(open_[slot].index, static_cast<float>(open_[slot].factor));
     }
+    exclude(slot);
     const std::size_t last = open_.size() - 1;
     if (slot != last) {
         open_[slot] = open_[last];
         for (std::size_t k = 0; k <= row_length_; ++k) {
             columns_[k * kMostOpen + slot] = columns_[k * kMostOpen + last];
         }
-        const double square = products_[last][last];
-        for (std::size_t other = 0; other < last; ++other) {
-            products_[slot][other] = products_[other][slot] = products_[last][other];
-        }
-        products_[slot][slot] = square;
+        move_slot(products_, last, slot);
+        move_slot(inverse_, last, slot);
     }
     open_.pop_back();
 }

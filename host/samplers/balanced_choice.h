@@ -31,7 +31,7 @@ class BalancedChoice {
     BalancedChoice(std::size_t row_length, double usual_length, Pcg32 random);
 
     /// The next candidate along the curve. One whose probability is not above 0 is never drawn, one of 1 or
-    /// more for certain; these two need no row. Numbers that are not finite count as 0.
+    /// more for certain; these two need no row. Numbers that are not finite, or beyond 10¹⁵, count as 0.
     void offer(uint index, double probability, std::span<const float> row);
 
     /// Settles what is still open, and empties the choice.
@@ -39,7 +39,8 @@ class BalancedChoice {
 
   private:
     static constexpr std::size_t kMostOpen = 32;
-    using Direction = std::array<double, kMostOpen>;
+    using Direction = std::array<double, kMostOpen>;  ///< by slot; 0 in those that are not open
+    using Matrix = std::array<Direction, kMostOpen>;
     struct Open {
         uint index = 0;
         double probability = 0;  ///< of being drawn, as things stand
@@ -54,8 +55,11 @@ class BalancedChoice {
     };
 
     void add_products(std::size_t slot);
+    void include(std::size_t slot);
+    void exclude(std::size_t slot);
+    void invert_again();
+    [[nodiscard]] double mean_square() const;
     [[nodiscard]] std::size_t oldest() const;
-    [[nodiscard]] Direction least_change() const;
     [[nodiscard]] Limit limit(const Direction& direction, double sign) const;
     void settle_one();
     void settle(std::size_t slot, bool drawn);
@@ -66,8 +70,12 @@ class BalancedChoice {
     std::size_t arrivals_ = 0;
     std::vector<Open> open_;
     std::vector<float>
-        columns_;  ///< c_i/p_i and the count of each open candidate: number-major, kMostOpen wide
-    std::array<std::array<double, kMostOpen>, kMostOpen> products_{};  ///< of columns with each other
+        columns_;              ///< c_i/p_i and the count of each open candidate: number-major, kMostOpen wide
+    Matrix products_{};        ///< of columns with each other
+    double usual_square_ = 0;  ///< of columns, when `inverse_` was begun
+    double ridge_ = 1;
+    Matrix inverse_{};            ///< of products + ridge
+    std::size_t exclusions_ = 0;  ///< since it was begun
     std::vector<std::pair<uint, float>> drawn_;
 };
 

@@ -24,8 +24,10 @@ double threshold(std::span<const float> weights, std::size_t wanted) {
     if (descending.size() <= wanted) {
         return 0.0;
     }
-    std::ranges::sort(descending, std::greater());
     double rest = std::accumulate(descending.begin(), descending.end(), 0.0);
+    const auto asked = descending.begin() + static_cast<std::ptrdiff_t>(wanted);
+    std::ranges::nth_element(descending, asked, std::greater());
+    std::sort(descending.begin(), asked, std::greater());
     // The `sure` largest are chosen for certain; the rest share what is left of `wanted` in proportion.
     for (std::size_t sure = 0; sure < wanted; ++sure) {
         const double tau = rest / static_cast<double>(wanted - sure);

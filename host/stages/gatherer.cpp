@@ -69,7 +69,8 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
     : device_(&device),
       config_(resolved(config, device)),
       launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)),
-      next_packet_(device, 1) {
+      next_packet_(device, 1),
+      no_least_(device, 0) {
     kernel_of(false, false);
 }
 
@@ -127,7 +128,9 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
                       static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
                       layout.run_packets, static_cast<cl_uint>(part.first_bundle),
                       static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
-                      static_cast<cl_uint>(input.group_size), irradiance, rest...);
+                      static_cast<cl_uint>(input.group_size),
+                      input.least != nullptr ? *input.least : no_least_,
+                      static_cast<cl_uint>(input.least != nullptr ? 1 : 0), irradiance, rest...);
     };
     if (config_.kernel == GatherKernel::rays) {
         launch_on(receivers, device_->tunables().local_size, input.tree.nodes, input.tree.triangles, more...);

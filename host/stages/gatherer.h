@@ -43,6 +43,9 @@ struct GatherInput {
     /// Other than 0: sums by groups of so many VPLs that follow one another (gather()). Excludes the
     /// roulette.
     uint group_size = 0;
+    /// Of each receiver (64 · packet + lane); pairs whose light, squared and without visibility, R, G and B
+    /// together, would be less count for nothing. For estimates. Null: all count.
+    const Buffer<float>* least = nullptr;
     /// Packets of which roulette's bundles are formed together (BundleLayout): the result depends on which
     /// receivers decide together. 0: all of them.
     uint run_packets = 0;
@@ -63,8 +66,8 @@ using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t tota
 
 /// What became of one (receiver, VPL) pair.
 enum class GatherPair : std::uint8_t {
-    /// No ray: a cosine is not positive (an absent receiver's is 0), something is not finite, or the roulette
-    /// passed over the VPL.
+    /// No ray: a cosine is not positive (an absent receiver's is 0), something is not finite, the roulette
+    /// passed over the VPL, or its light is less than the least.
     culled = 0,
     visible = 1,
     occluded = 2,
@@ -116,6 +119,7 @@ class Gatherer {
     GatherConfig config_;
     double launch_pairs_;       ///< of the next gather's first launch
     Buffer<uint> next_packet_;  ///< the queue of a launch of gather_packets: one number
+    Buffer<float> no_least_;
     // Made when first asked for, but for the plain kernel. Those with roulette come last, of both kinds the
     // recording one second.
     std::array<std::optional<Kernel>, 4> kernels_;

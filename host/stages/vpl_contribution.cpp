@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace nearlight {
+namespace {
+
+/// Of the mean square; below it an importon is not asked. A little less than 1, or of importons that are all
+/// alike rounding would choose some.
+constexpr float kNegligiblePart = 0.9f;
+
+}  // namespace
 
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
     : device_(&device),
@@ -12,7 +19,8 @@ VplContribution::VplContribution(Device& device, Gatherer& gatherer)
       vpl_light_(device),
       program_(device, "vpl_contribution.cl"),
       vpl_contribution_(program_, "vpl_contribution"),
-      vpl_group_contribution_(program_, "vpl_group_contribution") {}
+      vpl_group_contribution_(program_, "vpl_group_contribution"),
+      vpl_least_importance_(program_, "vpl_least_importance") {}
 
 void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                           const PilotView& view, float clamp_radius, Buffer<float>& contribution,
@@ -44,14 +52,20 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
     Buffer<IrradiancePacket> importance(*device_, packets * (1 + groups.group_count));
     Buffer<float> errors(*device_, vpl_count);
     Buffer<float> rows(*device_, 3 * groups.group_count * vpl_count);
+    Buffer<float> least(*device_, packets * NEARLIGHT_PACKET_SIZE);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
+    const std::size_t importon_slots = std::size_t{groups.group_count} * groups.group_size;
+    vpl_least_importance_.launch_items(
+        packets * (NEARLIGHT_PACKET_SIZE / 16), groups.vpls, static_cast<uint>(importon_slots), receivers,
+        static_cast<uint>(packets), clamp_radius * clamp_radius, kNegligiblePart, least);
     gatherer_->gather({.tree = scene.tree,
                        .vpls = groups.vpls,
-                       .vpl_count = std::size_t{groups.group_count} * groups.group_size,
+                       .vpl_count = importon_slots,
                        .receivers = receivers,
                        .packet_count = packets,
                        .clamp_radius = clamp_radius,
-                       .group_size = groups.group_size},
+                       .group_size = groups.group_size,
+                       .least = &least},
                       importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance, 1u, errors);
     // So that squares of sums over a group compare with sums of squares.

@@ -27,6 +27,8 @@ class VplContribution {
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
              float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
+    /// By the importons of the groups; of each VPL, those below the mean of the squares that would arrive if
+    /// nothing were in the way are taken for nothing.
     GroupContribution by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                                const PilotView& view, float clamp_radius);
 
@@ -37,6 +39,7 @@ class VplContribution {
     Program program_;
     Kernel vpl_contribution_;
     Kernel vpl_group_contribution_;
+    Kernel vpl_least_importance_;
 };
 
 }  // namespace nearlight

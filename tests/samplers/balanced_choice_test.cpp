@@ -92,6 +92,45 @@ TEST(BalancedChoice, BringsWhatAllWouldBetterThanEquidistantPoints) {
     EXPECT_LT(balanced, 0.2 * systematic);
 }
 
+/// Mean square error of the sums over candidates [first, last), by draws of a fifth of all.
+double error_of_part(const Line& line, std::size_t first, std::size_t last, bool balanced) {
+    constexpr int kDraws = 100;
+    double error = 0;
+    for (int seed = 0; seed < kDraws; ++seed) {
+        Pcg32 random(static_cast<std::uint64_t>(seed));
+        BalancedChoice choice(balanced ? 3 : 0, 1.0, random);
+        std::array<double, 3> difference{};
+        for (std::size_t i = 0; i < line.weights.size(); ++i) {
+            choice.offer(static_cast<uint>(i), 0.2, balanced ? line.row(i) : std::span<const float>());
+        }
+        const Choice drawn = choice.finish();
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t i = first; i < last; ++i) {
+                difference[j] -= line.row(i)[j];
+            }
+            for (const uint index : drawn.indices) {
+                difference[j] += first <= index && index < last ? 5.0 * line.row(index)[j] : 0.0;
+            }
+            error += difference[j] * difference[j];
+        }
+    }
+    return error / kDraws;
+}
+
+TEST(BalancedChoice, BalancesLargeNumbersAndSmallOnes) {
+    Line line(900);
+    for (std::size_t i = 300; i < 600; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            line.rows[3 * i + j] *= 1e5f;
+        }
+    }
+    for (const std::size_t first : {0u, 300u, 600u}) {
+        EXPECT_LT(error_of_part(line, first, first + 300, true),
+                  0.5 * error_of_part(line, first, first + 300, false))
+            << "from " << first;
+    }
+}
+
 TEST(BalancedChoice, DrawsAboutAsManyAsWanted) {
     const Line line(1000);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {

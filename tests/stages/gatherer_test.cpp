@@ -345,6 +345,69 @@ TEST_F(GathererTest, GroupsAreSummedByThemselves) {
     });
 }
 
+/// Of a pair, the square that GatherInput::least is compared with.
+double squared_light(const Vpl& vpl, const PairTerm& term) {
+    const Vec3 scale = (1.0f / kPi) * vpl.power;
+    const bool squared = (vpl.flags & NEARLIGHT_VPL_SQUARED) != 0;
+    return term.value * term.value *
+           static_cast<double>(squared ? scale.x + scale.y + scale.z : dot(scale, scale));
+}
+
+/// For each receiver the mean over all VPLs.
+std::vector<float> mean_squares(const GatherCase& data) {
+    std::vector<float> means;
+    for (std::size_t i = 0; i < data.receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        double sum = 0;
+        for (const Vpl& vpl : data.vpls) {
+            sum += squared_light(vpl, pair_term(vpl, receiver_at(data.receivers, i), data.clamp_radius));
+        }
+        means.push_back(static_cast<float>(sum / static_cast<double>(data.vpls.size())));
+    }
+    return means;
+}
+
+TEST_F(GathererTest, LeavesOutWhatIsLessThanTheLeast) {
+    GatherCase data = random_triangles(200, 90, 5, 23);
+    for (std::size_t i = 0; i < data.vpls.size(); i += 3) {
+        data.vpls[i].flags = NEARLIGHT_VPL_SQUARED;
+    }
+    const std::vector<float> least = mean_squares(data);
+    on_each_device([&](Device& device) {
+        Uploaded uploaded(device, data);
+        const Buffer<float> least_on_device(device, least);
+        GatherInput input = uploaded.input();
+        for (const Variant& variant : variants()) {
+            SCOPED_TRACE(variant.name);
+            Gatherer gatherer(device, variant.config);
+            input.least = nullptr;
+            const std::vector<GatherPair> all = gatherer.gather_recorded(input, uploaded.irradiance());
+            input.least = &least_on_device;
+            const std::vector<GatherPair> some = gatherer.gather_recorded(input, uploaded.irradiance());
+            std::size_t left_out = 0;
+            std::size_t left = 0;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const Vpl& vpl = data.vpls[i / NEARLIGHT_PACKET_SIZE % data.vpls.size()];
+                const std::size_t receiver =
+                    i / NEARLIGHT_PACKET_SIZE / data.vpls.size() * NEARLIGHT_PACKET_SIZE +
+                    i % NEARLIGHT_PACKET_SIZE;
+                const double square = squared_light(
+                    vpl, pair_term(vpl, receiver_at(data.receivers, receiver), data.clamp_radius));
+                if (all[i] == GatherPair::culled || std::abs(square - least[receiver]) < 1e-4 * square) {
+                    continue;
+                }
+                const bool counts = square >= least[receiver];
+                ++(counts ? left : left_out);
+                ASSERT_EQ(some[i], counts ? all[i] : GatherPair::culled) << "pair " << i;
+            }
+            EXPECT_GT(left, all.size() / 50);
+            EXPECT_GT(left_out, left);
+            const std::vector<IrradiancePacket> recorded = uploaded.irradiance().download();
+            EXPECT_TRUE(gatherer.gather(input, uploaded.irradiance()));
+            expect_close(uploaded.irradiance().download(), recorded);
+        }
+    });
+}
+
 TEST_F(GathererTest, RefusesRouletteByGroups) {
     const GatherCase data = random_triangles(100, 20, 1, 22);
     on_each_device([&](Device& device) {
