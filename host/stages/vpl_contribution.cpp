@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace nearlight {
-namespace {
-
-/// Of the mean square; below it an importon is not asked. A little less than 1, or of importons that are all
-/// alike rounding would choose some.
-constexpr float kNegligiblePart = 0.9f;
-
-}  // namespace
 
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
     : device_(&device),

@@ -20,6 +20,10 @@ struct GroupContribution {
 
 class VplContribution {
   public:
+    /// Of the mean square; below it an importon of a group is not asked. A little less than 1, or of
+    /// importons that are all alike rounding would choose some.
+    static constexpr float kNegligiblePart = 0.9f;
+
     /// Gathers with `gatherer`, which must outlive it.
     VplContribution(Device& device, Gatherer& gatherer);
 
@@ -27,8 +31,8 @@ class VplContribution {
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
              float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
-    /// By the importons of the groups; of each VPL, those below the mean of the squares that would arrive if
-    /// nothing were in the way are taken for nothing.
+    /// By the importons of the groups. For each VPL those count for nothing whose importance, squared, would
+    /// be below kNegligiblePart of the mean of all if nothing were in the way.
     GroupContribution by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                                const PilotView& view, float clamp_radius);
 

@@ -43,7 +43,7 @@ double least_squared_importance(const test::GatherCase& data, const std::vector<
         const ReceiverPoint receiver = receiver_at(data.receivers, i);
         sum += squared_importance(vertices[i], test::pair_term(vpl, receiver, data.clamp_radius).value);
     }
-    return 0.9 * sum / static_cast<double>(count);
+    return VplContribution::kNegligiblePart * sum / static_cast<double>(count);
 }
 
 /// The column sum, or the root of the sum of squares, by a plain loop with the host's own rays.
