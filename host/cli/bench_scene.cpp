@@ -17,7 +17,7 @@ constexpr std::string_view kSpheres = "spheres:";
 void add_bench_scene_options(CLI::App& command, SceneOptions& options) {
     add_scene_options(command, options);
     command.get_option("SCENE")->required(false)->description(
-        "Mitsuba XML (.xml), OBJ (.obj), or spheres:N, a made-up room of N triangles");
+        "Mitsuba XML (.xml), glTF (.gltf, .glb), OBJ (.obj), or spheres:N, a made-up room of N triangles");
 }
 
 Scene make_bench_scene(const SceneOptions& options) {

@@ -244,7 +244,8 @@ void add_compare_command(CommandLine& line) {
     CLI::App& command = line.add_command(
         "compare", "Compare VPL samplers on scenes: tables, plots and pictures in one report",
         [options](const GlobalOptions& global) { return run_compare(*options, global); });
-    command.add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml) or OBJ with its MTL (.obj)")
+    command
+        .add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml), glTF (.gltf, .glb) or OBJ (.obj)")
         ->required();
     add_shared_scene_options(command, options->scene);
     add_bvh_option(command, options->settings.bvh_quality);

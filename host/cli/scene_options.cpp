@@ -6,14 +6,17 @@
 namespace nearlight {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.file, "Mitsuba XML (.xml) or OBJ with its MTL (.obj)")->required();
+    command
+        .add_option("SCENE", options.file,
+                    "Mitsuba XML (.xml), glTF 2.0 (.gltf, .glb) or OBJ with its MTL (.obj)")
+        ->required();
     add_shared_scene_options(command, options);
 }
 
 void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("-D,--define", options.definitions,
-                    "Value for $NAME in the scene; may be given several times")
+                    "Value for $NAME in a Mitsuba scene, or camera=NAME for glTF; may be given several times")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     command.add_flag("--strict", options.strict, "Fail where the scene would be approximated");
@@ -26,7 +29,8 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality) {
             [&quality](const std::string& name) {
                 quality = name == "fast" ? BvhQuality::fast : BvhQuality::quality;
             },
-            "Tree that rays go through: fast (built in half the time) or quality (up to a quarter fewer steps "
+            "Tree that rays go through: fast (built in half the time) or quality (up to a quarter fewer "
+            "steps "
             "a ray)")
         ->check(CLI::IsMember({"fast", "quality"}))
         ->default_str(to_string(quality));

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ struct DecodedImage {
 
 /// What the module exports as `nearlight_image_codec`. All throw what image_io.h says.
 struct ImageCodec {
-    DecodedImage (*read)(const std::filesystem::path& file);
+    /// `bytes`: the file, where it is in memory; else empty.
+    DecodedImage (*read)(const std::filesystem::path& file, std::span<const std::byte> bytes);
     Metadata (*read_metadata)(const std::filesystem::path& file);
     std::unique_ptr<ImageEncoder> (*make_encoder)(const EncodingTask& task);
 };

@@ -50,7 +50,7 @@ void check_readable(const fs::path& file) {
 Image read(const fs::path& file, bool decode_srgb) {
     check_readable(file);
     std::optional<Image> plain = read_pnm(file);
-    DecodedImage decoded = plain ? DecodedImage{std::move(*plain), true} : image_codec().read(file);
+    DecodedImage decoded = plain ? DecodedImage{std::move(*plain), true} : image_codec().read(file, {});
     if (decode_srgb && decoded.is_srgb) {
         linearize(decoded.image);
     }
@@ -83,6 +83,13 @@ fs::path temporary_path(const fs::path& file) {
 
 Image read_image(const fs::path& file) {
     return read(file, false);
+}
+
+Image read_image(std::span<const std::byte> bytes, const std::string& name) {
+    if (bytes.empty()) {
+        fail_image("cannot read image", name, "it is empty");
+    }
+    return image_codec().read(name, bytes).image;
 }
 
 Image read_linear_image(const fs::path& file) {

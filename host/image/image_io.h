@@ -17,7 +17,9 @@ namespace nearlight {
 /// Values are as in the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
 /// Throws Error(ExitCode::file) naming the file and the reason.
 Image read_image(const std::filesystem::path& file);
-/// The same, with the colours of sRGB-encoded files (8- and 16-bit integers) decoded to linear.
+/// The same of a file in memory; its format follows from the extension of `name`.
+Image read_image(std::span<const std::byte> bytes, const std::string& name);
+/// The same as the first, with the colours of sRGB-encoded files (8- and 16-bit integers) decoded to linear.
 Image read_linear_image(const std::filesystem::path& file);
 
 /// Attributes of an image file.

@@ -20,23 +20,29 @@ OIIO::ImageSpec reading_options() {
     return options;
 }
 
-std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
-    const OIIO::ImageSpec options = reading_options();
-    auto input = OIIO::ImageInput::open(file.string(), &options);
+std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
+    OIIO::ImageSpec options = reading_options();
+    // Both ways: some formats take it from here, and forget the argument.
+    void* const proxy = memory;
+    if (memory != nullptr) {
+        options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    }
+    auto input = OIIO::ImageInput::open(file.string(), &options, memory);
     if (!input) {
         fail_image("cannot read image", file, OIIO::geterror());
     }
     return input;
 }
 
-DecodedImage decode(const fs::path& file) {
-    const auto input = open(file);
+DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    const auto input = open(file, bytes.empty() ? nullptr : &memory);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }
     std::error_code ignored;
-    if (!fits_in_file(spec.image_bytes(true), fs::file_size(file, ignored))) {
+    if (!fits_in_file(spec.image_bytes(true), bytes.empty() ? fs::file_size(file, ignored) : bytes.size())) {
         fail_image("cannot read image", file, "its header promises more pixels than it can hold");
     }
     Image image = make_image(spec.width, spec.height, spec.channelnames);

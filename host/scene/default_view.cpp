@@ -33,12 +33,16 @@ SceneCamera default_camera(const Aabb& box) {
 }
 
 void add_default_view(Scene& scene, NoteSink& notes) {
-    const Aabb box = bounds(scene);
-    scene.camera = default_camera(box);
+    scene.camera = default_camera(bounds(scene));
     notes.remark(scene.source, 0, "the file has no camera; one that frames everything is used");
+    add_default_light(scene, notes);
+}
+
+void add_default_light(Scene& scene, NoteSink& notes) {
     if (has_light(scene)) {
         return;
     }
+    const Aabb box = bounds(scene);
     scene.environment.width = 1;
     scene.environment.height = 1;
     scene.environment.radiance = {{1, 1, 1}};

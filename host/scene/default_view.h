@@ -10,8 +10,10 @@ namespace nearlight {
 /// A 640 × 480 camera (45° wide) that frames the bounding box from the front, right and above; y is up.
 SceneCamera default_camera(const Aabb& box);
 
-/// Sets the default camera and, where no material emits and there is no other light, an environment of
-/// radiance 1 and a point light beside the camera; says both in a remark.
+/// Where no material emits and there is no other light, an environment of radiance 1 and a point light beside
+/// the default camera; says so in a remark.
+void add_default_light(Scene& scene, NoteSink& notes);
+/// The same, and the default camera.
 void add_default_view(Scene& scene, NoteSink& notes);
 
 }  // namespace nearlight

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "host/base/error.h"
+#include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj_loader.h"
 
@@ -18,6 +20,15 @@ std::string lower_case_extension(const std::filesystem::path& file) {
     }
     return extension;
 }
+
+struct Loader {
+    std::string_view extension;
+    Scene (*load)(const std::filesystem::path& file, const LoadOptions& options);
+};
+constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene},
+                               {".gltf", load_gltf_scene},
+                               {".glb", load_gltf_scene},
+                               {".obj", load_obj_scene}};
 
 bool has_light(const Scene& scene) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
@@ -48,11 +59,12 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
         throw Error(ExitCode::file, file.string() + ": is a directory; name the scene file in it");
     }
     const std::string extension = lower_case_extension(file);
-    if (extension != ".xml" && extension != ".obj") {
+    const auto loader = std::ranges::find(kLoaders, extension, &Loader::extension);
+    if (loader == std::end(kLoaders)) {
         throw Error(ExitCode::file, file.string() + ": unknown scene format '" + extension +
-                                        "'; known ones are .xml (Mitsuba) and .obj");
+                                        "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
     }
-    Scene scene = extension == ".xml" ? load_mitsuba_scene(file, options) : load_obj_scene(file, options);
+    Scene scene = loader->load(file, options);
     remark_emptiness(scene);
     return scene;
 }

@@ -11,13 +11,13 @@
 namespace nearlight {
 
 struct LoadOptions {
-    /// Values for `$name` in Mitsuba XML; they win over <default>.
+    /// Values for `$name` in Mitsuba XML; they win over <default>. Of glTF files, `camera`.
     std::map<std::string, std::string> parameters;
     /// Every approximation is an error instead of a note.
     bool strict = false;
 };
 
-/// By extension: .xml (Mitsuba 0.5 to 3), .obj. Throws Error(ExitCode::file) with file and line where the
+/// By extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj. Throws Error(ExitCode::file) with file and line where the
 /// file is missing, broken or holds something unknown.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 

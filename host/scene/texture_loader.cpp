@@ -56,16 +56,18 @@ int TextureLoader::load(const std::filesystem::path& image, bool linear, const s
         return entry->second;
     }
     try {
-        TextureImage texture =
-            to_texture(read_image(image), image.filename().string(), linear || holds_floats(image));
-        entry->second = static_cast<int>(scene_.images.size());
-        scene_.images.push_back(std::move(texture));
+        entry->second = add(read_image(image), image.filename().string(), linear || holds_floats(image));
     } catch (const Error& error) {
         notes_.approximation(
             file, line,
             std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
     }
     return entry->second;
+}
+
+int TextureLoader::add(const Image& image, const std::string& name, bool linear) {
+    scene_.images.push_back(to_texture(image, name, linear));
+    return static_cast<int>(scene_.images.size() - 1);
 }
 
 SceneTexture plain_texture(int image) {

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <map>
+#include <string>
 #include <utility>
 
+#include "host/image/image.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
 
@@ -19,6 +21,9 @@ class TextureLoader {
     /// Index into Scene::images, or -1 with a note at file:line where the image cannot be read. `linear`: the
     /// file's numbers are reflectances rather than sRGB-encoded; files of floats always are.
     int load(const std::filesystem::path& image, bool linear, const std::filesystem::path& file, int line);
+
+    /// The same of an image that has no file of its own; its index.
+    int add(const Image& image, const std::string& name, bool linear);
 
   private:
     Scene& scene_;

@@ -40,6 +40,27 @@ TEST(RealScenes, VeachBidir) {
     EXPECT_EQ(scene.notes.size(), 1u);  // the lamp's Beckmann distribution
 }
 
+TEST(RealScenes, FurnishedLivingRoom) {
+    const auto file = real_scene("furnished-living-room.gltf");
+    if (file.empty()) {
+        GTEST_SKIP() << "furnished-living-room is not there; set NEARLIGHT_TEST_SCENES";
+    }
+    const Scene scene = load_scene(file, {.parameters = {{"camera", "cabinets"}}, .strict = false});
+    EXPECT_EQ(scene.triangles.size(), 116817u);
+    EXPECT_EQ(scene.delta_emitters.size(), 2u);
+    EXPECT_EQ(scene.images.size(), 11u);
+    EXPECT_EQ(scene.camera.width, 640);
+    EXPECT_NEAR(scene.camera.fov_x_degrees, 69.5, 0.1);
+}
+
+TEST(RealScenes, LionHead) {
+    const auto file = real_scene("lion-head/lion_head_1k.gltf");
+    if (file.empty()) {
+        GTEST_SKIP() << "lion-head is not there; set NEARLIGHT_TEST_SCENES";
+    }
+    EXPECT_EQ(load_scene(file).triangles.size(), 47214u);
+}
+
 TEST(RealScenes, TeapotPlyFiles) {
     std::size_t triangles = 0;
     for (const char* name : {"Mesh000", "Mesh001", "Mesh002", "Mesh003"}) {

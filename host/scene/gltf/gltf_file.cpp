@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/gltf_file.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "host/base/error.h"
+#include "host/scene/file_text.h"
+
+namespace nearlight::gltf {
+namespace {
+
+/// That a file may call required: read here, or safe to look past with a note.
+constexpr std::array<std::string_view, 12> kKnownExtensions{
+    "KHR_lights_punctual",        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_sheen",     "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",     "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_mesh_quantization",   "KHR_texture_transform"};
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find_first_of("\r\n"));
+}
+
+/// Keeps images from data URIs as they are. Those in files are read when a material asks for them, and those
+/// in buffers too: the bytes that tinygltf hands over here may lie beyond the buffer's end.
+bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                const unsigned char* bytes, int size, void*) {
+    if (image->uri.empty() && image->bufferView < 0) {
+        image->image.assign(bytes, bytes + size);
+        image->as_is = true;
+    }
+    return true;
+}
+
+const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const char* extension,
+                              const char* key) {
+    const auto found = extensions.find(extension);
+    return found != extensions.end() && found->second.Has(key) ? &found->second.Get(key) : nullptr;
+}
+
+}  // namespace
+
+void GltfFile::fail(const std::string& what) const {
+    throw Error(ExitCode::file, path.string() + ": " + what);
+}
+
+GltfFile read_gltf(const std::filesystem::path& path) {
+    GltfFile file{path, {}};
+    const std::string text = read_file_text(path);
+    tinygltf::TinyGLTF reader;
+    reader.SetImageLoader(keep_image, nullptr);
+    std::string error;
+    std::string warning;
+    const std::string folder = path.parent_path().string();
+    const auto size = static_cast<unsigned int>(text.size());
+    const bool read =
+        text.starts_with("glTF")
+            ? reader.LoadBinaryFromMemory(&file.model, &error, &warning,
+                                          reinterpret_cast<const unsigned char*>(text.data()), size, folder)
+            : reader.LoadASCIIFromString(&file.model, &error, &warning, text.data(), size, folder);
+    if (!read) {
+        file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
+    }
+    for (const std::string& extension : file.model.extensionsRequired) {
+        if (std::ranges::find(kKnownExtensions, extension) == kKnownExtensions.end()) {
+            file.fail("needs the extension " + extension + ", which is not supported; export it without");
+        }
+    }
+    return file;
+}
+
+double number_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
+                 double fallback) {
+    const tinygltf::Value* const value = member(extensions, extension, key);
+    return value != nullptr && value->IsNumber() ? value->GetNumberAsDouble() : fallback;
+}
+
+Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
+              Vec3 fallback) {
+    const tinygltf::Value* const value = member(extensions, extension, key);
+    if (value == nullptr || !value->IsArray() || value->ArrayLen() != 3) {
+        return fallback;
+    }
+    const auto channel = [&](int i) { return static_cast<float>(value->Get(i).GetNumberAsDouble()); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+}  // namespace nearlight::gltf

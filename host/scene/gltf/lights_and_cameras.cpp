@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/lights_and_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.h"
+
+namespace nearlight::gltf {
+namespace {
+
+/// Lumens a watt of green light: what exporters take for the ratio of photometric and radiometric units.
+constexpr double kLumensPerWatt = 683;
+/// Of directional lights, in radii of the scene: rays differ from each other by no more than a degree.
+constexpr float kFarAway = 50.0f;
+constexpr int kUsualHeight = 480;
+
+Vec3 color_of(const tinygltf::Light& light) {
+    const auto channel = [&](std::size_t i) {
+        const double c = light.color.size() == 3 ? light.color[i] : 1.0;
+        return static_cast<float>(std::max(c, 0.0) * std::max(light.intensity, 0.0) / kLumensPerWatt);
+    };
+    return {channel(0), channel(1), channel(2)};
+}
+
+Vec3 forward(const Mat4& to_world) {
+    return normalize(transform_vector(to_world, {0, 0, -1}));
+}
+
+Emitter point_emitter(const PlacedLight& placed) {
+    Emitter emitter{};
+    emitter.type = NEARLIGHT_EMITTER_POINT;
+    emitter.position = transform_point(placed.to_world, {0, 0, 0});
+    emitter.radiance = color_of(*placed.light);
+    return emitter;
+}
+
+Emitter spot_emitter(const PlacedLight& placed) {
+    Emitter emitter = point_emitter(placed);
+    emitter.type = NEARLIGHT_EMITTER_SPOT;
+    emitter.direction = forward(placed.to_world);
+    const double widest = std::numbers::pi / 2;
+    emitter.cutoff_angle = static_cast<float>(std::clamp(placed.light->spot.outerConeAngle, 1e-3, widest));
+    emitter.beam_angle =
+        std::clamp(static_cast<float>(placed.light->spot.innerConeAngle), 0.0f, emitter.cutoff_angle);
+    return emitter;
+}
+
+/// So far away that its irradiance hardly changes over the scene, and just wide enough to light all of it.
+Emitter directional_emitter(const PlacedLight& placed, const Aabb& box) {
+    const float radius = std::max(0.5f * length(box.size()), 1e-3f);
+    const float distance = kFarAway * radius;
+    Emitter emitter{};
+    emitter.type = NEARLIGHT_EMITTER_SPOT;
+    emitter.direction = forward(placed.to_world);
+    emitter.position = box.center() - distance * emitter.direction;
+    emitter.radiance = color_of(*placed.light) * (distance * distance);
+    emitter.cutoff_angle = emitter.beam_angle = std::asin(1.01f / kFarAway);
+    return emitter;
+}
+
+/// Ours looks along +Z with +X to the left, and has no scale.
+Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
+    Mat4 to_world = placed.to_world * scaling(-1, 1, -1);
+    for (int column = 0; column < 3; ++column) {
+        const double l = std::hypot(to_world(0, column), to_world(1, column), to_world(2, column));
+        if (!(l > 0)) {
+            file.fail("the transform of camera '" + placed.node + "' is flat");
+        }
+        for (int row = 0; row < 3; ++row) {
+            to_world(row, column) /= l;
+        }
+    }
+    return to_world;
+}
+
+SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
+    if (placed.camera->type != "perspective") {
+        file.fail("camera '" + placed.node + "' is not a perspective one");
+    }
+    const tinygltf::PerspectiveCamera& source = placed.camera->perspective;
+    if (!(source.yfov > 0) || !(source.yfov < std::numbers::pi)) {
+        file.fail("camera '" + placed.node + "' has no field of view between 0 and 180 degrees");
+    }
+    SceneCamera camera;
+    const double aspect = source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0;
+    camera.height = kUsualHeight;
+    camera.width = std::clamp(static_cast<int>(std::lround(kUsualHeight * aspect)), 1, 1 << 14);
+    camera.fov_x_degrees =
+        360.0 / std::numbers::pi *
+        std::atan(std::tan(source.yfov / 2) * camera.width / static_cast<double>(camera.height));
+    camera.to_world = camera_to_world(file, placed);
+    return camera;
+}
+
+}  // namespace
+
+Mat4 rotation_of(const std::vector<double>& quaternion) {
+    const double angle =
+        2 * std::atan2(std::hypot(quaternion[0], quaternion[1], quaternion[2]), quaternion[3]);
+    const bool turns = quaternion[0] != 0 || quaternion[1] != 0 || quaternion[2] != 0;
+    return turns ? rotation(quaternion[0], quaternion[1], quaternion[2], angle * 180 / std::numbers::pi)
+                 : Mat4{};
+}
+
+void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
+                std::vector<PlacedLight>& lights) {
+    const double index = number_of(node.extensions, "KHR_lights_punctual", "light", -1);
+    if (index >= 0) {
+        lights.push_back(
+            {&file.at(file.model.lights, static_cast<int>(index), "light", "node '" + node.name + "'"),
+             to_world});
+    }
+}
+
+void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
+                 std::vector<PlacedCamera>& cameras) {
+    if (node.camera >= 0) {
+        cameras.push_back({&file.at(file.model.cameras, node.camera, "camera", "node '" + node.name + "'"),
+                           node.name, to_world});
+    }
+}
+
+void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
+    const Aabb box = bounds(scene);
+    for (const PlacedLight& placed : lights) {
+        if (placed.light->type == "point") {
+            scene.delta_emitters.push_back(point_emitter(placed));
+        } else if (placed.light->type == "spot") {
+            scene.delta_emitters.push_back(spot_emitter(placed));
+        } else if (placed.light->type == "directional") {
+            scene.delta_emitters.push_back(directional_emitter(placed, box));
+            notes.approximation(file.path, 0, "directional lights are taken for spot lights far away");
+        } else {
+            notes.approximation(file.path, 0, "a light of type '" + placed.light->type + "' is left out");
+        }
+    }
+}
+
+SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
+                          const std::string& name) {
+    std::string names;
+    for (const PlacedCamera& placed : cameras) {
+        if (name.empty() || name == placed.node || name == placed.camera->name) {
+            return perspective(file, placed);
+        }
+        names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
+    }
+    throw Error(ExitCode::usage, file.path.string() + ": has no camera '" + name + "'; " +
+                                     (names.empty() ? "it has none" : "there are " + names));
+}
+
+}  // namespace nearlight::gltf

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// From glTF's metallic-roughness materials to ours.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "host/image/image.h"
+#include "host/scene/gltf/gltf_file.h"
+#include "host/scene/texture_loader.h"
+
+namespace nearlight::gltf {
+
+/// A material of the scene, and which set of texture coordinates it wants.
+struct PlacedMaterial {
+    uint index = 0;
+    int texture_set = 0;
+};
+
+/// Makes each material when a mesh first asks for it. A dielectric is a Lambertian base under a coat, a metal
+/// a rough conductor, what light passes through glass. Textures of other things than colour are taken by
+/// their mean, or left out, with a note.
+class MaterialMaker {
+  public:
+    MaterialMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
+        : file_(file), scene_(scene), notes_(notes), textures_(scene, notes) {}
+
+    /// −1: of a mesh without any, which is grey.
+    PlacedMaterial material(int index);
+
+  private:
+    struct Surface;
+    [[nodiscard]] Surface surface_of(const tinygltf::Material& source);
+    [[nodiscard]] Material make(const tinygltf::Material& source);
+    [[nodiscard]] Material make_base(const tinygltf::Material& source, const Surface& surface, bool has_coat);
+    [[nodiscard]] Material make_metal(const tinygltf::Material& source, const Surface& surface);
+    [[nodiscard]] Vec3 emission_of(const tinygltf::Material& source);
+    void remark_what_is_left_out(const tinygltf::Material& source);
+    void approximate(const std::string& what);
+    [[nodiscard]] const tinygltf::Image* image_of(const tinygltf::TextureInfo& info) const;
+    int add_texture(const tinygltf::TextureInfo& info);
+    int load_colors(const tinygltf::Image& image);
+    std::optional<Vec3> mean_of(const tinygltf::TextureInfo& info);
+
+    const GltfFile& file_;
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader textures_;
+    std::map<int, PlacedMaterial> made_;
+    std::map<const tinygltf::Image*, int> colors_;                 ///< index into Scene::images, or −1
+    std::map<const tinygltf::Image*, std::optional<Vec3>> means_;  ///< of the file's numbers
+};
+
+}  // namespace nearlight::gltf
