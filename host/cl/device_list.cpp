@@ -203,6 +203,13 @@ void set_driver_defaults() {
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
 }
 
+// The second name is that of PoCL 4 and later.
+void limit_driver_threads(int threads) {
+    for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {
+        setenv(name, std::to_string(threads).c_str(), 1);
+    }
+}
+
 DeviceList list_devices() {
     if (std::getenv("POCL_WORK_GROUP_SPECIALIZATION") == nullptr) {
         set_driver_defaults();

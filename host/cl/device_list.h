@@ -41,6 +41,8 @@ struct DeviceList {
 /// Environment variables that drivers read, where they are not set: list_devices() does it too, but must not
 /// be the first to where there are threads already.
 void set_driver_defaults();
+/// To be called before: CPU drivers that can be told (PoCL) take so many threads.
+void limit_driver_threads(int threads);
 /// Never throws for what drivers do wrong.
 DeviceList list_devices();
 

@@ -9,6 +9,7 @@
 
 #include "host/base/log.h"
 #include "host/base/stopwatch.h"
+#include "host/bvh/thread_limit.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/output.h"
@@ -31,6 +32,7 @@ struct RenderOptions {
     std::string range = "auto";
     std::string clamp_radius = "auto";
     std::optional<double> seconds;  ///< of the whole command
+    int threads = 0;                ///< 0: one a core
 };
 
 const std::map<std::string, GatherKernel> kGatherKernels{
@@ -134,6 +136,10 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     RenderSettings settings = settled(options);
+    const ThreadLimit limit(options.threads);
+    if (options.threads > 0) {
+        limit_driver_threads(options.threads);
+    }
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
@@ -288,6 +294,12 @@ void add_render_command(CommandLine& line) {
     add_pass_options(command, *options);
     add_method_options(command, *options);
     add_device_options(command, options->device);
+    command
+        .add_option("--threads", options->threads,
+                    "CPU threads for trees and for CPU devices, PoCL's at least; 0: one a core")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 }  // namespace nearlight

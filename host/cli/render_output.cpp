@@ -97,8 +97,10 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
                                          {"seconds", share.seconds},
                                          {"failed", share.failed}});
     }
+    json["compute_units"] = nlohmann::ordered_json::array();
     json["tunables"] = nlohmann::ordered_json::array();
     for (const auto& device : devices) {
+        json["compute_units"].push_back(device->entry().compute_units);
         json["tunables"].push_back({{"device", device->entry().label()}});
         json["tunables"].back().update(to_json(device->chosen_tunables()));
     }

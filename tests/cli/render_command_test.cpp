@@ -37,6 +37,17 @@ class Render : public testing::Test {
     std::filesystem::path output_ = folder_ / "picture.exr";
 };
 
+TEST_F(Render, TakesNoMoreThreadsThanItMay) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const nlohmann::json one = rendered("--threads 1", output_);
+    const nlohmann::json plain = rendered("", output_);
+    EXPECT_EQ(one["image_hash"], plain["image_hash"]);
+    if (one["device"].at(0).get<std::string>().starts_with("pthread")) {  // PoCL's
+        EXPECT_EQ(one["compute_units"], nlohmann::json::array({1}));
+    }
+    EXPECT_EQ(render("--threads -1", output_).exit_code, 2);
+}
+
 TEST_F(Render, BothTreesGiveTheSamePicture) {
     NEARLIGHT_NEEDS_DEVICE();
     EXPECT_EQ(rendered("--bvh fast", folder_ / "fast.exr")["bvh"], "fast");

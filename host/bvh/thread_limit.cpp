@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/bvh/thread_limit.h"
+
+#ifndef NEARLIGHT_SERIAL
+#include <tbb/global_control.h>
+#endif
+
+namespace nearlight {
+
+#ifdef NEARLIGHT_SERIAL
+struct ThreadLimit::Control {};
+
+int allowed_threads() {
+    return 1;
+}
+#else
+struct ThreadLimit::Control {
+    explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+    tbb::global_control control;
+};
+
+int allowed_threads() {
+    return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+#endif
+
+ThreadLimit::ThreadLimit(int threads) {
+#ifndef NEARLIGHT_SERIAL
+    if (threads > 0) {
+        control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
+    }
+#else
+    static_cast<void>(threads);
+#endif
+}
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace nearlight
