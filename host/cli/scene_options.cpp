@@ -30,8 +30,7 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality) {
                 quality = name == "fast" ? BvhQuality::fast : BvhQuality::quality;
             },
             "Tree that rays go through: fast (built in half the time) or quality (up to a quarter fewer "
-            "steps "
-            "a ray)")
+            "steps a ray)")
         ->check(CLI::IsMember({"fast", "quality"}))
         ->default_str(to_string(quality));
 }

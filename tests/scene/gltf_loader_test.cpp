@@ -376,6 +376,22 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
                 HasSubstr("node 'thing' refers to mesh 3, but there are only 1"));
     EXPECT_THAT(with([](json& root) { root["nodes"][0]["children"] = {0}; }), HasSubstr("below itself"));
     EXPECT_THAT(with([](json& root) { root["scenes"][0]["nodes"] = {9}; }), HasSubstr("node 9"));
+    EXPECT_THAT(with([](json& root) {
+                    root["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}};
+                }),
+                HasSubstr("there twice"));
+    EXPECT_THAT(with([](json& root) {
+                    root["accessors"][0].erase("bufferView");
+                    root["accessors"][0]["count"] = 1u << 30u;
+                }),
+                HasSubstr("no buffer view"));
+    EXPECT_THAT(
+        with([](json& root) { root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1e300; }),
+        HasSubstr("refers to light"));
+    EXPECT_THAT(with([](json& root) {
+                    root["materials"][0]["emissiveFactor"] = {1e300, 0, 0};
+                }),
+                HasSubstr("not finite"));
     EXPECT_THAT(with([](json& root) { root["meshes"][0]["primitives"][0]["material"] = 9; }),
                 HasSubstr("material 9"));
     EXPECT_THAT(with([](json& root) { root["accessors"][0]["count"] = 5; }), HasSubstr("beyond the end"));

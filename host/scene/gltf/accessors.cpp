@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -73,9 +74,15 @@ double number(const Elements& elements, std::size_t element, std::size_t index) 
     }
 }
 
+/// Of an accessor that has no bytes which would bound it; more vertices no tree could hold.
+constexpr std::size_t kMostZeros = std::size_t{1} << 27u;
+
 /// Of the accessor without what is sparse. It may have no view, and then is zero.
 Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components) {
     if (accessor.bufferView < 0) {
+        if (accessor.count > kMostZeros) {
+            file.fail("an accessor has " + std::to_string(accessor.count) + " elements, and no buffer view");
+        }
         return {nullptr, 0, accessor.componentType, false};
     }
     const tinygltf::BufferView& view =
@@ -84,14 +91,6 @@ Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor
                                     accessor.componentType, components, accessor.count);
     elements.normalized = accessor.normalized;
     return elements;
-}
-
-/// More than the buffers have bytes cannot be meant, and would only take memory.
-void check_count(const GltfFile& file, const tinygltf::Accessor& accessor) {
-    constexpr std::size_t kMost = std::size_t{1} << 31u;
-    if (accessor.count > kMost) {
-        file.fail("an accessor has " + std::to_string(accessor.count) + " elements");
-    }
 }
 
 /// Calls visit(element, component, number) for all numbers, then again for those that are replaced.
@@ -116,20 +115,19 @@ void for_each_number(const GltfFile& file, const tinygltf::Accessor& accessor, s
                                   accessor.componentType, components, count);
     values.normalized = accessor.normalized;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto place = static_cast<std::size_t>(number(places, i, 0));
-        if (place >= accessor.count) {
-            file.fail("a sparse accessor replaces element " + std::to_string(place) + " of " +
-                      std::to_string(accessor.count));
+        const double place = number(places, i, 0);
+        if (!(place >= 0) || !(place < static_cast<double>(accessor.count))) {
+            file.fail("a sparse accessor of " + std::to_string(accessor.count) +
+                      " elements replaces another");
         }
         for (std::size_t c = 0; c < components; ++c) {
-            visit(place, c, number(values, i, c));
+            visit(static_cast<std::size_t>(place), c, number(values, i, c));
         }
     }
 }
 
 const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, int components) {
     const tinygltf::Accessor& accessor = file.at(file.model.accessors, index, "accessor", "a mesh");
-    check_count(file, accessor);
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components) {
         file.fail("accessor " + std::to_string(index) + " has not " + std::to_string(components) +
                   " numbers an element");
@@ -165,7 +163,7 @@ std::vector<uint> read_indices(const GltfFile& file, int accessor_index) {
     dense_elements(file, accessor, 1);
     std::vector<uint> indices(accessor.count);
     for_each_number(file, accessor, 1, [&](std::size_t element, std::size_t, double value) {
-        indices[element] = value >= 0 ? static_cast<uint>(value) : ~0u;
+        indices[element] = value >= 0 && value < 0x1p32 ? static_cast<uint>(value) : ~0u;
     });
     return indices;
 }

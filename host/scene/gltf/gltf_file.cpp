@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "host/base/error.h"
@@ -74,6 +75,11 @@ double number_of(const tinygltf::ExtensionMap& extensions, const char* extension
                  double fallback) {
     const tinygltf::Value* const value = member(extensions, extension, key);
     return value != nullptr && value->IsNumber() ? value->GetNumberAsDouble() : fallback;
+}
+
+int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key, int fallback) {
+    const double index = number_of(extensions, extension, key, fallback);
+    return index >= 0 && index <= std::numeric_limits<int>::max() ? static_cast<int>(index) : -1;
 }
 
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,

@@ -47,6 +47,8 @@ std::vector<uint> read_indices(const GltfFile& file, int accessor);
 /// A number of an extension's object, or `fallback`.
 double number_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
                  double fallback);
+/// The same of an index; what is none, is too large for one or below 0, is −1.
+int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key, int fallback);
 /// Three numbers.
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
               Vec3 fallback);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/gltf_loader.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include "host/base/error.h"
 #include "host/scene/default_view.h"
 #include "host/scene/gltf/gltf_file.h"
@@ -39,17 +43,19 @@ Mat4 transform_of(const GltfFile& file, const tinygltf::Node& node) {
     return matrix;
 }
 
-/// Calls visit(node, to_world) for the node and all below it.
+/// Calls visit(node, to_world) for the node and all below it. Each must be there once: nodes that share
+/// children could make any number of copies out of a small file.
 template <typename Visit>
-void visit_nodes(const GltfFile& file, int index, const Mat4& parent, std::size_t depth, const Visit& visit) {
-    if (depth > file.model.nodes.size()) {
-        file.fail("node " + std::to_string(index) + " is below itself");
-    }
+void visit_nodes(const GltfFile& file, int index, const Mat4& parent, std::set<int>& visited,
+                 const Visit& visit) {
     const tinygltf::Node& node = file.at(file.model.nodes, index, "node", "a scene or node");
+    if (!visited.insert(index).second) {
+        file.fail("node " + std::to_string(index) + " is below itself, or there twice");
+    }
     const Mat4 to_world = parent * transform_of(file, node);
     visit(node, to_world);
     for (const int child : node.children) {
-        visit_nodes(file, child, to_world, depth + 1, visit);
+        visit_nodes(file, child, to_world, visited, visit);
     }
 }
 
@@ -61,8 +67,9 @@ void visit_scene(const GltfFile& file, const Visit& visit) {
     }
     const tinygltf::Scene& scene =
         file.at(model.scenes, std::max(model.defaultScene, 0), "scene", "the file");
+    std::set<int> visited;
     for (const int root : scene.nodes) {
-        visit_nodes(file, root, {}, 0, visit);
+        visit_nodes(file, root, {}, visited, visit);
     }
 }
 

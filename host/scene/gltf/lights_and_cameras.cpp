@@ -86,7 +86,7 @@ SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
     SceneCamera camera;
     const double aspect = source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0;
     camera.height = kUsualHeight;
-    camera.width = std::clamp(static_cast<int>(std::lround(kUsualHeight * aspect)), 1, 1 << 14);
+    camera.width = static_cast<int>(std::lround(std::clamp(kUsualHeight * aspect, 1.0, 16384.0)));
     camera.fov_x_degrees =
         360.0 / std::numbers::pi *
         std::atan(std::tan(source.yfov / 2) * camera.width / static_cast<double>(camera.height));
@@ -106,11 +106,9 @@ Mat4 rotation_of(const std::vector<double>& quaternion) {
 
 void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                 std::vector<PlacedLight>& lights) {
-    const double index = number_of(node.extensions, "KHR_lights_punctual", "light", -1);
-    if (index >= 0) {
-        lights.push_back(
-            {&file.at(file.model.lights, static_cast<int>(index), "light", "node '" + node.name + "'"),
-             to_world});
+    if (node.extensions.contains("KHR_lights_punctual")) {
+        const int index = index_of(node.extensions, "KHR_lights_punctual", "light", -1);
+        lights.push_back({&file.at(file.model.lights, index, "light", "node '" + node.name + "'"), to_world});
     }
 }
 
@@ -125,6 +123,9 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
     const Aabb box = bounds(scene);
     for (const PlacedLight& placed : lights) {
+        if (!is_finite(color_of(*placed.light))) {
+            file.fail("the intensity of light '" + placed.light->name + "' is not finite");
+        }
         if (placed.light->type == "point") {
             scene.delta_emitters.push_back(point_emitter(placed));
         } else if (placed.light->type == "spot") {

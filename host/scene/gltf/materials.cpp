@@ -2,6 +2,7 @@
 #include "host/scene/gltf/materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -75,6 +76,35 @@ Vec3 mean_numbers(const Image& image) {
             static_cast<float>(sum[2] / count)};
 }
 
+/// Two numbers of KHR_texture_transform.
+std::array<double, 2> pair_of(const tinygltf::Value& transform, const char* key, double fallback) {
+    const tinygltf::Value& value = transform.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 2) {
+        return {fallback, fallback};
+    }
+    return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
+}
+
+/// Texture coordinates of ours have v upwards. Theirs, with v' = 1 − v downwards, are looked up at
+/// (c·su·u + s·sv·v' + ou, −s·su·u + c·sv·v' + ov).
+void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
+    const auto found = info.extensions.find("KHR_texture_transform");
+    if (found == info.extensions.end()) {
+        return;
+    }
+    const auto [scale_u, scale_v] = pair_of(found->second, "scale", 1);
+    const auto [offset_u, offset_v] = pair_of(found->second, "offset", 0);
+    const double angle = number_of(info.extensions, "KHR_texture_transform", "rotation", 0);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    texture.u_scale = static_cast<float>(c * scale_u);
+    texture.u_shear = static_cast<float>(-s * scale_v);
+    texture.u_offset = static_cast<float>(s * scale_v + offset_u);
+    texture.v_shear = static_cast<float>(s * scale_u);
+    texture.v_scale = static_cast<float>(c * scale_v);
+    texture.v_offset = static_cast<float>(1 - c * scale_v - offset_v);
+}
+
 }  // namespace
 
 /// What decides which of our materials it is.
@@ -117,7 +147,7 @@ int MaterialMaker::load_colors(const tinygltf::Image& image) {
     }
 }
 
-/// Index into Scene::textures, or −1. Texture coordinates of ours have v upwards.
+/// Index into Scene::textures, or −1.
 int MaterialMaker::add_texture(const tinygltf::TextureInfo& info) {
     const tinygltf::Image* const image = image_of(info);
     if (image == nullptr) {
@@ -131,27 +161,7 @@ int MaterialMaker::add_texture(const tinygltf::TextureInfo& info) {
         return -1;
     }
     SceneTexture texture = plain_texture(entry->second);
-    if (const auto found = info.extensions.find("KHR_texture_transform"); found != info.extensions.end()) {
-        const auto pair = [&](const char* key, double fallback) {
-            const tinygltf::Value& value = found->second.Get(key);
-            const bool there = value.IsArray() && value.ArrayLen() == 2;
-            return std::array{there ? value.Get(0).GetNumberAsDouble() : fallback,
-                              there ? value.Get(1).GetNumberAsDouble() : fallback};
-        };
-        const auto [scale_u, scale_v] = pair("scale", 1);
-        const auto [offset_u, offset_v] = pair("offset", 0);
-        const double angle = number_of(info.extensions, "KHR_texture_transform", "rotation", 0);
-        const double c = std::cos(angle);
-        const double s = std::sin(angle);
-        // Theirs, with v' = 1 − v downwards: (c·su·u + s·sv·v' + ou, −s·su·u + c·sv·v' + ov).
-        Texture& t = texture.parameters;
-        t.u_scale = static_cast<float>(c * scale_u);
-        t.u_shear = static_cast<float>(-s * scale_v);
-        t.u_offset = static_cast<float>(s * scale_v + offset_u);
-        t.v_shear = static_cast<float>(s * scale_u);
-        t.v_scale = static_cast<float>(c * scale_v);
-        t.v_offset = static_cast<float>(1 - c * scale_v - offset_v);
-    }
+    apply_transform(info, texture.parameters);
     scene_.textures.push_back(texture);
     return static_cast<int>(scene_.textures.size() - 1);
 }
@@ -273,6 +283,9 @@ Material MaterialMaker::make(const tinygltf::Material& source) {
         material = make_base(source, surface, reflects && is_smooth);
     }
     material.emission = emission_of(source);
+    if (!is_finite(material.emission)) {
+        file_.fail("material '" + source.name + "' emits light that is not finite");
+    }
     material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
     return material;
 }
@@ -291,7 +304,7 @@ PlacedMaterial MaterialMaker::material(int index) {
         made = make(source);
         const tinygltf::TextureInfo& info = source.pbrMetallicRoughness.baseColorTexture;
         entry->second.texture_set =
-            static_cast<int>(number_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord));
+            index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
     }
     entry->second.index = static_cast<uint>(scene_.materials.size());
     scene_.materials.push_back(made);
