@@ -38,6 +38,7 @@ install(EXPORT nearlight-targets NAMESPACE nearlight:: DESTINATION "${package_di
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/host" "${PROJECT_SOURCE_DIR}/kernels"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/nearlight" COMPONENT Development
   FILES_MATCHING PATTERN "*.h" PATTERN "host/cli" EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/nearlight" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development)
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/nearlight-config.cmake.in"
   "${PROJECT_BINARY_DIR}/nearlight-config.cmake" INSTALL_DESTINATION "${package_dir}")

@@ -20,13 +20,27 @@ set(NEARLIGHT_MODULE_DIR "${PROJECT_BINARY_DIR}/modules")
 set(CMAKE_BUILD_RPATH "${NEARLIGHT_MODULE_DIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/nearlight")
 
-# nearlight_library(NAME SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/.
+# Most of a build goes into headers (opencl.hpp, CLI11, json.hpp, gtest.h). Several sources in one compilation read
+# them, and instantiate their templates, once.
+function(nearlight_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEARLIGHT_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+endfunction()
+
+# For code that runs once and not long.
+set(NEARLIGHT_COLD_OPTIONS $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
+
+# nearlight_library(NAME [COLD] SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/. COLD: nobody waits for
+# its own code, so compile it quickly.
 function(nearlight_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
+  nearlight_compile_together(${name})
+  if(ARG_COLD)
+    target_compile_options(${name} PRIVATE ${NEARLIGHT_COLD_OPTIONS})
+  endif()
   add_library(nearlight::${name} ALIAS ${name})
-  target_include_directories(${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nearlight>)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nearlight> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:nearlight_options> ${ARG_PRIVATE})
   if(NEARLIGHT_CLANG_TIDY)
     set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY clang-tidy)
@@ -44,6 +58,8 @@ function(nearlight_test name)
     set(environment ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
   add_executable(${name} ${ARG_SOURCES})
+  nearlight_compile_together(${name})
+  target_compile_options(${name} PRIVATE ${NEARLIGHT_COLD_OPTIONS})
   target_link_libraries(${name} PRIVATE nearlight_options GTest::gtest_main ${ARG_LIBRARIES})
   target_compile_definitions(${name} PRIVATE
     NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")

@@ -17,9 +17,9 @@ endif()
 math(EXPR byte_count "${hex_length} / 2")
 file(WRITE "${OUTPUT}" "// Made from ${INPUT} by cmake/embed_kernel.cmake.
 #include <string_view>
-namespace nearlight::embedded {
+namespace nearlight::core::embedded {
 extern const std::string_view ${SYMBOL};
 const std::string_view ${SYMBOL}{
 ${body}    , ${byte_count}};
-}  // namespace nearlight::embedded
+}  // namespace nearlight::core::embedded
 ")

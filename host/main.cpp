@@ -4,12 +4,12 @@
 #include <exception>
 #include <new>
 
-#include "host/base/error.h"
 #include "host/cli/bench_command.h"
 #include "host/cli/command.h"
 #include "host/cli/compare_command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
+#include "host/cli/exit_code.h"
 #include "host/cli/info_command.h"
 #include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
@@ -18,7 +18,7 @@
 
 namespace {
 
-int fail(const char* message, nearlight::ExitCode code) {
+int fail(const char* message, nearlight::core::ExitCode code) {
     std::fprintf(stderr, "nearlight: error: %s\n", message);
     return static_cast<int>(code);
 }
@@ -26,21 +26,21 @@ int fail(const char* message, nearlight::ExitCode code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    using nearlight::ExitCode;
+    using nearlight::core::ExitCode;
     try {
-        nearlight::CommandLine line;
-        nearlight::add_render_command(line);
-        nearlight::add_reference_command(line);
-        nearlight::add_diff_command(line);
-        nearlight::add_compare_command(line);
-        nearlight::add_bench_command(line);
-        nearlight::add_selftest_command(line);
-        nearlight::add_devices_command(line);
-        nearlight::add_info_command(line);
-        nearlight::add_tune_command(line);
+        nearlight::core::CommandLine line;
+        nearlight::core::add_render_command(line);
+        nearlight::core::add_reference_command(line);
+        nearlight::core::add_diff_command(line);
+        nearlight::core::add_compare_command(line);
+        nearlight::core::add_bench_command(line);
+        nearlight::core::add_selftest_command(line);
+        nearlight::core::add_devices_command(line);
+        nearlight::core::add_info_command(line);
+        nearlight::core::add_tune_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
-        return fail(error.what(), error.code());
+        return fail(error.what(), nearlight::core::exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
         return fail("out of memory on the host; try a smaller --size or fewer --layers",
                     ExitCode::out_of_memory);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The text of kernels/`name` (e.g. "lib/math.cl") as it was at build time, or nothing if there is none.
 std::optional<std::string_view> embedded_kernel(std::string_view name);
@@ -14,4 +14,4 @@ std::optional<std::string_view> embedded_kernel(std::string_view name);
 /// All names that embedded_kernel() knows.
 std::vector<std::string_view> embedded_kernel_names();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,16 +9,16 @@
 #include <iterator>
 #include <system_error>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error || !std::filesystem::is_directory(folder)) {
-        throw Error(ExitCode::file, "cannot make the folder '" + folder.string() + "': " +
-                                        (error ? error.message() : "a file of that name is in the way"));
+        throw Error(ErrorKind::file, "cannot make the folder '" + folder.string() + "': " +
+                                         (error ? error.message() : "a file of that name is in the way"));
     }
 }
 
@@ -34,7 +34,7 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
     if (!stream || error) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "cannot write '" + file.string() + "'; is the disk full, or the folder read-only?");
     }
 }
@@ -43,7 +43,7 @@ std::string read_bytes(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) {
-        throw Error(ExitCode::file, "cannot read '" + file.string() + "'");
+        throw Error(ErrorKind::file, "cannot read '" + file.string() + "'");
     }
     return bytes;
 }
@@ -54,4 +54,4 @@ std::string exact_text(double value) {
     return text.data();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,16 +6,16 @@
 #include <string>
 #include <string_view>
 
-namespace nearlight {
+namespace nearlight::core {
 
-/// With those above it. Throws Error(ExitCode::file).
+/// With those above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
-/// Under a temporary name first, then renamed. Throws Error(ExitCode::file).
+/// Under a temporary name first, then renamed. Throws Error(ErrorKind::file).
 void write_text(const std::filesystem::path& file, std::string_view text);
-/// All bytes. Throws Error(ExitCode::file).
+/// All bytes. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);
 
 /// Hexadecimal, all bits: for keys.
 std::string exact_text(double value);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

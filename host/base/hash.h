@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace nearlight {
+namespace nearlight::core {
 
 inline constexpr std::uint64_t kFnvSeed = 14695981039346656037ull;
 
@@ -65,4 +65,4 @@ inline std::string hex_digits(const Hash128& hash) {
     return hex_digits(hash[0]) + hex_digits(hash[1]);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

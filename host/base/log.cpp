@@ -3,7 +3,7 @@
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 
-namespace nearlight {
+namespace nearlight::core {
 
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>("nearlight",
@@ -16,4 +16,4 @@ void set_up_log(Verbosity verbosity) {
     spdlog::set_default_logger(std::move(logger));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace nearlight {
+namespace nearlight::core {
 
 enum class Verbosity { quiet, normal, verbose };
 
@@ -12,4 +12,4 @@ enum class Verbosity { quiet, normal, verbose };
 /// Use spdlog::info(), warn(), debug() to write.
 void set_up_log(Verbosity verbosity);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace nearlight {
+namespace nearlight::core {
 
 Mat4 operator*(const Mat4& a, const Mat4& b) {
     Mat4 product;
@@ -124,4 +124,4 @@ Mat4 look_at(std::array<double, 3> origin, std::array<double, 3> target, std::ar
              0, 0, 0, 1}};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,9 +10,10 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr Vec3 operator+(Vec3 a, Vec3 b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -102,12 +103,12 @@ struct Aabb {
              -std::numeric_limits<float>::infinity()};
 
     void extend(Vec3 p) {
-        min = nearlight::min(min, p);
-        max = nearlight::max(max, p);
+        min = nearlight::core::min(min, p);
+        max = nearlight::core::max(max, p);
     }
     void extend(const Aabb& b) {
-        min = nearlight::min(min, b.min);
-        max = nearlight::max(max, b.max);
+        min = nearlight::core::min(min, b.min);
+        max = nearlight::core::max(max, b.max);
     }
     [[nodiscard]] bool is_empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
     [[nodiscard]] Vec3 size() const { return is_empty() ? Vec3{0, 0, 0} : max - min; }
@@ -144,4 +145,4 @@ Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees);
 /// Camera to world: +Z towards the target, +Y up, +X to the left as Mitsuba has it.
 Mat4 look_at(std::array<double, 3> origin, std::array<double, 3> target, std::array<double, 3> up);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

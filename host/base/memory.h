@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Most physical memory this process has held at any time (Linux counts it in KiB).
 inline std::size_t peak_host_bytes() {
@@ -13,4 +13,4 @@ inline std::size_t peak_host_bytes() {
     return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) * 1024 : 0;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include "host/base/log.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void say_error(const std::string& text) {
     spdlog::error("{}", text);
@@ -17,4 +17,4 @@ void say_debug(const std::string& text) {
     spdlog::debug("{}", text);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,11 +5,11 @@
 
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 void say_error(const std::string& text);
 void say_warning(const std::string& text);
 /// Shown with --verbose only; never in the minimal build.
 void say_debug(const std::string& text);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include "host/base/message.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void say_error(const std::string& text) {
     std::fprintf(stderr, "error: %s\n", text.c_str());
@@ -16,4 +16,4 @@ void say_warning(const std::string& text) {
 
 void say_debug(const std::string&) {}
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// PCG32 [O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms, 2014].
 class Pcg32 {
@@ -29,4 +29,4 @@ class Pcg32 {
     std::uint64_t increment_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Packets in runs of the same length. A bundle is up to NEARLIGHT_BUNDLE_PACKETS of a run that follow one
 /// another, counted from the run's first, so that where a picture is cut between runs, or in a run after a
@@ -34,4 +34,4 @@ struct BundleLayout {
     }
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

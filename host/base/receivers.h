@@ -6,7 +6,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A point of a surface that is to be lit.
 struct ReceiverPoint {
@@ -43,4 +43,4 @@ inline Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t
     return {packet.r[lane], packet.g[lane], packet.b[lane]};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

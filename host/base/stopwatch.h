@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Wall-clock time since construction or the last lap.
 class Stopwatch {
@@ -23,4 +23,4 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/base/receivers.h"
 #include "host/bvh/segment_distance.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kEdgeShare = 1e-5;        // of the scene's extent
@@ -75,4 +75,4 @@ AgreementVerdict Agreement::compare(const std::string& tracer, const TracerAnswe
     return verdict;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/bench/gather_segments.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What a tracer found.
 struct TracerAnswer {
@@ -59,4 +59,4 @@ class Agreement {
     std::vector<Disagreement> items_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

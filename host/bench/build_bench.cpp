@@ -10,7 +10,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/bench/statistics.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct Work {
@@ -109,4 +109,4 @@ BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config)
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

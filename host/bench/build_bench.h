@@ -9,7 +9,7 @@
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct BuildBenchConfig {
     std::size_t vpl_count = 32;  ///< of the segments by which steps are counted
@@ -44,4 +44,4 @@ struct BuildBenchResult {
 
 BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

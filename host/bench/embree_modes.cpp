@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/embree_modes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::vector<EmbreeMode> all_embree_modes() {
     std::vector<EmbreeMode> modes;
@@ -20,4 +20,4 @@ std::string to_string(const EmbreeMode& mode, const std::string& call) {
            (mode.high_quality ? ", quality high" : ", quality medium");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// One way to ask.
 struct EmbreeMode {
@@ -20,4 +20,4 @@ std::vector<EmbreeMode> all_embree_modes();
 /// "rtcOccluded16 coherent, quality high", where `call` is "rtcOccluded".
 std::string to_string(const EmbreeMode& mode, const std::string& call);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 
 #include "host/bench/embree_tree_pair.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// VPLs whose rays are laid out at a time: with the 64 receivers of a packet 4096 rays at most, 200 kB.
@@ -184,4 +184,4 @@ OcclusionResult EmbreeOcclusion::trace(const GatherSegments& segments, const Emb
     return sum;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

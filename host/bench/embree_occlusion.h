@@ -8,7 +8,7 @@
 #include "host/bench/gather_segments.h"
 #include "host/bench/seconds.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct OcclusionResult {
     Seconds seconds;  ///< inside Embree's calls only; wall: summed over threads and divided by their number
@@ -34,4 +34,4 @@ class EmbreeOcclusion {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

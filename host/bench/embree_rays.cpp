@@ -10,7 +10,7 @@
 
 #include "host/bench/embree_tree_pair.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Rays that are laid out at a time, so that they stay in the cache.
@@ -130,4 +130,4 @@ Seconds EmbreeRays::trace(std::span<const RayQuery> rays, const EmbreeMode& mode
     return sum;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

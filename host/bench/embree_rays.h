@@ -11,7 +11,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class EmbreeRays {
   public:
@@ -30,4 +30,4 @@ class EmbreeRays {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

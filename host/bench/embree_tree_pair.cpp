@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/embree_tree_pair.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 RTCIntersectContext make_context(const EmbreeMode& mode) {
     RTCIntersectContext context;
@@ -20,4 +20,4 @@ EmbreeTreePair::EmbreeTreePair(const Scene& scene, std::span<const uint> ids)
     high_ = build(RTC_BUILD_QUALITY_HIGH);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

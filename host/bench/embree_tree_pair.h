@@ -7,7 +7,7 @@
 #include "host/bench/embree_modes.h"
 #include "host/reference/embree_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 RTCIntersectContext make_context(const EmbreeMode& mode);
 
@@ -28,4 +28,4 @@ class EmbreeTreePair {
     EmbreeTree high_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,27 +6,27 @@
 #include <new>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/flatten.h"
 #include "host/bvh/reference.h"
 #include "host/bvh/sah_builder.h"
 #include "host/bvh/spatial_split.h"
 #include "host/reference/embree_handles.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using EmbreeBvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, EmbreeRelease<rtcReleaseBVH>>;
 
 constexpr float kEmbreeReplication = 1.2f;  // max_spatial_split_replications of Embree 3.13
 /// Not to be reached: a tree that Embree bounds by halving has few levels more than it needs.
-constexpr unsigned kMaxDepth = NEARLIGHT_MAX_BVH_DEPTH - 4;
+constexpr unsigned kMaxTreeDepth = NEARLIGHT_MAX_BVH_DEPTH - 4;
 
 EmbreeDevice new_device() {
     EmbreeDevice device(rtcNewDevice(nullptr));
     if (device == nullptr) {
-        throw Error(ExitCode::runtime,
+        throw Error(ErrorKind::failure,
                     "Embree does not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
     }
     return device;
@@ -34,8 +34,8 @@ EmbreeDevice new_device() {
 
 void check(RTCDevice device, std::size_t triangles) {
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-        throw Error(ExitCode::runtime, "Embree could not build a tree over " + std::to_string(triangles) +
-                                           " triangles: error " + std::to_string(error));
+        throw Error(ErrorKind::failure, "Embree could not build a tree over " + std::to_string(triangles) +
+                                            " triangles: error " + std::to_string(error));
     }
 }
 
@@ -107,7 +107,7 @@ class Converter {
             return leaf_reference(first, item.count);
         }
         if (depth >= NEARLIGHT_MAX_BVH_DEPTH) {
-            throw Error(ExitCode::runtime, "Embree's tree is too deep to be traced: use another scene");
+            throw Error(ErrorKind::failure, "Embree's tree is too deep to be traced: use another scene");
         }
         const auto index = static_cast<uint>(tree_.slots.size());
         tree_.slots.emplace_back();
@@ -134,7 +134,7 @@ RTCBuildArguments arguments_for(std::vector<RTCBuildPrimitive>& primitives, std:
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = to_embree(quality);
     arguments.maxBranchingFactor = 2;
-    arguments.maxDepth = kMaxDepth;
+    arguments.maxDepth = kMaxTreeDepth;
     arguments.maxLeafSize = std::clamp<uint>(config.max_leaf_triangles, 1, NEARLIGHT_LEAF_MAX_TRIANGLES);
     arguments.traversalCost = config.traversal_cost;
     arguments.intersectionCost = config.intersection_cost;
@@ -205,4 +205,4 @@ Bvh build_embree_bvh(const Scene& scene, std::span<const uint> ids, EmbreeQualit
     return flatten(std::move(tree), scene, config);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

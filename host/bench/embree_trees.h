@@ -7,7 +7,7 @@
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 enum class EmbreeQuality {
     medium,  ///< RTC_BUILD_QUALITY_MEDIUM: binned surface area heuristic
@@ -24,4 +24,4 @@ double seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, Em
 Bvh build_embree_bvh(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality,
                      const BvhConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/bench/embree_occlusion.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Anything that can be given a set of segments.
@@ -191,4 +191,4 @@ GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, c
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -14,7 +14,7 @@
 #include "host/cl/device.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct GatherBenchConfig {
     int repeats = 11;
@@ -64,4 +64,4 @@ struct GatherBenchResult {
 GatherBenchResult bench_gather(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                const GatherBenchConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

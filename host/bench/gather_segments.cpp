@@ -9,7 +9,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/render/renderer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kClampRadiusShare =
@@ -103,4 +103,4 @@ std::uint64_t count_pairs(const GatherSegments& segments) {
     return present * segments.vpls.size();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

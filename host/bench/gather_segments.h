@@ -11,7 +11,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// One bit a (receiver, VPL) pair: bit `lane` of word packet·vpl_count + vpl.
 using PairMask = std::vector<std::uint64_t>;
@@ -49,4 +49,4 @@ std::uint64_t count_bits(std::span<const std::uint64_t> mask);
 /// Pairs whose receiver is there.
 std::uint64_t count_pairs(const GatherSegments& segments);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

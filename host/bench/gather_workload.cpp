@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 #include "host/scene/distribution.h"
 #include "host/scene/emitters.h"
 #include "host/scene/ray_epsilon.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kTile = 8;  // kTile² = NEARLIGHT_PACKET_SIZE
-constexpr uint kMaxDepth = 5;
+constexpr uint kMaxWalkDepth = 5;
 
 uint spread_bits(uint x) {
     x = (x | (x << 16u)) & 0x030000ffu;
@@ -118,7 +118,7 @@ std::vector<Emitter> lamps(const EmitterTable& table) {
 template <typename Visit>
 bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, RayQuery ray, Pcg32& random,
                  const Visit& visit) {
-    for (uint depth = 1; depth <= kMaxDepth; ++depth) {
+    for (uint depth = 1; depth <= kMaxWalkDepth; ++depth) {
         const BvhHit hit = closest_hit(bvh, ray);
         if (hit.triangle == ~0u) {
             return visit(ray, nullptr);
@@ -289,4 +289,4 @@ void sort_along_morton_curve(const Scene& scene, std::vector<Vpl>& vpls) {
     });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What the camera sees at the centre of each pixel: packets are tiles of 8 × 8 pixels in Morton order,
 /// normals geometric, on the camera's side. Pixels that see nothing, or lie beyond the edge, are absent.
@@ -32,4 +32,4 @@ std::vector<RayQuery> make_walk_rays(const Scene& scene, const Bvh& bvh, std::si
 /// Along the Morton curve through the bounds of the scene.
 void sort_along_morton_curve(const Scene& scene, std::vector<Vpl>& vpls);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
@@ -20,8 +19,9 @@
 #include "host/bvh/bvh.h"
 #include "host/render/renderer.h"
 #include "host/stages/gatherer.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kClampRadius = 0.05f;
@@ -47,13 +47,13 @@ Options parse(int argc, char** argv) {
     Options options;
     std::size_t* const values[] = {&options.triangles, &options.vpls, &options.side};
     if (argc > 4) {
-        throw Error(ExitCode::usage, "usage: nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE]");
+        throw Error(ErrorKind::invalid_argument, "usage: nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE]");
     }
     for (int i = 1; i < argc; ++i) {
         const std::string_view text = argv[i];
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *values[i - 1]);
         if (error != std::errc() || end != text.data() + text.size() || *values[i - 1] == 0) {
-            throw Error(ExitCode::usage, "'" + std::string(text) + "' is no positive number");
+            throw Error(ErrorKind::invalid_argument, "'" + std::string(text) + "' is no positive number");
         }
     }
     return options;
@@ -186,20 +186,20 @@ int run(const Options& options) {
     for (const DeviceEntry& entry : devices) {
         good = run_on(entry, work) && good;
     }
-    return static_cast<int>(good ? ExitCode::done : ExitCode::runtime);
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core
 
 int main(int argc, char** argv) {
     try {
-        return nearlight::run(nearlight::parse(argc, argv));
+        return nearlight::core::run(nearlight::core::parse(argc, argv));
     } catch (const nearlight::Error& error) {
         std::fprintf(stderr, "nearlight-bench-minimal: error: %s\n", error.what());
-        return static_cast<int>(error.code());
+        return EXIT_FAILURE;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "nearlight-bench-minimal: error: %s\n", error.what());
-        return static_cast<int>(nearlight::ExitCode::runtime);
+        return EXIT_FAILURE;
     }
 }

@@ -6,7 +6,7 @@
 
 #include "host/base/stopwatch.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Seconds {
     double wall = 0.0;
@@ -34,4 +34,4 @@ class TwoClocks {
     double start_ = processor_seconds();
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

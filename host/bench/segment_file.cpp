@@ -8,11 +8,11 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/receivers.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and copied as it is");
@@ -82,7 +82,7 @@ std::uint64_t present_lanes(const ReceiverPacket& packet) {
 
 /// What is wrong with the contents, or nothing.
 std::string complaint(const GatherSegments& segments, std::uint64_t ray_count) {
-    const auto finite = [](Vec3 v) { return nearlight::is_finite(v); };
+    const auto finite = [](Vec3 v) { return nearlight::core::is_finite(v); };
     const std::size_t vertices = segments.geometry.vertices.size();
     for (const Vertex& vertex : segments.geometry.vertices) {
         if (!finite(vertex.position)) {
@@ -177,9 +177,9 @@ void write_segments(const std::filesystem::path& file, const GatherSegments& seg
 GatherSegments read_segments(const std::filesystem::path& file) {
     const std::string bytes = read_bytes(file);
     const auto fail = [&](const std::string& what) {
-        return Error(ExitCode::file, "'" + file.string() +
-                                         "' is no set of segments that this version reads: " + what +
-                                         "; write one with 'nearlight bench gather --dump'");
+        return Error(ErrorKind::file, "'" + file.string() +
+                                          "' is no set of segments that this version reads: " + what +
+                                          "; write one with 'nearlight bench gather --dump'");
     };
     if (!std::string_view(bytes).starts_with(kMagic)) {
         throw fail("it does not begin with " + std::string(kMagic));
@@ -205,4 +205,4 @@ GatherSegments read_segments(const std::filesystem::path& file) {
     return segments;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,14 +6,14 @@
 
 #include "host/bench/gather_segments.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
-/// Throws Error(ExitCode::file) where the file cannot be written.
+/// Throws Error(ErrorKind::file) where the file cannot be written.
 void write_segments(const std::filesystem::path& file, const GatherSegments& segments);
 
-/// Throws Error(ExitCode::file) for a file that is missing, of another kind or version, truncated or too
+/// Throws Error(ErrorKind::file) for a file that is missing, of another kind or version, truncated or too
 /// long, or that contradicts itself: an index out of range, a number that is not finite, a ray to an absent
 /// receiver, or another number of rays than the header says.
 GatherSegments read_segments(const std::filesystem::path& file);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -16,7 +16,7 @@
 #include "host/stages/morton_sort.h"
 #include "host/stages/prefix_scan.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // Of a pair: four passes, each of which reads the keys, then reads and writes keys and values.
@@ -166,4 +166,4 @@ SortBenchResult bench_sort(Device& device, const SortBenchConfig& config) {
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/bench/seconds.h"
 #include "host/cl/device.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct SortBenchConfig {
     std::size_t count = 10'000'000;  ///< keys
@@ -43,4 +43,4 @@ struct SortBenchResult {
 /// untimed.
 SortBenchResult bench_sort(Device& device, const SortBenchConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/bench/seconds.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Of at least one value.
 inline double median(std::vector<double> values) {
@@ -50,4 +50,4 @@ inline Ratio ratio(const std::vector<Seconds>& theirs, const std::vector<Seconds
     return {median(ratios), median_absolute_deviation(ratios)};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr Vec3 kRoomMin{-4.0f, 0.0f, -4.0f};
@@ -114,4 +114,4 @@ Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed) {
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

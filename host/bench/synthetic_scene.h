@@ -4,10 +4,10 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A room of 8 × 4 × 8 m with a lamp under its ceiling and a floor full of spheres whose surface is rough
 /// noise, about `triangle_count` triangles in all. The same for the same arguments on any machine.
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed = 1);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

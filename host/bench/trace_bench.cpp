@@ -14,7 +14,7 @@
 #include "host/bvh/bvh.h"
 #include "host/stages/ray_caster.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Distances apart that count as the same hit, of the distance.
@@ -137,4 +137,4 @@ TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenc
                      bench("light walks", make_walk_rays(scene, bvh, config.walk_rays))}};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

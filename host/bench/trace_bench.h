@@ -9,7 +9,7 @@
 #include "host/cl/device.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct TraceBenchConfig {
     int width = 512;  ///< camera rays: one for each pixel
@@ -49,4 +49,4 @@ struct TraceBenchResult {
 /// kernel of ray_caster.cl, whose traversal the other kernels share, and all of Embree's modes in turn.
 TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenchConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

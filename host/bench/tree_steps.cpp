@@ -5,17 +5,16 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <limits>
 #include <thread>
 #include <vector>
 
+#include "host/base/math.h"
 #include "host/bvh/ray_tests.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Counts {
     std::uint64_t rays = 0;
@@ -208,4 +207,4 @@ TreeSteps count_steps(const Bvh& bvh, std::span<const Vpl> vpls, std::span<const
             per(sum.packet_triangles, sum.packets)};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

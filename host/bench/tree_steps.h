@@ -8,7 +8,7 @@
 #include "host/bvh/bvh.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Work of any-hit rays from VPLs to receivers whose cosines are both positive. A node is one visit, with
 /// tests of both child boxes.
@@ -25,4 +25,4 @@ struct TreeSteps {
 TreeSteps count_steps(const Bvh& bvh, std::span<const Vpl> vpls, std::span<const ReceiverPacket> receivers,
                       int threads);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -16,7 +16,7 @@
 #include "host/stages/gatherer.h"
 #include "host/stages/morton_sort.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Another value has to be faster than the usual one by so much.
@@ -195,7 +195,7 @@ void check_results(const Trial& trial, std::span<const Runner> runners) {
         }
         const std::uint64_t hash = runner.work.hash();
         if (hash != first.value_or(hash)) {
-            throw Error(ExitCode::runtime,
+            throw Error(ErrorKind::failure,
                         "the result of the " + trial.measured_by +
                             " depends on a tunable, which it must not: please report this");
         }
@@ -276,4 +276,4 @@ TunerResult tune(Device& device, const TunerConfig& config) {
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

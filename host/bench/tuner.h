@@ -8,7 +8,7 @@
 #include "host/bench/statistics.h"
 #include "host/cl/device.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct TunerConfig {
     std::size_t triangles = 25'000;  ///< of the made-up room that is measured
@@ -44,7 +44,7 @@ struct TunerResult {
 
 /// Tries one tunable after the other, all candidates of one by turns. The table's value stays unless another
 /// is faster by more than the runs vary, and by 3 %. Leaves the device with what was chosen. Throws
-/// Error(ExitCode::runtime) if a result depends on a tunable.
+/// Error(ErrorKind::failure) if a result depends on a tunable.
 TunerResult tune(Device& device, const TunerConfig& config = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include "host/bvh/box4.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class BinMapping {
   public:
@@ -57,4 +57,4 @@ class BinMapping {
     int count_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Plain data, so that arrays of it cost nothing until used: start from empty().
 struct alignas(16) Box4 {
@@ -18,7 +18,6 @@ struct alignas(16) Box4 {
     float high[4];
 
     static constexpr Box4 empty() {
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
         return {{kInfinity, kInfinity, kInfinity, kInfinity},
                 {-kInfinity, -kInfinity, -kInfinity, -kInfinity}};
     }
@@ -116,4 +115,4 @@ struct alignas(16) Box4 {
     }
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/bvh/reinsertion.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 const char* to_string(BvhQuality quality) {
     return quality == BvhQuality::quality ? "quality" : "fast";
@@ -47,4 +47,4 @@ SceneBvhs build_scene_bvhs(const Scene& scene, const BvhConfig& config) {
     return {build_bvh(scene, opaque, config), build_bvh(scene, glass, config), !glass.empty()};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

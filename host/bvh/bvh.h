@@ -10,7 +10,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Bvh {
     std::vector<BvhNode> nodes;          ///< at least one; node 0 is the root
@@ -72,4 +72,4 @@ struct BvhHit {
 BvhHit closest_hit(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
 bool occluded(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -14,7 +14,7 @@
 #include "host/bvh/flatten.h"
 #include "host/bvh/parallel.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config
     return trees;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/bvh/scene_trees.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct BvhCacheConfig {
     std::filesystem::path folder;           ///< "" and "none" keep nothing
@@ -21,4 +21,4 @@ struct BvhCacheConfig {
 SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
                                      const BvhCacheConfig& cache);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

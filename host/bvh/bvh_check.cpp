@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "host/base/math.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/flatten.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kCoverSteps = 24;
 
 bool contains(const Aabb& outer, Vec3 p) {
@@ -213,4 +212,4 @@ std::vector<std::string> check_bvh(const Bvh& bvh, const Scene& scene, std::span
     return Checker(bvh, scene).check(ids);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

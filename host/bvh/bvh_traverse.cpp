@@ -6,7 +6,7 @@
 #include "host/bvh/ray_tests.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// `hit.t` is t_max on entry. Any: the first hit found ends it.
@@ -68,4 +68,4 @@ bool occluded(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_
     return trace<true>(bvh, origin, direction, t_min, t_max).triangle != ~0u;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/bvh/sah_builder.h"
 #include "host/scene/ray_epsilon.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kMostSegments = 4000;
@@ -281,4 +281,4 @@ void order_children(Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
     bvh.nodes = std::move(ordered);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/bvh/bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `bvh` is in depth-first order. Puts the child with the higher chance of a hit ÷ expected cost first, which
 /// minimises the expected cost of any-hit rays [Ize and Hansen, RTSAH Traversal Order for Occlusion Rays,
@@ -16,4 +16,4 @@ namespace nearlight {
 /// the same arguments.
 void order_children(Bvh& bvh, const Scene& scene, std::span<const uint> ids);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

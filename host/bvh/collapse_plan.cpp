@@ -7,7 +7,7 @@
 #include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 WideChild left_child(const BvhNode& node) {
@@ -106,4 +106,4 @@ WideChildren CollapsePlan::children(uint node_index) const {
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

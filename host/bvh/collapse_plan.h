@@ -8,7 +8,7 @@
 
 #include "host/bvh/bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A child of a node of the wide tree: a reference of the binary one, and its box.
 struct WideChild {
@@ -60,4 +60,4 @@ class CollapsePlan {
     std::vector<Plan> plans_;  ///< of each binary node
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/bvh/parallel.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Where boxes and triangles are that nothing shall meet; far, yet its distances do not overflow.
@@ -151,4 +151,4 @@ double sah_cost(const Bvh& bvh, const BvhConfig& config) {
     return std::accumulate(sums.begin(), sums.end(), static_cast<double>(config.traversal_cost));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

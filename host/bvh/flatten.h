@@ -4,7 +4,7 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Moves the nodes of a tree into depth-first order, so that a left child that is an inner node follows its
 /// parent, fetches the triangles, and fills in depth and cost. Takes the tree's memory.
@@ -23,4 +23,4 @@ Bvh empty_bvh();
 /// Space Subdivision, 1990]: each node and triangle counts with the probability that its box is met.
 double sah_cost(const Bvh& bvh, const BvhConfig& config);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,10 +5,10 @@
 #include <array>
 #include <bit>
 
-namespace nearlight {
-namespace {
+#include "host/base/math.h"
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+namespace nearlight::core {
+namespace {
 
 struct Bins {
     explicit Bins(int count) : bin_count(count) {
@@ -170,4 +170,4 @@ void split_in_halves(std::span<Reference> range, const RangeBounds& bounds) {
                      });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/bvh/bin_mapping.h"
 #include "host/bvh/reference.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 constexpr int kMinBins = 4;
 constexpr int kMaxBins = 64;
@@ -36,4 +36,4 @@ std::size_t partition(std::span<Reference> range, const BinMapping& mapping, con
 /// Puts the lower half along the longest axis of the centres first: (size + 1) / 2 references.
 void split_in_halves(std::span<Reference> range, const RangeBounds& bounds);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include <tbb/parallel_reduce.h>
 #endif
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// body(first, last) for parts of [0, count) of about `grain`.
 template <typename Body>
@@ -71,4 +71,4 @@ void invoke_at_level(int level, const First& first, const Second& second) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/bvh/bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct TestRay {
     Vec3 origin;
@@ -59,4 +59,4 @@ inline bool intersect(const BvhTriangle& triangle, const TestRay& ray, BvhHit& h
     return true;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

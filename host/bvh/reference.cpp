@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace nearlight {
+namespace nearlight::core {
 
 Reference make_reference(const Scene& scene, uint id) {
     const Triangle& triangle = scene.triangles[id];
@@ -25,4 +25,4 @@ Reference make_reference(const Scene& scene, uint id) {
     return reference;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

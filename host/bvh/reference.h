@@ -9,7 +9,7 @@
 #include "host/bvh/parallel.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 constexpr std::size_t kParallelLoop = 1u << 16u;  // shorter loops are not shared between threads
 constexpr std::size_t kLoopGrain = 1u << 14u;
@@ -62,4 +62,4 @@ struct RangeBounds {
     }
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

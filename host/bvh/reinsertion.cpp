@@ -11,7 +11,7 @@
 
 #include "host/bvh/box4.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of a tree's inner nodes so many move about: more gain little (bench/RESULTS.md).
@@ -204,4 +204,4 @@ void reinsert_largest(SahTree& tree) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Takes each of the largest boxes out of the tree, whereupon those around it shrink, and puts it where it
 /// adds the least surface [Bittner, Hapala and Havran, Fast Insertion-Based Optimization of Bounding Volume
@@ -14,4 +14,4 @@ namespace nearlight {
 /// where surfaces leave the range of floats. `tree.depth` becomes an upper bound.
 void reinsert_largest(SahTree& tree);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

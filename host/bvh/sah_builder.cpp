@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/bvh/object_split.h"
 #include "host/bvh/spatial_split.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of few references, more bins than these cost time and gain nothing (bench/RESULTS.md).
@@ -228,7 +228,7 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
                               : std::size_t{0};
     const std::size_t capacity = ids.size() + spare;
     if (capacity > NEARLIGHT_LEAF_FIRST_MASK) {
-        throw Error(ExitCode::out_of_memory,
+        throw Error(ErrorKind::out_of_memory,
                     "scene has " + std::to_string(ids.size()) + " triangles, a tree holds " +
                         std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + ": simplify the scene");
     }
@@ -258,4 +258,4 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
     return tree;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/unset_vector.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A tree before flattening. The inner node whose right child has its room from position p of `order` on
 /// stands in slot p − 1: no two nodes part at the same place, so that threads need not agree on who gets
@@ -40,4 +40,4 @@ constexpr uint leaf_count(uint reference) {
     return ((reference >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK) + 1u;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 ShapedBvh shaped(Bvh&& bvh, const TreeShapes& shapes) {
@@ -26,4 +26,4 @@ SceneTrees build_scene_trees(const Scene& scene, const BvhConfig& config, const 
             .has_glass = bvhs.has_glass};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/wide_bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which are wanted.
 struct TreeShapes {
@@ -29,4 +29,4 @@ struct SceneTrees {
 /// build_scene_bvhs() in those shapes.
 SceneTrees build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

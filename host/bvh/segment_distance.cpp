@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Vec3d = std::array<double, 3>;
@@ -64,4 +64,4 @@ double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3
     return least;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

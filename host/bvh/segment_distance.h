@@ -6,7 +6,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Least distance between two segments, in double precision.
 /// [Ericson, Real-Time Collision Detection, 2005, section 5.1.9]
@@ -15,4 +15,4 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1);
 /// Least distance between the segment and any edge of the triangles; infinity if there is none.
 double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3 to);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

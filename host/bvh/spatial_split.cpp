@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kLargestArea = 1e30f;
@@ -295,4 +295,4 @@ SpatialSplitter::Parts SpatialSplitter::partition(std::span<Reference> room, std
     return {left_end, right_end - left_end};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

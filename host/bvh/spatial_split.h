@@ -9,7 +9,7 @@
 #include "host/bvh/bin_mapping.h"
 #include "host/bvh/reference.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 constexpr int kMinSlabs = 4;
 constexpr int kMaxSlabs = 16;
@@ -70,4 +70,4 @@ class SpatialSplitter {
     bool usable_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

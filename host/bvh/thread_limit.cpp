@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 #endif
 
-namespace nearlight {
+namespace nearlight::core {
 
 #ifdef NEARLIGHT_SERIAL
 struct ThreadLimit::Control {};
@@ -35,4 +35,4 @@ ThreadLimit::ThreadLimit(int threads) {
 }
 ThreadLimit::~ThreadLimit() = default;
 
-}  // namespace nearlight
+}  // namespace nearlight::core

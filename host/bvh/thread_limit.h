@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// At most `threads` while it lives, the caller's included; 0: one a core. What others ask for beside it
 /// counts if it is less.
@@ -23,4 +23,4 @@ class ThreadLimit {
 /// That may run now.
 int allowed_threads();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

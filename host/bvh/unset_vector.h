@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
@@ -29,4 +29,4 @@ struct UnsetAllocator : std::allocator<T> {
 template <typename T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -2,18 +2,16 @@
 #include "host/bvh/wide_bvh.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
+#include "host/base/math.h"
 #include "host/bvh/collapse_plan.h"
 #include "host/bvh/flatten.h"
 #include "host/bvh/parallel.h"
 #include "host/bvh/sah_builder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Subtrees of no more triangles are widened by one thread each.
 constexpr uint kPartTriangles = 1u << 14u;
@@ -212,4 +210,4 @@ void fetch_blocks(WideBvh& wide, const Scene& scene) {
     });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

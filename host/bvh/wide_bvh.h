@@ -8,7 +8,7 @@
 #include "host/bvh/bvh.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct WideBvh {
     std::vector<WideNode> nodes;  ///< at least one; node 0 is the root
@@ -29,4 +29,4 @@ void fetch_blocks(WideBvh& wide, const Scene& scene);
 /// references are in range and reached once. Returns what is wrong, one line each; empty if sound.
 std::vector<std::string> check_wide_bvh(const WideBvh& wide, const Bvh& bvh);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

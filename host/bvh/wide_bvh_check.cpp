@@ -6,13 +6,13 @@
 #include "host/bvh/sah_builder.h"
 #include "host/bvh/wide_bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Which triangle, its v0, edge1 and edge2: to be sorted and compared.
-using Corners = std::pair<uint, std::array<float, 9>>;
+using TriangleCorners = std::pair<uint, std::array<float, 9>>;
 
-Corners corners_of(uint id, const BvhTriangle& triangle) {
+TriangleCorners corners_of(uint id, const BvhTriangle& triangle) {
     return {id,
             {triangle.v0.x, triangle.v0.y, triangle.v0.z, triangle.edge1.x, triangle.edge1.y,
              triangle.edge1.z, triangle.edge2.x, triangle.edge2.y, triangle.edge2.z}};
@@ -114,7 +114,7 @@ class WideChecker {
     }
 
     /// A triangle that stands in several leaves may be cut, and then a box holds but a part of it.
-    [[nodiscard]] bool stands_once(const Corners& corners) const {
+    [[nodiscard]] bool stands_once(const TriangleCorners& corners) const {
         const auto [first, last] = std::equal_range(wanted_.begin(), wanted_.end(), corners);
         return last - first == 1;
     }
@@ -136,8 +136,8 @@ class WideChecker {
     const Bvh& bvh_;
     std::vector<int> node_visits_;
     std::vector<int> block_visits_;
-    std::vector<Corners> wanted_;  ///< sorted
-    std::vector<Corners> found_;
+    std::vector<TriangleCorners> wanted_;  ///< sorted
+    std::vector<TriangleCorners> found_;
     std::vector<std::string> complaints_;
 };
 
@@ -147,4 +147,4 @@ std::vector<std::string> check_wide_bvh(const WideBvh& wide, const Bvh& bvh) {
     return WideChecker(wide, bvh).check();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

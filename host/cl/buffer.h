@@ -13,7 +13,7 @@
 #include "host/cl/huge_pages.h"
 #include "host/cl/opencl_error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `count` elements of T, on CPUs in huge pages where it is large. Never of zero bytes: kernels may be given
 /// an empty one, and must not touch it. Copies are blocking; they order with kernels because the queue is
@@ -27,7 +27,7 @@ class Buffer {
     Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
         const std::size_t limit = device.entry().max_allocation_bytes;
         if (count > limit / sizeof(T)) {
-            throw Error(ExitCode::out_of_memory,
+            throw Error(ErrorKind::out_of_memory,
                         "a buffer of " + std::to_string(count) + " × " + std::to_string(sizeof(T)) +
                             " bytes exceeds the largest allocation of device " + device.name() + " (" +
                             std::to_string(limit >> 20) + " MiB); use a smaller --size, --spp or scene");
@@ -100,4 +100,4 @@ class Buffer {
     cl::Buffer handle_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

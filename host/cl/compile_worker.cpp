@@ -22,7 +22,7 @@
 
 #include "host/base/message.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kMostWorkers = 4;
@@ -235,4 +235,4 @@ void CompileWorker::stop() {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -13,7 +13,7 @@
 
 #include "host/cl/program_build.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Ends with this object, or with the process that started it, whichever is first. compile() is for one
 /// thread at a time, stop() for any.
@@ -50,4 +50,4 @@ std::size_t default_compile_worker_count();
 /// They take 0.3 ms each while they have nothing to do.
 CompileWorkers start_compile_workers(std::size_t count = default_compile_worker_count());
 
-}  // namespace nearlight
+}  // namespace nearlight::core

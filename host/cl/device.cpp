@@ -8,7 +8,7 @@
 #include "host/cl/opencl_error.h"
 #include "host/cl/program_compiler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::filesystem::path default_cache_dir() {
     const auto variable = [](const char* name) {
@@ -40,7 +40,7 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
         context_ = cl::Context(entry_.handle);
         queue_ = cl::CommandQueue(context_, entry_.handle, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
-        throw Error(ExitCode::no_device,
+        throw Error(ErrorKind::no_device,
                     "OpenCL device '" + entry_.name + "' does not start: " + error.what() + " gave " +
                         opencl_error_name(error.err()) + "; choose another with --device");
     }
@@ -69,4 +69,4 @@ void Device::add_allocated(std::size_t bytes) {
     peak_bytes_ = std::max(peak_bytes_, allocated_bytes_);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

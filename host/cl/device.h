@@ -14,7 +14,7 @@
 #include "host/cl/profiler.h"
 #include "host/cl/tunables.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class ProgramCompiler;
 
@@ -83,4 +83,4 @@ class Device {
     std::size_t peak_bytes_ = 0;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

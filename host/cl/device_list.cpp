@@ -9,7 +9,7 @@
 
 #include "host/cl/opencl_error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr const char* kInstallHint =
@@ -91,9 +91,9 @@ std::string describe_choices(const DeviceList& list) {
 /// `part_count` devices of equally many compute units; a rest of units stays idle.
 std::vector<DeviceEntry> split_device(const DeviceEntry& whole, unsigned part_count) {
     if (part_count == 0 || part_count > whole.max_parts) {
-        throw Error(ExitCode::no_device, "OpenCL device '" + whole.name + "' can be split in 1 to " +
-                                             std::to_string(whole.max_parts) + " parts, not in " +
-                                             std::to_string(part_count));
+        throw Error(ErrorKind::no_device, "OpenCL device '" + whole.name + "' can be split in 1 to " +
+                                              std::to_string(whole.max_parts) + " parts, not in " +
+                                              std::to_string(part_count));
     }
     const unsigned units = whole.compute_units / part_count;
     const cl_device_partition_property equally[]{CL_DEVICE_PARTITION_EQUALLY, units, 0};
@@ -140,8 +140,8 @@ DeviceEntry default_device(const DeviceList& list) {
     }
     if (best == nullptr) {
         const DeviceEntry& first = list.devices.front();
-        throw Error(ExitCode::no_device, "OpenCL device '" + first.name + "' cannot be used: " +
-                                             first.unusable_because + "; " + kInstallHint);
+        throw Error(ErrorKind::no_device, "OpenCL device '" + first.name + "' cannot be used: " +
+                                              first.unusable_because + "; " + kInstallHint);
     }
     return *best;
 }
@@ -152,13 +152,13 @@ std::vector<DeviceEntry> choose_whole(const DeviceList& list, const std::string&
     std::copy_if(list.devices.begin(), list.devices.end(), std::back_inserter(chosen),
                  [&](const DeviceEntry& entry) { return matches(entry, choice); });
     if (chosen.empty() || choice.empty()) {
-        throw Error(ExitCode::no_device,
+        throw Error(ErrorKind::no_device,
                     "no OpenCL device matches '" + choice + "'; there are: " + describe_choices(list));
     }
     std::stable_partition(chosen.begin(), chosen.end(),
                           [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
     if (const DeviceEntry& first = chosen.front(); !first.unusable_because.empty()) {
-        throw Error(ExitCode::no_device,
+        throw Error(ErrorKind::no_device,
                     "OpenCL device '" + first.name + "' cannot be used: " + first.unusable_because);
     }
     if (choice != "all") {
@@ -183,7 +183,7 @@ std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& 
         } else if (const std::size_t index = std::stoul(match[4].str()); index < parts.size()) {
             chosen.push_back(std::move(parts[index]));
         } else {
-            throw Error(ExitCode::no_device,
+            throw Error(ErrorKind::no_device,
                         "'" + item + "' names a part that is not there: they are numbered from 0 to " +
                             std::to_string(parts.size() - 1));
         }
@@ -232,7 +232,7 @@ DeviceList list_devices() {
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& requested) {
     if (list.devices.empty()) {
         const std::string why = list.problems.empty() ? "no OpenCL platform" : list.problems.front();
-        throw Error(ExitCode::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
+        throw Error(ErrorKind::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
     }
     std::string choice = lower(requested);
     if (const char* variable = std::getenv("NEARLIGHT_DEVICE"); choice.empty() && variable != nullptr) {
@@ -256,4 +256,4 @@ std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::strin
     return chosen;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 enum class DeviceKind { cpu, gpu, other };
 std::string to_string(DeviceKind kind);
@@ -49,8 +49,8 @@ DeviceList list_devices();
 /// By `choice`, a comma-separated list of: an index, "cpu", "gpu", "all", or part of a name (any case), each
 /// with "/N" behind it for N equal parts of the device as devices of their own, or "/N.K" for part K (from 0)
 /// alone; empty: NEARLIGHT_DEVICE from the environment, or else the first GPU, or else the first device. Each
-/// device comes once. Only "all", lists and parts give several. Throws Error(ExitCode::no_device) with what
+/// device comes once. Only "all", lists and parts give several. Throws Error(ErrorKind::no_device) with what
 /// to install, or with the devices there are.
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

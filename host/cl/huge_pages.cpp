@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace nearlight {
+namespace nearlight::core {
 
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
 namespace {
@@ -65,4 +65,4 @@ cl::Buffer make_huge_buffer(const cl::Context&, std::size_t) {
 }
 #endif
 
-}  // namespace nearlight
+}  // namespace nearlight::core

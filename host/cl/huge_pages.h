@@ -5,7 +5,7 @@
 #include <CL/opencl.hpp>
 #include <cstddef>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Below this size a buffer is left to the driver.
 inline constexpr std::size_t kLeastHugeBytes = std::size_t{4} << 20;
@@ -15,4 +15,4 @@ inline constexpr std::size_t kLeastHugeBytes = std::size_t{4} << 20;
 /// cl::Error.
 cl::Buffer make_huge_buffer(const cl::Context& context, std::size_t bytes);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class Kernel {
   public:
@@ -49,8 +49,8 @@ class Kernel {
     template <typename T>
     void set_arguments(cl_uint& index, const Buffer<T>& buffer) {
         if (buffer.handle()() == nullptr) {
-            throw Error(ExitCode::runtime, "kernel " + name_ + ": argument " + std::to_string(index) +
-                                               " is a buffer that was never made; upload what it needs");
+            throw Error(ErrorKind::failure, "kernel " + name_ + ": argument " + std::to_string(index) +
+                                                " is a buffer that was never made; upload what it needs");
         }
         handle_->setArg(index++, buffer.handle());
     }
@@ -74,4 +74,4 @@ class Kernel {
     std::optional<cl::Kernel> handle_{};  ///< after the first launch
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

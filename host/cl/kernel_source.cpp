@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "host/base/error.h"
 #include "kernels/embedded.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string read_kernel(const std::string& name, const std::filesystem::path& kernel_dir,
@@ -24,9 +24,9 @@ std::string read_kernel(const std::string& name, const std::filesystem::path& ke
         return text.str();
     }
     const std::string where = kernel_dir.empty() ? "in this binary" : "in " + kernel_dir.string();
-    throw Error(ExitCode::kernel_build, "no kernel file '" + name + "' " + where +
-                                            (includer.empty() ? "" : " (included by " + includer + ")") +
-                                            "; check --kernel-dir");
+    throw Error(ErrorKind::kernel_build, "no kernel file '" + name + "' " + where +
+                                             (includer.empty() ? "" : " (included by " + includer + ")") +
+                                             "; check --kernel-dir");
 }
 
 void expand(const std::string& name, const std::filesystem::path& kernel_dir, const std::string& includer,
@@ -58,4 +58,4 @@ std::string expand_kernel_source(const std::string& name, const std::filesystem:
     return out.str();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

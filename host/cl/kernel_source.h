@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The text of kernels/`name`, from `kernel_dir` if that is set, else from the binary. `#include "…"` lines
 /// are replaced by the file (relative to kernels/), each once; `#line` directives keep the compiler's
-/// messages true. Throws Error(ExitCode::kernel_build) for a file that does not exist.
+/// messages true. Throws Error(ErrorKind::kernel_build) for a file that does not exist.
 std::string expand_kernel_source(const std::string& name, const std::filesystem::path& kernel_dir = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/opencl_error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::string opencl_error_name(cl_int code) {
     switch (code) {
@@ -69,7 +69,7 @@ Error make_opencl_error(const cl::Error& error, const std::string& subject) {
     if (memory) {
         message += "; free memory, or use a smaller --size, --spp or scene";
     }
-    return {memory ? ExitCode::out_of_memory : ExitCode::runtime, message};
+    return {memory ? ErrorKind::out_of_memory : ErrorKind::failure, message};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

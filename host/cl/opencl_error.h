@@ -5,9 +5,9 @@
 #include <CL/opencl.hpp>
 #include <string>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// "CL_OUT_OF_RESOURCES" for -5, "error -9999" for codes that have no name.
 std::string opencl_error_name(cl_int code);
@@ -26,4 +26,4 @@ auto with_opencl_errors(const std::string& subject, Action&& action) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/profiler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 const std::map<std::string, Profiler::Total>& Profiler::totals() {
     for (auto& [label, event] : pending_) {
@@ -20,4 +20,4 @@ const std::map<std::string, Profiler::Total>& Profiler::totals() {
     return totals_;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

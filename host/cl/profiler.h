@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 class Profiler {
   public:
@@ -25,4 +25,4 @@ class Profiler {
     std::map<std::string, Total> totals_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

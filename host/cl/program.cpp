@@ -9,7 +9,7 @@
 #include "host/cl/kernel_source.h"
 #include "host/cl/opencl_error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Files of kernels/joint/ and what they include. PoCL spends 0.1 s on each program before its first line,
@@ -65,4 +65,4 @@ cl::Kernel Program::kernel(const std::string& name) const {
                               [&] { return cl::Kernel(program, name.c_str()); });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/cl/device.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Preprocessor definitions for a program: {"SCAN_TYPE", "uint"} becomes -DSCAN_TYPE=uint.
 using Defines = std::map<std::string, std::string>;
@@ -17,12 +17,12 @@ using Defines = std::map<std::string, std::string>;
 class Program {
   public:
     /// Begins to compile kernels/`file`, or to take it from the cache, and returns at once. What the device
-    /// has had compiled before is shared. Throws Error(ExitCode::kernel_build) where there is no such file.
+    /// has had compiled before is shared. Throws Error(ErrorKind::kernel_build) where there is no such file.
     Program(Device& device, const std::string& file, const Defines& defines = {});
 
     [[nodiscard]] Device& device() const { return *device_; }
     [[nodiscard]] const std::string& file() const { return file_; }
-    /// Waits for the compiler. Throws Error(ExitCode::kernel_build), see build_program(); Error where there
+    /// Waits for the compiler. Throws Error(ErrorKind::kernel_build), see build_program(); Error where there
     /// is no such entry point.
     [[nodiscard]] cl::Kernel kernel(const std::string& name) const;
 
@@ -32,4 +32,4 @@ class Program {
     std::shared_future<cl::Program> built_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/cl/opencl_error.h"
 #include "host/cl/program_cache.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 void build(const cl::Program& program, const DeviceEntry& entry, const std::string& options) {
@@ -73,7 +73,7 @@ Error make_build_error(const cl::Program& program, const ProgramRequest& request
         << "\noptions: " << request.options << "\n\n"
         << log;
     say_error("build log of kernels/" + request.file + ":\n" + log);
-    return {ExitCode::kernel_build,
+    return {ErrorKind::kernel_build,
             "kernels/" + request.file + " does not compile (" + opencl_error_name(code) + ") on device " +
                 entry.name + ", driver " + entry.driver + ", options " + request.options + ": " +
                 first_error_line(log) + "; expanded source and log are in " + base.string() + ".cl and .log"};
@@ -127,7 +127,7 @@ std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& 
     }
     ProgramBinary binary = worker->compile(request);
     if (worker->stopped()) {
-        throw Error(ExitCode::runtime, "kernels/" + request.file + " is not wanted any more");
+        throw Error(ErrorKind::failure, "kernels/" + request.file + " is not wanted any more");
     }
     if (auto program = binary.empty() ? std::nullopt : from_binary(request, binary)) {
         return Compiled{*program, std::move(binary)};
@@ -165,4 +165,4 @@ cl::Program build_program(const ProgramRequest& request, CompileContexts& contex
     return compiled->program;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

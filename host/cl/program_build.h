@@ -10,7 +10,7 @@
 
 #include "host/cl/device_list.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What is to be compiled, for which device, and where the outcome is kept.
 struct ProgramRequest {
@@ -34,8 +34,8 @@ class CompileWorker;
 
 /// The program in request.context, from the cache or compiled. What is compiled for a CPU is taken over as a
 /// binary: from `worker`, where there is one that compiles it, or else from a context of `contexts`, for PoCL
-/// compiles one program at a time in each. Throws Error(ExitCode::kernel_build) with the build log's first
+/// compiles one program at a time in each. Throws Error(ErrorKind::kernel_build) with the build log's first
 /// error, after saving the expanded source and the whole log to files that the message names.
 cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

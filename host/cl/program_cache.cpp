@@ -8,7 +8,7 @@
 
 #include "host/base/hash.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Key length and key, then checksum, then the binary.
@@ -68,4 +68,4 @@ void ProgramCache::store(const std::string& key, const std::vector<unsigned char
     std::filesystem::rename(temporary, path_of(key), ignored);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

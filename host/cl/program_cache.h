@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A folder of files named after a hash of their key. A file carries its whole key and a checksum, so neither
 /// a hash collision nor a damaged file can be taken for the program.
@@ -26,4 +26,4 @@ class ProgramCache {
     std::filesystem::path dir_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

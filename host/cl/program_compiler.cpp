@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Without workers: PoCL parses in as many contexts as there are, but generates code for one kernel at a time
@@ -72,4 +72,4 @@ void ProgramCompiler::work(CompileWorker* worker) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -14,7 +14,7 @@
 #include "host/cl/compile_worker.h"
 #include "host/cl/program_build.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// May be shared by several devices; what one has compiled, others of its kind find in the cache.
 class ProgramCompiler {
@@ -52,4 +52,4 @@ class ProgramCompiler {
     std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

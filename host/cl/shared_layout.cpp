@@ -5,7 +5,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 #define SIZE(Type) \
     { #Type " size", sizeof(Type) }
@@ -63,4 +63,4 @@ std::vector<LayoutFact> shared_layout() {
     };
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

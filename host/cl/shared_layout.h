@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A size or a member's offset, bytes.
 struct LayoutFact {
@@ -16,4 +16,4 @@ struct LayoutFact {
 /// In the order in which kernels/layout_probe.cl writes what the device has.
 std::vector<LayoutFact> shared_layout();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

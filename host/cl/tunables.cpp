@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::array kFields{
@@ -69,4 +69,4 @@ const TunablesRow& tunables_row(DeviceKind kind) {
     return *std::ranges::find(kTable, kind, &TunablesRow::kind);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/cl/device_list.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Tunables {
     std::uint32_t packet_width;       ///< receivers that gather_packets takes through the tree together
@@ -62,8 +62,9 @@ ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::
 
 /// Where they are stored; empty where nothing is kept ("" and "none").
 std::filesystem::path tunables_file(const DeviceEntry& entry, const std::filesystem::path& cache_dir);
-/// Throws Error(ExitCode::file) where it cannot be written, Error(ExitCode::usage) where nothing is kept.
+/// Throws Error(ErrorKind::file) where it cannot be written, Error(ErrorKind::invalid_argument) where nothing
+/// is kept.
 void store_tunables(const Tunables& tunables, const DeviceEntry& entry,
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

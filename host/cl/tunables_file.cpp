@@ -5,13 +5,13 @@
 #include <optional>
 #include <sstream>
 
-#include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/cl/kernel_source.h"
 #include "host/cl/tunables.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr const char* kHead = "nearlight tunables 1";
@@ -123,10 +123,10 @@ void store_tunables(const Tunables& tunables, const DeviceEntry& entry,
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir) {
     const std::filesystem::path path = tunables_file(entry, cache_dir);
     if (path.empty()) {
-        throw Error(ExitCode::usage, "no folder to keep tunables in: give one with --cache-dir");
+        throw Error(ErrorKind::invalid_argument, "no folder to keep tunables in: give one with --cache-dir");
     }
     make_folder(cache_dir);
     write_text(path, to_text(tunables, entry, kernels_key(kernel_dir)));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

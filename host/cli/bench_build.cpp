@@ -9,7 +9,7 @@
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct BenchBuildOptions {
@@ -100,4 +100,4 @@ void add_bench_build(CommandLine& line, CLI::App& group) {
         ->capture_default_str();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

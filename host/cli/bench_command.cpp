@@ -6,7 +6,7 @@
 #include "host/cli/bench_sort.h"
 #include "host/cli/bench_trace.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void add_bench_command(CommandLine& line) {
     CLI::App& group =
@@ -17,4 +17,4 @@ void add_bench_command(CommandLine& line) {
     add_bench_trace(line, group);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct BenchGatherOptions {
@@ -42,10 +42,6 @@ GatherKernel kernel_of(const std::string& name) {
     return name == "packets" ? GatherKernel::packets
            : name == "rays"  ? GatherKernel::rays
                              : GatherKernel::automatic;
-}
-
-double millions(std::uint64_t count) {
-    return static_cast<double>(count) * 1e-6;
 }
 
 nlohmann::ordered_json to_json(const Vec3& v) {
@@ -116,7 +112,8 @@ nlohmann::ordered_json to_json(const std::string& name, BvhQuality bvh, const Ga
 
 ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
     if (options.scene.file.empty() == options.replay.empty()) {
-        throw Error(ExitCode::usage, "give either a SCENE to make segments from, or --replay FILE");
+        throw Error(ErrorKind::invalid_argument,
+                    "give either a SCENE to make segments from, or --replay FILE");
     }
     const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     const GatherSegments segments = make_segments(options, *device);
@@ -167,4 +164,4 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
     add_device_options(command, options->device);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

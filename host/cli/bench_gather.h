@@ -4,8 +4,8 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void add_bench_gather(CommandLine& line, CLI::App& group);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

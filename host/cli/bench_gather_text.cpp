@@ -3,14 +3,10 @@
 
 #include "host/base/log.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::uint64_t kMostLines = 10;  // of a tracer
-
-double millions(std::uint64_t count) {
-    return static_cast<double>(count) * 1e-6;
-}
 
 std::string line_of(const Disagreement& item) {
     const std::string says =
@@ -99,4 +95,4 @@ std::string gather_bench_text(const std::string& name, BvhQuality bvh, const Gat
     return text;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

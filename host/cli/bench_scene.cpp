@@ -4,10 +4,10 @@
 #include <charconv>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/bench/synthetic_scene.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::string_view kSpheres = "spheres:";
@@ -23,7 +23,7 @@ void add_bench_scene_options(CLI::App& command, SceneOptions& options) {
 Scene make_bench_scene(const SceneOptions& options) {
     const std::string name = options.file.string();
     if (name.empty()) {
-        throw Error(ExitCode::usage, "give a SCENE, or spheres:N");
+        throw Error(ErrorKind::invalid_argument, "give a SCENE, or spheres:N");
     }
     if (!name.starts_with(kSpheres)) {
         return load_scene(options);
@@ -32,9 +32,10 @@ Scene make_bench_scene(const SceneOptions& options) {
     const char* const end = name.data() + name.size();
     const auto [rest, error] = std::from_chars(name.data() + kSpheres.size(), end, triangles);
     if (error != std::errc() || rest != end || triangles == 0 || triangles > 50'000'000) {
-        throw Error(ExitCode::usage, "'" + name + "': give a number of triangles, as in spheres:400000");
+        throw Error(ErrorKind::invalid_argument,
+                    "'" + name + "': give a number of triangles, as in spheres:400000");
     }
     return make_sphere_room(triangles);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

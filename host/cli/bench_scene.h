@@ -4,7 +4,7 @@
 
 #include "host/cli/scene_options.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// SCENE, which need not be given.
 void add_bench_scene_options(CLI::App& command, SceneOptions& options);
@@ -13,4 +13,4 @@ void add_bench_scene_options(CLI::App& command, SceneOptions& options);
 /// of triangles, or no scene was given.
 Scene make_bench_scene(const SceneOptions& options);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

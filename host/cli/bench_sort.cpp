@@ -8,7 +8,7 @@
 #include "host/cli/device_options.h"
 #include "host/cli/output.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct BenchSortOptions {
@@ -74,4 +74,4 @@ void add_bench_sort(CommandLine& line, CLI::App& group) {
     add_device_options(command, options->device);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct BenchTraceOptions {
@@ -113,4 +113,4 @@ void add_bench_trace(CommandLine& line, CLI::App& group) {
     add_device_options(command, options->device);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

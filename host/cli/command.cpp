@@ -11,7 +11,7 @@
 #include "host/cli/output.h"
 #include "host/cli/suggestion.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr int kMaxSide = 65536;
@@ -78,7 +78,7 @@ Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     std::string text = describe(error, app, command);
     std::replace(text.begin(), text.end(), '\n', ' ');
     const std::string help = full_name(command) + " --help";
-    return {ExitCode::usage, text + (text.back() == '?' ? " See '" : "; see '") + help + "'"};
+    return {ErrorKind::invalid_argument, text + (text.back() == '?' ? " See '" : "; see '") + help + "'"};
 }
 
 std::string short_usage(const CLI::App& app) {
@@ -141,7 +141,8 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
         return ExitCode::usage;
     }
     if (global_.quiet && global_.verbose) {
-        throw Error(ExitCode::usage, "--quiet and --verbose contradict each other; give one of them");
+        throw Error(ErrorKind::invalid_argument,
+                    "--quiet and --verbose contradict each other; give one of them");
     }
     set_up_log(global_.quiet ? Verbosity::quiet : global_.verbose ? Verbosity::verbose : Verbosity::normal);
     const ExitCode code = run_(global_);
@@ -157,8 +158,9 @@ ImageSize parse_size(const std::string& text) {
     const auto [last, height_error] = std::from_chars(has_x ? middle + 1 : end, end, size.height);
     const auto fits = [](int side) { return side >= 1 && side <= kMaxSide; };
     if (!has_x || height_error != std::errc() || last != end || !fits(size.width) || !fits(size.height)) {
-        throw Error(ExitCode::usage, "'" + text + "' is no size: give WIDTHxHEIGHT, each from 1 to " +
-                                         std::to_string(kMaxSide) + ", as in 640x480");
+        throw Error(ErrorKind::invalid_argument, "'" + text +
+                                                     "' is no size: give WIDTHxHEIGHT, each from 1 to " +
+                                                     std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
 }
@@ -171,4 +173,4 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
         ->type_name("WxH");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -13,9 +13,9 @@
 #include <memory>
 #include <string>
 
-#include "host/base/error.h"
+#include "host/cli/exit_code.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What every command takes, besides --help and --version.
 struct GlobalOptions {
@@ -36,8 +36,8 @@ class CommandLine {
     CLI::App& add_command_group(const std::string& name, const std::string& description);
     /// The same as add_command() for `part` of such a group.
     CLI::App& add_part(CLI::App& group, const std::string& part, const std::string& description, Run run);
-    /// Parses the line and runs its command. Throws Error(ExitCode::usage) with a hint for a wrong line, and
-    /// whatever the command throws.
+    /// Parses the line and runs its command. Throws Error(ErrorKind::invalid_argument) with a hint for a
+    /// wrong line, and whatever the command throws.
     ExitCode run(int argc, const char* const* argv);
 
   private:
@@ -50,9 +50,9 @@ struct ImageSize {
     int width = 0;
     int height = 0;
 };
-/// "640x480"; each side from 1 to 65536. Throws Error(ExitCode::usage).
+/// "640x480"; each side from 1 to 65536. Throws Error(ErrorKind::invalid_argument).
 ImageSize parse_size(const std::string& text);
 /// The option --size, which leaves `size` alone where it is not given.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

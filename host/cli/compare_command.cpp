@@ -15,7 +15,7 @@
 #include "host/compare/report.h"
 #include "host/image/image_io.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct CompareOptions {
@@ -59,7 +59,8 @@ CompareSettings settled(const CompareOptions& options) {
 void refuse_twin_scenes(const std::vector<std::filesystem::path>& files) {
     for (auto file = files.begin(); file != files.end(); ++file) {
         if (std::find(files.begin(), file, *file) != file) {
-            throw Error(ExitCode::usage, "scene '" + file->string() + "' is given twice; give it once");
+            throw Error(ErrorKind::invalid_argument,
+                        "scene '" + file->string() + "' is given twice; give it once");
         }
     }
 }
@@ -82,7 +83,7 @@ void check_files(const CompareSettings& settings) {
     std::error_code ignored;
     if (std::filesystem::exists(settings.output, ignored) &&
         !std::filesystem::is_directory(settings.output, ignored)) {
-        throw Error(ExitCode::file, "-o '" + settings.output.string() + "' is a file; name a folder");
+        throw Error(ErrorKind::file, "-o '" + settings.output.string() + "' is a file; name a folder");
     }
 }
 
@@ -261,4 +262,4 @@ void add_compare_command(CommandLine& line) {
     add_device_options(command, options->device);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,9 +3,9 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `nearlight compare SCENE … -o DIR`.
 void add_compare_command(CommandLine& line);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

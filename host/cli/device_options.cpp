@@ -4,7 +4,7 @@
 #include "host/base/log.h"
 #include "host/cl/program_compiler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
     command
@@ -56,4 +56,4 @@ std::unique_ptr<Device> open_device(const DeviceChoice& choice) {
     return std::make_unique<Device>(chosen.front(), choice.options);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/cl/device.h"
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct DeviceChoice {
     std::string device;  ///< see choose_devices()
@@ -23,11 +23,11 @@ void add_device_options(CLI::App& command, DeviceChoice& choice);
 /// threads or loads a driver, so this is the first that a command does.
 DeviceChoice with_compile_workers(DeviceChoice choice);
 
-/// All devices of the list that match, with one compiler for all. Throws Error(ExitCode::no_device).
+/// All devices of the list that match, with one compiler for all. Throws Error(ErrorKind::no_device).
 std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, const DeviceList& list);
 
 /// The one device that a command works on. Where several match, the first is taken and the rest are named in
-/// a warning. Throws Error(ExitCode::no_device).
+/// a warning. Throws Error(ErrorKind::no_device).
 std::unique_ptr<Device> open_device(const DeviceChoice& choice);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string memory_text(std::size_t bytes) {
@@ -114,4 +114,4 @@ void add_devices_command(CommandLine& line) {
         ->type_name("DIR");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,9 +3,9 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `nearlight devices`: what OpenCL offers here, what is used, and why.
 void add_devices_command(CommandLine& line);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct DiffOptions {
@@ -41,8 +41,8 @@ std::vector<std::string> layers_to_compare(const DiffOptions& options, const Ima
         }
     }
     if (layers.empty()) {
-        throw Error(ExitCode::file, "'" + options.image.string() + "' and '" + options.reference.string() +
-                                        "' have no RGB layer in common");
+        throw Error(ErrorKind::file, "'" + options.image.string() + "' and '" + options.reference.string() +
+                                         "' have no RGB layer in common");
     }
     return layers;
 }
@@ -81,7 +81,7 @@ ExitCode run_diff(const DiffOptions& options, const GlobalOptions& global) {
     const Image b = read_linear_image(options.reference);
     if (a.width != b.width || a.height != b.height) {
         throw Error(
-            ExitCode::file,
+            ErrorKind::file,
             fmt::format("'{}' has {}x{} pixels, '{}' has {}x{}: only pictures of one size can be compared",
                         options.image.string(), a.width, a.height, options.reference.string(), b.width,
                         b.height));
@@ -120,4 +120,4 @@ void add_diff_command(CommandLine& line) {
         ->allow_extra_args(false);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

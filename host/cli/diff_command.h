@@ -4,8 +4,8 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void add_diff_command(CommandLine& line);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/cli/scene_options.h"
 #include "host/cli/scene_summary.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 ExitCode run_info(const SceneOptions& options, const GlobalOptions& global) {
@@ -28,4 +28,4 @@ void add_info_command(CommandLine& line) {
     add_scene_options(command, *options);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

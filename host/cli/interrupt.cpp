@@ -4,7 +4,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // A signal handler reaches nothing but the process's own state.
@@ -30,4 +30,4 @@ bool interrupted() {
     return interrupt_seen.load();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

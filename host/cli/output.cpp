@@ -3,9 +3,9 @@
 
 #include <iostream>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void print_json(const nlohmann::ordered_json& result) {
     // File names may hold bytes that are not UTF-8, which JSON must not.
@@ -18,8 +18,8 @@ void print(std::string_view text) {
 
 void check_standard_output() {
     if (!std::cout.flush()) {
-        throw Error(ExitCode::runtime, "cannot write to standard output");
+        throw Error(ErrorKind::failure, "cannot write to standard output");
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 
 #include "host/stages/film.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr const char* kBeauty = "beauty";
@@ -54,24 +54,24 @@ std::vector<std::size_t> channels_for(const PictureOptions& options, const std::
 void check_output(const std::string& file) {
     namespace fs = std::filesystem;
     if (extension_of(file) != ".exr" && extension_of(file) != ".png") {
-        throw Error(ExitCode::usage, "cannot write '" + file + "': pictures end in .exr or .png");
+        throw Error(ErrorKind::invalid_argument, "cannot write '" + file + "': pictures end in .exr or .png");
     }
     const fs::path parent = fs::path(file).parent_path();
     const fs::path folder = parent.empty() ? fs::path(".") : parent;
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
-        throw Error(ExitCode::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
-                                        "'; create it first");
+        throw Error(ErrorKind::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
+                                         "'; create it first");
     }
     if (fs::is_directory(file, error)) {
-        throw Error(ExitCode::file, "cannot write '" + file + "': it is a folder; name a file");
+        throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; name a file");
     }
     if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "cannot write '" + file + "': it is there and read-only; name another file");
     }
     if (access(folder.c_str(), W_OK) != 0) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "cannot write '" + file + "': the folder '" + folder.string() + "' is not writable");
     }
 }
@@ -116,7 +116,7 @@ void check_outputs(const PictureOptions& options) {
             for (const std::string& name : known) {
                 list += (list.empty() ? "" : ", ") + name;
             }
-            throw Error(ExitCode::usage, "unknown layer '" + layer + "'; there are: " + list);
+            throw Error(ErrorKind::invalid_argument, "unknown layer '" + layer + "'; there are: " + list);
         }
     }
     for (const std::string& file : options.outputs) {
@@ -170,4 +170,4 @@ void PictureFiles::commit(double render_seconds) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/image/image_io.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct PictureOptions {
     std::vector<std::string> outputs;
@@ -21,8 +21,9 @@ struct PictureOptions {
 /// -o, --layers and --exposure.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// Finds out before any work starts whether the outputs can be written. Throws Error(ExitCode::usage) for an
-/// unknown extension or layer, Error(ExitCode::file) for a folder that does not exist or cannot be written.
+/// Finds out before any work starts whether the outputs can be written. Throws
+/// Error(ErrorKind::invalid_argument) for an unknown extension or layer, Error(ErrorKind::file) for a folder
+/// that does not exist or cannot be written.
 void check_outputs(const PictureOptions& options);
 
 /// worldToCamera and worldToNDC in OpenEXR's row-vector convention, as other renderers write them.
@@ -50,4 +51,4 @@ class PictureFiles {
     std::vector<float> selected_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

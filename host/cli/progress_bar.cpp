@@ -11,7 +11,7 @@
 
 #include "host/base/log.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr int kBarWidth = 24;
@@ -84,4 +84,4 @@ void ProgressBar::clear() {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

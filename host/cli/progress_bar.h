@@ -9,7 +9,7 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// "gathering  42 %  [########............]  0:12 left"; the time appears once it can be told: from
 /// `seconds_left` where the caller knows it, else from the fraction and the time that it took.
@@ -44,4 +44,4 @@ class ProgressBar {
     bool visible_ = false;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

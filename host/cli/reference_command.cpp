@@ -19,7 +19,7 @@
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr int kDefaultSpp = 64;
@@ -128,7 +128,7 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
 const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
     const auto found = std::ranges::find(options.outputs, ".exr", &std::filesystem::path::extension);
     if (found == options.outputs.end()) {
-        throw Error(ExitCode::usage, "--resume needs an output that ends in .exr");
+        throw Error(ErrorKind::invalid_argument, "--resume needs an output that ends in .exr");
     }
     return *found;
 }
@@ -231,4 +231,4 @@ void add_reference_command(CommandLine& line) {
         ->check(CLI::NonNegativeNumber);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

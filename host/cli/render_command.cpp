@@ -19,7 +19,7 @@
 #include "host/cli/scene_options.h"
 #include "host/render/renderer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct RenderOptions {
@@ -52,7 +52,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& va
         }
         const auto found = choices.find(text);
         if (found == choices.end()) {
-            throw Error(ExitCode::usage,
+            throw Error(ErrorKind::invalid_argument,
                         fmt::format("{} does not know '{}'; there are: {}", option, text, names));
         }
         value = found->second;
@@ -74,8 +74,9 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
         used = 0;
     }
     if (used != text.size() || !(value >= low) || !(value <= high)) {
-        throw Error(ExitCode::usage, fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'",
-                                                 option, low, high, text));
+        throw Error(
+            ErrorKind::invalid_argument,
+            fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'", option, low, high, text));
     }
     return value;
 }
@@ -98,7 +99,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     const int height = settings.height.value_or(scene.camera.height);
     if (std::int64_t{width} * height > kMostPixels) {
         throw Error(
-            ExitCode::out_of_memory,
+            ErrorKind::out_of_memory,
             fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
                         width, height, kMostPixels >> 20));
     }
@@ -302,4 +303,4 @@ void add_render_command(CommandLine& line) {
         ->capture_default_str();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

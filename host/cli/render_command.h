@@ -3,9 +3,9 @@
 
 #include "host/cli/command.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `nearlight render SCENE -o OUT`: a picture by virtual point lights.
 void add_render_command(CommandLine& line);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

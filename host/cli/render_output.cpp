@@ -10,7 +10,7 @@
 #include "host/cli/picture_files.h"
 #include "host/cli/tunables_output.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// What `text` says of each device, without repeats.
@@ -130,4 +130,4 @@ void tell_shares(const RenderReport& report) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/image/image_io.h"
 #include "host/render/renderer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The EXR's `nearlight:…` entries and those of its camera.
 Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
@@ -36,4 +36,4 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
 /// Which device made how much of the picture, where there were several.
 void tell_shares(const RenderReport& report);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include "host/base/log.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
@@ -41,7 +41,8 @@ LoadOptions load_options(const SceneOptions& options) {
     for (const std::string& definition : options.definitions) {
         const std::size_t equals = definition.find('=');
         if (equals == std::string::npos || equals == 0) {
-            throw Error(ExitCode::usage, "'-D " + definition + "' defines nothing: give NAME=VALUE");
+            throw Error(ErrorKind::invalid_argument,
+                        "'-D " + definition + "' defines nothing: give NAME=VALUE");
         }
         result.parameters[definition.substr(0, equals)] = definition.substr(equals + 1);
     }
@@ -56,4 +57,4 @@ Scene load_scene(const SceneOptions& options) {
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cli/command.h"
 #include "host/scene/scene_loader.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct SceneOptions {
     std::filesystem::path file;
@@ -26,10 +26,10 @@ void add_shared_scene_options(CLI::App& command, SceneOptions& options);
 /// --bvh fast|quality; `quality` holds the default.
 void add_bvh_option(CLI::App& command, BvhQuality& quality);
 
-/// Throws Error(ExitCode::usage) for a definition without a name or a '='.
+/// Throws Error(ErrorKind::invalid_argument) for a definition without a name or a '='.
 LoadOptions load_options(const SceneOptions& options);
 
 /// Reads the scene and tells its notes as warnings.
 Scene load_scene(const SceneOptions& options);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

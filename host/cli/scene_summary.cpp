@@ -8,7 +8,7 @@
 
 #include "host/scene/emitters.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -237,4 +237,4 @@ std::string scene_summary_text(const Scene& scene) {
            row("notes", scene.notes.empty() ? "none" : std::to_string(scene.notes.size()));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Bytes by part; the parts are in the order in which they are told.
 struct MemoryEstimate {
@@ -30,4 +30,4 @@ nlohmann::ordered_json scene_summary_json(const Scene& scene);
 /// The same for people, several lines.
 std::string scene_summary_text(const Scene& scene);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/cli/output.h"
 #include "host/selftest/selftest.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct DeviceReport {
@@ -103,4 +103,4 @@ void add_selftest_command(CommandLine& line) {
     add_device_options(command, *choice);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

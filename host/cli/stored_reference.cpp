@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/log.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string to_text(const Metadata::mapped_type& value) {
@@ -22,8 +22,8 @@ std::string to_text(const Metadata::mapped_type& value) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
-    throw Error(ExitCode::file, "cannot resume '" + file.string() + "': " + reason +
-                                    "; give it the same scene and options, or name another output");
+    throw Error(ErrorKind::file, "cannot resume '" + file.string() + "': " + reason +
+                                     "; give it the same scene and options, or name another output");
 }
 
 /// What `stored` has under `name`; refuses where it has nothing of that type.
@@ -99,4 +99,4 @@ std::optional<StoredReference> read_stored_reference(const std::filesystem::path
     return reference;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What shapes the expectation and the random numbers of a reference, as its file tells it: all settings but
 /// the number of samples, and the size.
@@ -21,9 +21,9 @@ struct StoredReference {
     float render_seconds = 0;  ///< that it took
 };
 
-/// Empty where there is no such file. Throws Error(ExitCode::file) saying what is different where it was made
-/// with other settings than `wanted` (see completed()), or is no reference at all.
+/// Empty where there is no such file. Throws Error(ErrorKind::file) saying what is different where it was
+/// made with other settings than `wanted` (see completed()), or is no reference at all.
 std::optional<StoredReference> read_stored_reference(const std::filesystem::path& file,
                                                      const PathTracerSettings& wanted, const Scene& scene);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

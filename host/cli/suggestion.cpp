@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 // Optimal string alignment distance, row by row.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -43,4 +43,4 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
     return best;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

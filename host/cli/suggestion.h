@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
@@ -14,4 +14,4 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The candidate nearest to `word`, or an empty string if none is near enough to be what was meant.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/tunables_output.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 nlohmann::ordered_json to_json(const Tunables& tunables) {
     nlohmann::ordered_json json;
@@ -26,4 +26,4 @@ std::string to_text(const Tunables& tunables) {
     return text;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

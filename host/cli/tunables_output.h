@@ -7,7 +7,7 @@
 
 #include "host/cl/tunables.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// {"source": "…", "is_tuned": …, "packet_width": …, …}
 nlohmann::ordered_json to_json(const ChosenTunables& chosen);
@@ -15,4 +15,4 @@ nlohmann::ordered_json to_json(const Tunables& tunables);
 /// "packet_width 256, local_size 8, …"
 std::string to_text(const Tunables& tunables);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct TuneOptions {
@@ -85,7 +85,7 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
     const std::string file =
         options.dry_run ? "" : tunables_file(device->entry(), device->options().cache_dir).string();
     if (file.empty() && !options.dry_run) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorKind::invalid_argument,
                     "no folder to keep tunables in: give one with --cache-dir, or --dry-run");
     }
     spdlog::info("measuring {}, which takes about half a minute", device->entry().label());
@@ -129,4 +129,4 @@ void add_tune_command(CommandLine& line) {
     add_device_options(command, options->device);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

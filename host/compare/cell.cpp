@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/cell.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::vector<CellId> cells_of(const CompareSettings& settings) {
     std::vector<CellId> cells;
@@ -15,4 +15,4 @@ std::vector<CellId> cells_of(const CompareSettings& settings) {
     return cells;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/compare/picture_error.h"
 #include "host/compare/settings.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct CellId {
     Method method;
@@ -38,4 +38,4 @@ struct Cell {
 /// machine hits all methods alike and an early stop leaves whole seeds.
 std::vector<CellId> cells_of(const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/image/image_io.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -103,4 +103,4 @@ Image CellStore::load_picture(const CellId& id) const {
     return read_image(file_stem_of(id).string() + ".exr");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

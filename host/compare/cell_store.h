@@ -9,7 +9,7 @@
 #include "host/compare/cell.h"
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// One JSON file a cell, named after the cell and the conditions it was measured under.
 class CellStore {
@@ -21,7 +21,7 @@ class CellStore {
 
     /// A file that cannot be understood is as good as missing, with a warning.
     [[nodiscard]] std::optional<Cell> load(const CellId& id) const;
-    /// Throws Error(ExitCode::file), as the next one.
+    /// Throws Error(ErrorKind::file), as the next one.
     void save(const Cell& cell) const;
     void save_picture(const CellId& id, const Image& picture) const;
     [[nodiscard]] bool has_picture(const CellId& id) const;
@@ -35,4 +35,4 @@ class CellStore {
     std::string conditions_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,15 +7,15 @@
 #include <cctype>
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/compare/cost_model.h"
 #include "host/image/image_io.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string conditions_of(const Device& device, const SceneFacts& facts, const Reference& reference,
@@ -50,7 +50,7 @@ std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::sp
     }
     for (const std::filesystem::path& file : settings.reference_files) {
         if (std::ranges::find(assigned, std::optional(file)) == assigned.end()) {
-            throw Error(ExitCode::file,
+            throw Error(ErrorKind::file,
                         "'" + file.string() + "' shows none of the scenes to compare (by its " +
                             "'nearlight:sceneHash'); make it with `nearlight reference` from the " +
                             "scene as it is now");
@@ -164,7 +164,7 @@ class SceneRun {
 
 void require_indirect_light(const SceneFacts& facts, const Reference& reference) {
     if (std::ranges::all_of(reference.picture.values, [](float value) { return value == 0.0f; })) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "scene '" + facts.name + "' (" + facts.source +
                         "): no indirect light reaches the camera, so there is nothing to compare");
     }
@@ -229,4 +229,4 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     return comparison;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -13,7 +13,7 @@
 #include "host/compare/plots.h"
 #include "host/compare/tables.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct SceneComparison {
     SceneFacts facts;
@@ -51,4 +51,4 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
 /// alike.
 std::vector<std::string> unique_names(std::span<const Scene> scenes);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

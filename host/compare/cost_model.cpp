@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/cost_model.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void CostModel::add(const CellId& cell, double seconds) {
     for (Sum* const sum : {&methods_[to_string(cell.method)], &all_}) {
@@ -23,4 +23,4 @@ std::optional<double> CostModel::seconds(std::span<const CellId> cells) const {
     return total;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/compare/cell.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The time of a cell is taken to be in proportion to VPLs × receivers; all cells of a comparison have the
 /// same receivers. Each method has its own rate, learnt from what was measured of it, or else from all.
@@ -28,4 +28,4 @@ class CostModel {
     Sum all_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

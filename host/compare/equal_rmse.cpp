@@ -8,7 +8,7 @@
 
 #include "host/compare/statistics.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -99,4 +99,4 @@ std::vector<EqualRmse> equal_rmse(std::span<const Curve> curves, std::size_t bas
     return groups;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct CurvePoint {
     double vpls = 0;  ///< gathered
@@ -49,4 +49,4 @@ struct EqualRmse {
 /// than two points, for then there is nothing to fit.
 std::vector<EqualRmse> equal_rmse(std::span<const Curve> curves, std::size_t baseline);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

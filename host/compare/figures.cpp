@@ -8,7 +8,7 @@
 #include "host/compare/vpl_figure.h"
 #include "host/image/image_io.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr int kOverviewWidth = 200;
@@ -112,4 +112,4 @@ SceneFigures make_figures(SceneBench& bench, const Reference& reference, const C
     return figures;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

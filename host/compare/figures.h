@@ -9,7 +9,7 @@
 #include "host/compare/cell_store.h"
 #include "host/compare/scene_bench.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct PictureFile {
     std::filesystem::path full;
@@ -48,4 +48,4 @@ struct SceneFigures {
 SceneFigures make_figures(SceneBench& bench, const Reference& reference, const CellStore& cells,
                           const CompareSettings& settings, const std::filesystem::path& folder);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/base/files.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Each on a line of its own, so that the page can be read.
@@ -117,4 +117,4 @@ std::string HtmlWriter::finish() {
     return std::move(html_);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

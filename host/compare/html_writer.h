@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 using HtmlAttributes = std::vector<std::pair<std::string, std::string>>;
 
@@ -43,4 +43,4 @@ std::string escaped(std::string_view text);
 /// [RFC 4648]
 std::string base64(std::string_view bytes);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

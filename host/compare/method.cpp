@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/render/settings.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::string to_string(const Method& method) {
     const std::string sampler = to_string(method.sampler);
@@ -52,7 +52,8 @@ Method parse_method(std::string_view name) {
         }
         known += (known.empty() ? "" : ", ") + to_string(method);
     }
-    throw Error(ExitCode::usage, "unknown sampler '" + std::string(name) + "'; there are: " + known);
+    throw Error(ErrorKind::invalid_argument,
+                "unknown sampler '" + std::string(name) + "'; there are: " + known);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

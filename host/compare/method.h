@@ -9,7 +9,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Method {
     SamplerKind sampler = SamplerKind::close_range;
@@ -27,8 +27,8 @@ std::string file_stem(const Method& method);
 Method default_method();
 /// Every sampler there is, close-range with each of its policies; the default method first.
 std::vector<Method> all_methods();
-/// A name as to_string() gives it, or `close-range` for the default method. Throws Error(ExitCode::usage)
-/// that lists the names.
+/// A name as to_string() gives it, or `close-range` for the default method. Throws
+/// Error(ErrorKind::invalid_argument) that lists the names.
 Method parse_method(std::string_view name);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/compare/pictures.h"
 #include "host/image/flip.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 double mean_flip(const Image& picture, const Reference& reference) {
@@ -72,4 +72,4 @@ double rmse_of_part(const Image& picture, const Image& reference, const Crop& pa
     return std::sqrt(squares / static_cast<double>(a.values.size()));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/compare/settings.h"
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The reference has noise of its own, independent of the picture's, which adds its variance to every squared
 /// error. Where it is known, its mean is subtracted, so that `squared_error` and `relative_mse` are those
@@ -29,4 +29,4 @@ PictureError picture_error(const Image& picture, const Reference& reference);
 /// The paper's RMSE of a part of the picture, the noise of the reference not subtracted.
 double rmse_of_part(const Image& picture, const Image& reference, const Crop& part);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/base/error.h"
 #include "host/image/color.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::size_t pixel_count(const Image& picture) {
@@ -63,7 +63,7 @@ Image color_layer(const Image& image, const std::string& layer) {
         const std::string name = (layer.empty() ? "" : layer + ".") + "RGB"[c];
         const int index = image.find_channel(name);
         if (index < 0) {
-            throw Error(ExitCode::file, "the picture has no channel '" + name + "'");
+            throw Error(ErrorKind::file, "the picture has no channel '" + name + "'");
         }
         indices[c] = static_cast<std::size_t>(index);
     }
@@ -200,4 +200,4 @@ std::vector<Crop> hardest_crops(const Image& picture, const Image& reference, st
     return crops;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

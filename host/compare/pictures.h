@@ -10,11 +10,11 @@
 #include "host/compare/settings.h"
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A black picture.
 Image make_picture(int width, int height);
-/// The channels `layer`.R, .G, .B (or R, G, B for an empty layer) as a picture. Throws Error(ExitCode::file)
+/// The channels `layer`.R, .G, .B (or R, G, B for an empty layer) as a picture. Throws Error(ErrorKind::file)
 /// where one is missing.
 Image color_layer(const Image& image, const std::string& layer);
 std::vector<Vec3> pixels_of(const Image& picture);
@@ -41,4 +41,4 @@ Vec3 error_color(float error);
 /// none over another; the worst first.
 std::vector<Crop> hardest_crops(const Image& picture, const Image& reference, std::size_t count);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

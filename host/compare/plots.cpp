@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 enum class Drawing { done, no_gnuplot, failed };
@@ -155,4 +155,4 @@ std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& se
     return plots;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

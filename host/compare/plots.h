@@ -9,7 +9,7 @@
 
 #include "host/compare/tables.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Plot {
     std::string title;
@@ -27,4 +27,4 @@ std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& se
 std::string plot_script(const std::string& title, const std::string& stem, bool over_seconds,
                         const CompareSettings& settings, std::span<const EqualVplsRow> rows);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,15 +8,15 @@
 #include <numeric>
 #include <span>
 
-#include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/compare/pictures.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Samples a pixel of a pass of path tracing; a whole number of the path tracer's batches.
@@ -80,7 +80,7 @@ ReferenceNoise noise_of(const Image& picture, std::span<const double> variances)
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-    throw Error(ExitCode::file, "'" + file.string() + "' is no reference for this comparison: " + why);
+    throw Error(ErrorKind::file, "'" + file.string() + "' is no reference for this comparison: " + why);
 }
 
 template <typename Value>
@@ -203,4 +203,4 @@ Reference load_reference(const std::filesystem::path& file, const ReferenceSpec&
     return reference;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

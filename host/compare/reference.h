@@ -12,7 +12,7 @@
 #include "host/compare/reference_store.h"
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Keeps relative errors of black pixels finite; squared radiance.
 inline constexpr double kRelativeErrorFloor = 0.01;
@@ -54,8 +54,8 @@ std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t s
 /// multiple of 16 where paths are traced.
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples);
 
-/// A picture made by `nearlight reference`. Throws Error(ExitCode::file) where it is none, or not of this
+/// A picture made by `nearlight reference`. Throws Error(ErrorKind::file) where it is none, or not of this
 /// scene, size, clamp radius and depth.
 Reference load_reference(const std::filesystem::path& file, const ReferenceSpec& spec);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,13 +5,13 @@
 
 #include <system_error>
 
-#include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/image/image_io.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// To be changed when the references of an earlier version would come out differently.
@@ -67,4 +67,4 @@ void ReferenceStore::save(const ReferenceSpec& spec, std::size_t index, std::siz
                               {"nearlight:samples", static_cast<int>(samples)}}});
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

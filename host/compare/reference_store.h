@@ -10,7 +10,7 @@
 #include "host/compare/method.h"
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// All that shapes the expectation of a reference.
 struct ReferenceSpec {
@@ -36,7 +36,7 @@ class ReferenceStore {
     /// warning.
     [[nodiscard]] std::optional<Image> load(const ReferenceSpec& spec, std::size_t index,
                                             std::size_t samples) const;
-    /// Throws Error(ExitCode::file).
+    /// Throws Error(ErrorKind::file).
     void save(const ReferenceSpec& spec, std::size_t index, std::size_t samples, const Image& pass) const;
 
     [[nodiscard]] std::filesystem::path file(const ReferenceSpec& spec, std::size_t index,
@@ -46,4 +46,4 @@ class ReferenceStore {
     std::filesystem::path folder_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "host/compare/report_json.h"
 #include "host/compare/report_markdown.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::string write_report(const Comparison& comparison, const CompareSettings& settings) {
     std::string json = comparison_json(comparison, settings);
@@ -19,4 +19,4 @@ std::string write_report(const Comparison& comparison, const CompareSettings& se
     return json;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

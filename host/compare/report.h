@@ -5,10 +5,10 @@
 
 #include "host/compare/comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Writes compare.json, equal_vpls.csv, equal_rmse.csv, report.html and report.md into settings.output and
-/// returns the text of the first. Throws Error(ExitCode::file).
+/// returns the text of the first. Throws Error(ErrorKind::file).
 std::string write_report(const Comparison& comparison, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Names hold neither commas nor quotes: those of scenes are fit for files (unique_names).
@@ -58,4 +58,4 @@ std::string equal_rmse_csv(const Comparison& comparison, const CompareSettings& 
     return csv;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,9 +6,9 @@
 
 #include "host/compare/comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::string equal_vpls_csv(const Comparison& comparison);
 std::string equal_rmse_csv(const Comparison& comparison, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

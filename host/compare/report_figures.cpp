@@ -5,7 +5,7 @@
 
 #include "host/compare/pictures.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr const char* kPng = "image/png";
@@ -104,4 +104,4 @@ void write_method_figures(HtmlWriter& html, const SceneComparison& scene, const 
     html.close().close().close();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/compare/comparison.h"
 #include "host/compare/html_writer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void write_plots(HtmlWriter& html, const SceneComparison& scene);
 /// Where the VPLs are.
@@ -13,4 +13,4 @@ void write_vpl_figures(HtmlWriter& html, const SceneComparison& scene);
 /// What becomes of the picture, a row a count.
 void write_method_figures(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

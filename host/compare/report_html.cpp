@@ -8,7 +8,7 @@
 #include "host/compare/report_figures.h"
 #include "host/compare/report_tables.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::string_view kStyle =
@@ -176,4 +176,4 @@ std::string comparison_html(const Comparison& comparison, const CompareSettings&
     return html.finish();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

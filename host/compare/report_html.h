@@ -6,9 +6,9 @@
 
 #include "host/compare/comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
-/// Reads the figures and plots that the comparison names. Throws Error(ExitCode::file) where one is gone.
+/// Reads the figures and plots that the comparison names. Throws Error(ErrorKind::file) where one is gone.
 std::string comparison_html(const Comparison& comparison, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/base/hash.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -106,4 +106,4 @@ std::string comparison_json(const Comparison& comparison, const CompareSettings&
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

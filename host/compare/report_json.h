@@ -7,9 +7,9 @@
 
 #include "host/compare/comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The text of one JSON object.
 std::string comparison_json(const Comparison& comparison, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,18 +6,10 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace nearlight {
-namespace {
+#include "host/compare/number_text.h"
 
-std::string number(double value, int digits = 3) {
-    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
-}
-std::string interval(double value, double half_width, int digits) {
-    return number(value, digits) + (std::isfinite(half_width) ? " ± " + number(half_width, 2) : "");
-}
-std::string fixed(double value, int digits) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "–";
-}
+namespace nearlight::core {
+namespace {
 
 std::string row(std::initializer_list<std::string> cells) {
     std::string text = "|";
@@ -60,11 +52,13 @@ std::string equal_vpls_table(const SceneComparison& scene) {
     std::string text = header({"equal VPLs", "asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
                                "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
     for (const EqualVplsRow& entry : scene.equal_vpls) {
-        text += row(
-            {to_string(entry.method), std::to_string(entry.vpls), fixed(entry.gathered_vpls, 0),
-             fixed(entry.sparse_vpls, 0), interval(entry.rmse.value, entry.rmse.half_width, 3),
-             fixed(entry.rmse_ratio, 2), interval(entry.mean_ratio.mean, entry.mean_ratio.half_width, 4),
-             number(entry.flip.mean, 2), fixed(entry.generate_seconds, 2), fixed(entry.gather_seconds, 2)});
+        text +=
+            row({to_string(entry.method), std::to_string(entry.vpls), fixed_text(entry.gathered_vpls, 0),
+                 fixed_text(entry.sparse_vpls, 0), interval_text(entry.rmse.value, entry.rmse.half_width, 3),
+                 fixed_text(entry.rmse_ratio, 2),
+                 interval_text(entry.mean_ratio.mean, entry.mean_ratio.half_width, 4),
+                 number_text(entry.flip.mean, 2), fixed_text(entry.generate_seconds, 2),
+                 fixed_text(entry.gather_seconds, 2)});
     }
     return text;
 }
@@ -77,9 +71,10 @@ std::string equal_rmse_table(const SceneComparison& scene, const CompareSettings
         header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "known"});
     for (const EqualRmse& group : scene.equal_rmse) {
         for (const EqualRmseRow& entry : group.rows) {
-            text += row({to_string(settings.methods[entry.curve]), number(group.rmse), fixed(entry.vpls, 0),
-                         fixed(entry.seconds, 2), fixed(entry.vpls_ratio, 1), fixed(entry.time_ratio, 1),
-                         to_string(entry.reach)});
+            text +=
+                row({to_string(settings.methods[entry.curve]), number_text(group.rmse),
+                     fixed_text(entry.vpls, 0), fixed_text(entry.seconds, 2), fixed_text(entry.vpls_ratio, 1),
+                     fixed_text(entry.time_ratio, 1), to_string(entry.reach)});
         }
     }
     return text + "\n";
@@ -124,4 +119,4 @@ std::string comparison_markdown(const Comparison& comparison, const CompareSetti
     return text;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

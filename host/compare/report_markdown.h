@@ -6,10 +6,10 @@
 
 #include "host/compare/comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Tables of equal VPLs and equal RMSE a scene, positions of VPLs, and pictures with error maps at the
 /// smallest count. Headings begin at the second level.
 std::string comparison_markdown(const Comparison& comparison, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

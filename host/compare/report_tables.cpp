@@ -6,20 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nearlight {
+#include "host/compare/number_text.h"
+
+namespace nearlight::core {
 namespace {
 
 const HtmlAttributes kName{{"class", "name"}};
 
-std::string number(double value, int digits = 3) {
-    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "–";
-}
-std::string with_interval(double value, double half_width, int digits = 3) {
-    return number(value, digits) + (std::isfinite(half_width) ? " ± " + number(half_width, 2) : "");
-}
-std::string ratio_text(double value) {
-    return std::isfinite(value) ? fmt::format("{:.2f}", value) : "–";
-}
 std::string seconds_text(double value) {
     return std::isfinite(value) ? fmt::format("{:.3f}", value) : "–";
 }
@@ -47,12 +40,12 @@ void write_row(HtmlWriter& html, const EqualVplsRow& row, bool first_of_count, b
     for (const double count : {static_cast<double>(row.vpls), row.gathered_vpls, row.sparse_vpls}) {
         html.element("td", count_text(count));
     }
-    html.element("td", with_interval(row.rmse.value, row.rmse.half_width),
+    html.element("td", interval_text(row.rmse.value, row.rmse.half_width),
                  best ? HtmlAttributes{{"class", "best"}} : HtmlAttributes{});
-    html.element("td", ratio_text(row.rmse_ratio));
-    html.element("td", number(row.relative_mse.mean));
-    html.element("td", with_interval(row.mean_ratio.mean, row.mean_ratio.half_width, 4));
-    html.element("td", number(row.flip.mean));
+    html.element("td", fixed_text(row.rmse_ratio, 2));
+    html.element("td", number_text(row.relative_mse.mean));
+    html.element("td", interval_text(row.mean_ratio.mean, row.mean_ratio.half_width, 4));
+    html.element("td", number_text(row.flip.mean));
     html.element("td", seconds_text(row.generate_seconds)).element("td", seconds_text(row.gather_seconds));
     html.close();
 }
@@ -61,10 +54,10 @@ void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row
                bool first) {
     const bool never = row.reach == Reach::never;
     html.open("tr", first ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
-    html.element("td", first ? number(group.rmse) : "");
+    html.element("td", first ? number_text(group.rmse) : "");
     write_method(html, method);
     for (const std::string& text : {count_text(row.vpls), seconds_text(row.seconds),
-                                    ratio_text(row.vpls_ratio), ratio_text(row.time_ratio)}) {
+                                    fixed_text(row.vpls_ratio, 2), fixed_text(row.time_ratio, 2)}) {
         html.element("td", text);
     }
     html.element("td", to_string(row.reach), {{"class", never ? "name never" : "name"}});
@@ -83,7 +76,7 @@ class RatioMean {
         }
     }
     [[nodiscard]] std::string text() const {
-        const std::string mean = count_ > 0 ? ratio_text(std::exp(logarithms_ / count_)) : "";
+        const std::string mean = count_ > 0 ? fixed_text(std::exp(logarithms_ / count_), 2) : "";
         const std::string never =
             missing_ > 0 ? fmt::format("never in {} of {}", missing_, missing_ + count_) : "";
         return count_ + missing_ == 0 ? "–" : mean + (mean.empty() || never.empty() ? "" : ", ") + never;
@@ -158,4 +151,4 @@ void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, cons
     html.close().close().close();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

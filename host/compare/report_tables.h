@@ -5,11 +5,11 @@
 #include "host/compare/comparison.h"
 #include "host/compare/html_writer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// One row for each scene and method: geometric means over all counts.
 void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings);
 void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/base/message.h"
 #include "host/compare/pictures.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 #include "host/scene/emitters.h"
 #include "host/stages/film.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Seeds of references are far from those that anybody gives.
@@ -37,7 +37,7 @@ bool go_on(const std::string&, double) {
 
 void require_light(const Scene& scene, const std::string& name) {
     if (build_emitter_table(scene).emitters.empty()) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "scene '" + name + "' (" + scene.source.string() +
                         "): nothing in it emits light, so there is nothing to compare; add a light");
     }
@@ -98,12 +98,12 @@ SceneBench::FirstLook SceneBench::look() {
 void SceneBench::check(const FirstLook& found) const {
     const std::string scene = "scene '" + facts_.name + "' (" + facts_.source + ")";
     if (!found.surface) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
                         "turn it to the scene");
     }
     if (facts_.max_depth < 3) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     scene + " has a depth of " + std::to_string(facts_.max_depth) +
                         ", which leaves no indirect light to compare; give --max-depth 3 or more");
     }
@@ -229,4 +229,4 @@ PassMaker SceneBench::reference_maker(const ReferenceSpec& spec, const Progress&
     };
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/compare/settings.h"
 #include "host/render/renderer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What was done once for the scene, in this run.
 struct SetupSeconds {
@@ -42,7 +42,7 @@ struct Shot {
 class SceneBench {
   public:
     /// Compiles, builds the tree and renders a first picture with all light, from which the range and the
-    /// clamp radius are decided once for all. Refers to device and scene. Throws Error(ExitCode::file) where
+    /// clamp radius are decided once for all. Refers to device and scene. Throws Error(ErrorKind::file) where
     /// nothing emits light or nothing is in view.
     SceneBench(Device& device, const Scene& scene, const std::string& name, const CompareSettings& settings,
                const std::optional<std::filesystem::path>& reference_file);
@@ -87,4 +87,4 @@ class SceneBench {
     std::map<std::string, bool> warm_;  ///< methods that had their first shot
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kMostVpls = 50'000'000;
@@ -34,9 +34,9 @@ std::optional<Number> whole_number(const std::string& text) {
 uint parse_vpl_count(const std::string& text) {
     const std::optional<uint> count = whole_number<uint>(text);
     if (!count || *count < 1 || *count > kMostVpls) {
-        throw Error(ExitCode::usage, "--vpls: '" + text +
-                                         "' is no count of VPLs; give whole numbers from 1 to " +
-                                         std::to_string(kMostVpls) + " with commas between, as in 1000,2000");
+        throw Error(ErrorKind::invalid_argument,
+                    "--vpls: '" + text + "' is no count of VPLs; give whole numbers from 1 to " +
+                        std::to_string(kMostVpls) + " with commas between, as in 1000,2000");
     }
     return *count;
 }
@@ -45,7 +45,7 @@ template <typename Item, typename Name>
 void refuse_twins(const std::vector<Item>& items, const char* option, Name&& name) {
     for (auto item = items.begin(); item != items.end(); ++item) {
         if (std::find(items.begin(), item, *item) != item) {
-            throw Error(ExitCode::usage,
+            throw Error(ErrorKind::invalid_argument,
                         std::string(option) + " names " + name(*item) + " twice; name it once");
         }
     }
@@ -53,10 +53,11 @@ void refuse_twins(const std::vector<Item>& items, const char* option, Name&& nam
 
 void check_crop(const Crop& crop, int width, int height) {
     if (crop.x + crop.width > width || crop.y + crop.height > height) {
-        throw Error(ExitCode::usage, "--crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
-                                         std::to_string(crop.width) + "," + std::to_string(crop.height) +
-                                         " reaches beyond the picture of " + std::to_string(width) + "x" +
-                                         std::to_string(height) + " pixels");
+        throw Error(ErrorKind::invalid_argument,
+                    "--crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
+                        std::to_string(crop.width) + "," + std::to_string(crop.height) +
+                        " reaches beyond the picture of " + std::to_string(width) + "x" +
+                        std::to_string(height) + " pixels");
     }
 }
 
@@ -69,8 +70,8 @@ void check_baseline(const CompareSettings& settings) {
     for (const Method& method : settings.methods) {
         names += (names.empty() ? "" : ", ") + to_string(method);
     }
-    throw Error(ExitCode::usage, "--baseline " + to_string(settings.baseline) +
-                                     " is not among the samplers to compare: " + names);
+    throw Error(ErrorKind::invalid_argument, "--baseline " + to_string(settings.baseline) +
+                                                 " is not among the samplers to compare: " + names);
 }
 
 std::size_t fewest_reference_vpls(const CompareSettings& settings) {
@@ -84,12 +85,12 @@ std::size_t fewest_reference_vpls(const CompareSettings& settings) {
 void check_reference_sampler(const CompareSettings& settings) {
     const Method& sampler = *settings.reference_sampler;
     if (sampler.policy == Policy::paper) {
-        throw Error(ExitCode::usage, "--reference-sampler " + to_string(sampler) +
-                                         " loses light, so it is no reference; take another");
+        throw Error(ErrorKind::invalid_argument, "--reference-sampler " + to_string(sampler) +
+                                                     " loses light, so it is no reference; take another");
     }
     if (settings.reference_vpls == 0) {
-        throw Error(ExitCode::usage, "--reference-sampler " + to_string(sampler) +
-                                         " needs --reference-vpls: say how many VPLs");
+        throw Error(ErrorKind::invalid_argument, "--reference-sampler " + to_string(sampler) +
+                                                     " needs --reference-vpls: say how many VPLs");
     }
 }
 
@@ -98,12 +99,14 @@ void check_reference(const CompareSettings& settings) {
         check_reference_sampler(settings);
     }
     if (settings.reference_vpls > 0 && settings.reference_vpls < fewest_reference_vpls(settings)) {
-        throw Error(ExitCode::usage, "--reference-vpls " + std::to_string(settings.reference_vpls) +
-                                         " are too few for a reference; take at least " +
-                                         std::to_string(fewest_reference_vpls(settings)));
+        throw Error(ErrorKind::invalid_argument, "--reference-vpls " +
+                                                     std::to_string(settings.reference_vpls) +
+                                                     " are too few for a reference; take at least " +
+                                                     std::to_string(fewest_reference_vpls(settings)));
     }
     if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
-        throw Error(ExitCode::usage, "--reference and --reference-vpls exclude each other; give one of them");
+        throw Error(ErrorKind::invalid_argument,
+                    "--reference and --reference-vpls exclude each other; give one of them");
     }
 }
 
@@ -140,7 +143,7 @@ Crop parse_crop(const std::string& text) {
     }
     if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) {
         throw Error(
-            ExitCode::usage,
+            ErrorKind::invalid_argument,
             "--crop: '" + text + "' is no part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60");
     }
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
@@ -148,15 +151,15 @@ Crop parse_crop(const std::string& text) {
 
 void check_settings(const CompareSettings& settings) {
     if (settings.methods.empty() || settings.vpl_counts.empty() || settings.seed_count == 0) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorKind::invalid_argument,
                     "nothing to compare: give at least one sampler, one count of VPLs and one seed");
     }
     if (settings.clamp_radius && settings.clamp_fraction) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorKind::invalid_argument,
                     "--clamp-radius and --clamp-fraction exclude each other; give one of them");
     }
     if (settings.max_depth && *settings.max_depth < 3) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorKind::invalid_argument,
                     "--max-depth " + std::to_string(*settings.max_depth) +
                         " leaves no indirect light, which is what is compared; take 3 or more");
     }
@@ -167,4 +170,4 @@ void check_settings(const CompareSettings& settings) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

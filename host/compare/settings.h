@@ -11,7 +11,7 @@
 #include "host/bvh/bvh.h"
 #include "host/compare/method.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A part of the picture to look at closely, in pixels from the top left corner.
 struct Crop {
@@ -59,14 +59,14 @@ inline constexpr std::size_t kFewestReferenceVpls = 200'000;
 /// noise.
 inline constexpr std::size_t kReferenceExcess = 10;
 
-/// Comma-separated names, see parse_method(); none twice. Throws Error(ExitCode::usage).
+/// Comma-separated names, see parse_method(); none twice. Throws Error(ErrorKind::invalid_argument).
 std::vector<Method> parse_methods(const std::string& list);
-/// Comma-separated counts of 1 to 50 million, none twice; sorted. Throws Error(ExitCode::usage).
+/// Comma-separated counts of 1 to 50 million, none twice; sorted. Throws Error(ErrorKind::invalid_argument).
 std::vector<uint> parse_vpl_counts(const std::string& list);
-/// "X,Y,W,H". Throws Error(ExitCode::usage).
+/// "X,Y,W,H". Throws Error(ErrorKind::invalid_argument).
 Crop parse_crop(const std::string& text);
 
-/// Whether the settings go together. Throws Error(ExitCode::usage) for the first that does not.
+/// Whether the settings go together. Throws Error(ErrorKind::invalid_argument) for the first that does not.
 void check_settings(const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -112,4 +112,4 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
     return PowerLaw{(sum_y - slope * sum_x) / n, slope};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

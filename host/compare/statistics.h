@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The t with P(T ≤ t) = 0.975, T having Student's distribution of so many degrees of freedom (1 or more).
 double student_t_975(std::size_t degrees_of_freedom);
@@ -47,4 +47,4 @@ struct PowerLaw {
 /// remain.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kBiasThatCounts = 0.02;
@@ -118,4 +118,4 @@ std::vector<Curve> curves_of(const CompareSettings& settings, std::span<const Eq
     return curves;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

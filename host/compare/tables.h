@@ -10,7 +10,7 @@
 #include "host/compare/equal_rmse.h"
 #include "host/compare/statistics.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// One method at one count, over all seeds.
 struct EqualVplsRow {
@@ -45,4 +45,4 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
 /// Index of the baseline among the methods.
 std::size_t baseline_index(const CompareSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

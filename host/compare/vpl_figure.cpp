@@ -7,7 +7,7 @@
 
 #include "host/compare/pictures.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Dots are drawn into a picture at least about so wide.
@@ -102,4 +102,4 @@ VplDots draw_vpls(const Image& overview, std::span<const float> depths, const Sc
     return dots;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/image/image.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct FilmPoint {
     float x = 0;  ///< pixels from the top left corner
@@ -32,4 +32,4 @@ struct VplDots {
 VplDots draw_vpls(const Image& overview, std::span<const float> depths, const SceneCamera& camera,
                   std::span<const Vpl> vpls);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace nearlight {
+namespace nearlight::core {
 
 inline float srgb_to_linear(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
@@ -22,4 +22,4 @@ inline std::uint8_t linear_to_srgb8(float linear) {
     return static_cast<std::uint8_t>(linear_to_srgb(clamped) * 255.0f + 0.5f);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

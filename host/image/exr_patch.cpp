@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <fstream>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 // An attribute is its name and type, each ended by a zero byte, the size of the value as a 32-bit integer,
 // and the value; all little-endian [The OpenEXR File Layout].
@@ -22,7 +22,7 @@ void patch_exr_float(const std::filesystem::path& file, const std::string& name,
     stream.clear();
     const std::size_t at = header.find(attribute);
     if (at == std::string::npos) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "cannot update '" + file.string() + "': its header has no number '" + name + "'");
     }
     const auto bits = std::bit_cast<std::uint32_t>(value);
@@ -33,8 +33,8 @@ void patch_exr_float(const std::filesystem::path& file, const std::string& name,
     stream.seekp(static_cast<std::streamoff>(at + attribute.size()));
     stream.write(bytes.data(), bytes.size());
     if (!stream.flush()) {
-        throw Error(ExitCode::file, "cannot update '" + file.string() + "'");
+        throw Error(ErrorKind::file, "cannot update '" + file.string() + "'");
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Overwrites the value of the header attribute `name`, which must be there as a single float. For what is
-/// known only at the end, such as the render time, while rows were streamed. Throws Error(ExitCode::file).
+/// known only at the end, such as the render time, while rows were streamed. Throws Error(ErrorKind::file).
 void patch_exr_float(const std::filesystem::path& file, const std::string& name, float value);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

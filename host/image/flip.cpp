@@ -10,7 +10,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// One component of a picture.
@@ -286,4 +286,4 @@ std::vector<float> flip_error(int width, int height, std::span<const Vec3> a, st
     return error;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

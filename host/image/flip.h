@@ -7,7 +7,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A screen 0.7 m away, 0.7 m wide and 3840 pixels across.
 inline constexpr float kFlipPixelsPerDegree = 67.0f;
@@ -18,4 +18,4 @@ inline constexpr float kFlipPixelsPerDegree = 67.0f;
 std::vector<float> flip_error(int width, int height, std::span<const Vec3> a, std::span<const Vec3> b,
                               float pixels_per_degree = kFlipPixelsPerDegree);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

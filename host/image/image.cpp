@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace nearlight {
+namespace nearlight::core {
 
 int Image::find_channel(std::string_view name) const {
     const auto found = std::find(channels.begin(), channels.end(), name);
@@ -18,4 +18,4 @@ Image make_image(int width, int height, std::vector<std::string> channels) {
     return image;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Interleaved channels, top row first. Channel names follow OpenEXR: "R", "indirect.R", "depth.Z".
 struct Image {
@@ -33,4 +33,4 @@ struct Image {
 /// An image of zeros.
 Image make_image(int width, int height, std::vector<std::string> channels);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

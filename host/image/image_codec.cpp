@@ -3,9 +3,9 @@
 
 #include <dlfcn.h>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Found where the program's run path says: beside it in the build tree, in lib/nearlight when installed.
@@ -16,7 +16,7 @@ const ImageCodec& load_codec() {
     const void* const codec = module == nullptr ? nullptr : dlsym(module, "nearlight_image_codec");
     if (codec == nullptr) {
         const char* const reason = dlerror();
-        throw Error(ExitCode::runtime,
+        throw Error(ErrorKind::failure,
                     std::string("cannot load ") + kModule + ", which reads and writes image files: " +
                         (reason == nullptr ? "it is empty" : reason) + "; install nearlight again");
     }
@@ -30,4 +30,4 @@ const ImageCodec& image_codec() {
     return codec;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

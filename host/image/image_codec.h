@@ -13,7 +13,7 @@
 
 #include "host/image/image_io.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 enum class ImageFormat { exr, png };
 
@@ -55,7 +55,7 @@ struct ImageCodec {
     std::unique_ptr<ImageEncoder> (*make_encoder)(const EncodingTask& task);
 };
 
-/// Loads the module where that is not done yet. Throws Error(ExitCode::runtime) where it is missing.
+/// Loads the module where that is not done yet. Throws Error(ErrorKind::failure) where it is missing.
 const ImageCodec& image_codec();
 
 /// "cannot read image 'FILE': reason", in one line, whatever line breaks the reason has.
@@ -65,4 +65,4 @@ const ImageCodec& image_codec();
 /// to 1.
 bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

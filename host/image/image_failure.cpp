@@ -2,16 +2,16 @@
 // What both the library and its module say of broken files.
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/image/image_codec.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void fail_image(const char* what, const std::filesystem::path& file, std::string reason) {
     std::replace(reason.begin(), reason.end(), '\n', ' ');
     reason.erase(reason.find_last_not_of(" .") + 1);
-    throw Error(ExitCode::file, std::string(what) + " '" + file.string() +
-                                    "': " + (reason.empty() ? "unknown reason" : reason));
+    throw Error(ErrorKind::file, std::string(what) + " '" + file.string() +
+                                     "': " + (reason.empty() ? "unknown reason" : reason));
 }
 
 bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size) {
@@ -20,4 +20,4 @@ bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size) {
     return image_bytes <= kAlwaysFine + kDensest * file_size;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

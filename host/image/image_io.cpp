@@ -14,13 +14,13 @@
 #include <system_error>
 #include <utility>
 
-#include "host/base/error.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
 #include "host/image/image_codec.h"
 #include "host/image/pnm.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,8 +67,9 @@ ImageFormat format_of(const fs::path& file) {
     if (extension == ".png") {
         return ImageFormat::png;
     }
-    throw Error(ExitCode::usage, "cannot write image '" + file.string() + "': unknown extension '" +
-                                     extension + "', use .exr or .png");
+    throw Error(ErrorKind::invalid_argument, "cannot write image '" + file.string() +
+                                                 "': unknown extension '" + extension +
+                                                 "', use .exr or .png");
 }
 
 /// Beside the target, so that a rename never crosses file systems; no two writers share one.
@@ -228,9 +229,9 @@ void ImageWriter::write_rows(std::span<const float> values) {
     const std::size_t row_count = values.size() / row_size;
     if (values.size() % row_size != 0 ||
         row_count > static_cast<std::size_t>(state_->height - state_->next_row)) {
-        throw Error(ExitCode::runtime, "cannot write image '" + state_->target.string() +
-                                           "': " + std::to_string(values.size()) +
-                                           " values are not whole rows, or too many");
+        throw Error(ErrorKind::failure, "cannot write image '" + state_->target.string() +
+                                            "': " + std::to_string(values.size()) +
+                                            " values are not whole rows, or too many");
     }
     if (row_count > 0) {
         state_->write(static_cast<int>(row_count), values.data());
@@ -264,4 +265,4 @@ void write_image(const fs::path& file, const Image& image, const ImageWriterOpti
     writer.commit();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

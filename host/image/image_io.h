@@ -12,10 +12,10 @@
 
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Values are as in the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
-/// Throws Error(ExitCode::file) naming the file and the reason.
+/// Throws Error(ErrorKind::file) naming the file and the reason.
 Image read_image(const std::filesystem::path& file);
 /// The same of a file in memory; its format follows from the extension of `name`.
 Image read_image(std::span<const std::byte> bytes, const std::string& name);
@@ -40,7 +40,8 @@ class ImageWriter {
   public:
     /// EXR keeps all channels (32-bit float, ZIP); PNG takes R, G, B, tone-mapped to 8-bit sRGB with a
     /// deterministic dither-free rounding. The format follows the extension.
-    /// Throws Error(ExitCode::usage) for an unknown extension, Error(ExitCode::file) for an unwritable path.
+    /// Throws Error(ErrorKind::invalid_argument) for an unknown extension, Error(ErrorKind::file) for an
+    /// unwritable path.
     ImageWriter(const std::filesystem::path& file, int width, int height, std::vector<std::string> channels,
                 const ImageWriterOptions& options = {});
     ~ImageWriter();
@@ -62,4 +63,4 @@ class ImageWriter {
 void write_image(const std::filesystem::path& file, const Image& image,
                  const ImageWriterOptions& options = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <limits>
 
-#include "host/base/error.h"
 #include "host/base/math.h"
 #include "host/image/color.h"
 #include "host/image/flip.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string channel_name(const std::string& layer, char component) {
@@ -25,7 +25,7 @@ std::vector<Vec3> color_pixels(const Image& image, const std::string& layer, con
         const std::string name = channel_name(layer, "RGB"[c]);
         const int index = image.find_channel(name);
         if (index < 0) {
-            throw Error(ExitCode::file,
+            throw Error(ErrorKind::file,
                         std::string("the ") + which + " picture has no channel '" + name + "'");
         }
         indices[c] = static_cast<std::size_t>(index);
@@ -48,9 +48,9 @@ struct Pair {
 
 Pair color_pair(const Image& a, const Image& b, const std::string& layer) {
     if (a.width != b.width || a.height != b.height) {
-        throw Error(ExitCode::file, "pictures of " + std::to_string(a.width) + "x" +
-                                        std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
-                                        std::to_string(b.height) + " pixels cannot be compared");
+        throw Error(ErrorKind::file, "pictures of " + std::to_string(a.width) + "x" +
+                                         std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
+                                         std::to_string(b.height) + " pixels cannot be compared");
     }
     Pair pair{color_pixels(a, layer, "first"), color_pixels(b, layer, "second"), {}, 0};
     pair.usable.resize(pair.a.size());
@@ -153,4 +153,4 @@ Image flip_map(const Image& a, const Image& b, const std::string& layer) {
     return map;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

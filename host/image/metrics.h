@@ -8,7 +8,7 @@
 
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct ImageDifference {
     double rmse = 0;             ///< root mean square over pixels and R, G, B (the paper's measure)
@@ -23,9 +23,9 @@ std::vector<std::string> color_layers(const Image& image);
 bool has_color_layer(const Image& image, const std::string& layer);
 
 /// Compares the three channels `layer`.R, .G, .B (or R, G, B for an empty layer) of a with those of the
-/// reference b. Throws Error(ExitCode::file) where sizes differ or a channel is missing.
+/// reference b. Throws Error(ErrorKind::file) where sizes differ or a channel is missing.
 ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer = "");
 /// Per-pixel FLIP error of the same channels, as channels R, G, B in a magma-like colour map.
 Image flip_map(const Image& a, const Image& b, const std::string& layer = "");
 
-}  // namespace nearlight
+}  // namespace nearlight::core

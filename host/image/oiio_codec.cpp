@@ -5,10 +5,10 @@
 
 #include <system_error>
 
-#include "host/base/error.h"
 #include "host/image/image_codec.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,10 +148,10 @@ std::unique_ptr<ImageEncoder> make_encoder(const EncodingTask& task) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core
 
 extern "C" {
-extern const nearlight::ImageCodec nearlight_image_codec;
-const nearlight::ImageCodec nearlight_image_codec{nearlight::decode, nearlight::decode_metadata,
-                                                  nearlight::make_encoder};
+extern const nearlight::core::ImageCodec nearlight_image_codec;
+const nearlight::core::ImageCodec nearlight_image_codec{
+    nearlight::core::decode, nearlight::core::decode_metadata, nearlight::core::make_encoder};
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct Header {
@@ -65,4 +65,4 @@ std::optional<Image> read_pnm(const std::filesystem::path& file) {
     return image;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

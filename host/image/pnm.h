@@ -7,10 +7,10 @@
 
 #include "host/image/image.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Values in [0, 1], sRGB-encoded, as OpenImageIO gives them. Empty for all other files, and for broken ones:
 /// others may say what is wrong with those.
 std::optional<Image> read_pnm(const std::filesystem::path& file);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Concurrency of a TBB arena for so many threads; 0, or more than there are cores: one a core.
 inline int arena_size(int threads) {
@@ -13,4 +13,4 @@ inline int arena_size(int threads) {
     return threads > 0 ? std::min(threads, cores) : cores;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,21 +4,21 @@
 #include <array>
 #include <optional>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-using Double3 = std::array<double, 3>;
+using DoubleVector = std::array<double, 3>;
 
-Double3 to_double(Vec3 v) {
+DoubleVector to_double(Vec3 v) {
     return {v.x, v.y, v.z};
 }
-Double3 operator-(const Double3& a, const Double3& b) {
+DoubleVector operator-(const DoubleVector& a, const DoubleVector& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-double dot(const Double3& a, const Double3& b) {
+double dot(const DoubleVector& a, const DoubleVector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-Double3 cross(const Double3& a, const Double3& b) {
+DoubleVector cross(const DoubleVector& a, const DoubleVector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -27,18 +27,18 @@ struct Crossing {
 };
 
 // Written so that any NaN fails a comparison and is no hit.
-std::optional<Crossing> cross_triangle(const Scene& scene, const Triangle& triangle, const Double3& origin,
-                                       const Double3& direction) {
-    const Double3 v0 = to_double(scene.vertices[triangle.v0].position);
-    const Double3 edge1 = to_double(scene.vertices[triangle.v1].position) - v0;
-    const Double3 edge2 = to_double(scene.vertices[triangle.v2].position) - v0;
-    const Double3 p = cross(direction, edge2);
+std::optional<Crossing> cross_triangle(const Scene& scene, const Triangle& triangle,
+                                       const DoubleVector& origin, const DoubleVector& direction) {
+    const DoubleVector v0 = to_double(scene.vertices[triangle.v0].position);
+    const DoubleVector edge1 = to_double(scene.vertices[triangle.v1].position) - v0;
+    const DoubleVector edge2 = to_double(scene.vertices[triangle.v2].position) - v0;
+    const DoubleVector p = cross(direction, edge2);
     const double determinant = dot(edge1, p);
     if (!(determinant < 0.0 || determinant > 0.0)) {
         return std::nullopt;
     }
-    const Double3 s = origin - v0;
-    const Double3 q = cross(s, edge1);
+    const DoubleVector s = origin - v0;
+    const DoubleVector q = cross(s, edge1);
     const double u = dot(s, p) / determinant;
     const double v = dot(direction, q) / determinant;
     if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) {
@@ -51,8 +51,8 @@ std::optional<Crossing> cross_triangle(const Scene& scene, const Triangle& trian
 
 BvhHit brute_force_closest_hit(const Scene& scene, std::span<const uint> ids, Vec3 origin, Vec3 direction,
                                float t_min, float t_max) {
-    const Double3 o = to_double(origin);
-    const Double3 d = to_double(direction);
+    const DoubleVector o = to_double(origin);
+    const DoubleVector d = to_double(direction);
     BvhHit hit;
     double closest = t_max;
     const std::size_t count = ids.empty() ? scene.triangles.size() : ids.size();
@@ -73,4 +73,4 @@ bool brute_force_occluded(const Scene& scene, std::span<const uint> ids, Vec3 or
     return brute_force_closest_hit(scene, ids, origin, direction, t_min, t_max).triangle != ~0u;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

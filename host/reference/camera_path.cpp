@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/camera_path.h"
 
+#include "host/base/math.h"
 #include "host/reference/lobe.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 LobeRandom lobe_random(SampleBatch& batch, int sample, int vertex) {
     if (vertex == 0) {
@@ -76,4 +75,4 @@ CameraPath trace_camera_path(const Scene& scene, const EmbreeScene& embree, cons
     return path;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "host/reference/sample_batch.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Ray {
     Vec3 origin;
@@ -49,4 +49,4 @@ inline constexpr int kMaxCameraVertices = 24;
 CameraPath trace_camera_path(const Scene& scene, const EmbreeScene& embree, const LightSampler& lights,
                              Ray ray, SampleBatch& batch, int sample);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

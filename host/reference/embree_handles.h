@@ -8,7 +8,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace nearlight {
+namespace nearlight::core {
 
 template <auto release>
 struct EmbreeRelease {
@@ -21,4 +21,4 @@ using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRel
 using EmbreeTree = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease<rtcReleaseScene>>;
 using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<rtcReleaseGeometry>>;
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,22 +3,21 @@
 
 #include <embree3/rtcore.h>
 
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "host/base/math.h"
 #include "host/reference/embree_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 static_assert(sizeof(RayPacket16) == sizeof(RTCRay16) && alignof(RayPacket16) == alignof(RTCRay16));
 static_assert(offsetof(RayPacket16, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket16, t_max) == offsetof(RTCRay16, tfar));
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of a segment: what its end points' own surfaces may take.
 constexpr float kSegmentMargin = 1e-5f;
 
@@ -155,4 +154,4 @@ std::uint32_t EmbreeScene::occluded16(RayPacket16& rays, std::uint32_t active) c
     return occluded & active;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

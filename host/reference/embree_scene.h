@@ -9,7 +9,7 @@
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct EmbreeOptions {
     enum class Quality { low, medium, high };
@@ -57,4 +57,4 @@ class EmbreeScene {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/embree_tree.h"
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 void record_error(void* user, RTCError code, const char* message) {
@@ -18,7 +18,7 @@ void record_error(void* user, RTCError code, const char* message) {
 void throw_if_failed(const EmbreeReport& report) {
     if (report.code != RTC_ERROR_NONE) {
         const auto code =
-            report.code == RTC_ERROR_OUT_OF_MEMORY ? ExitCode::out_of_memory : ExitCode::runtime;
+            report.code == RTC_ERROR_OUT_OF_MEMORY ? ErrorKind::out_of_memory : ErrorKind::failure;
         throw Error(code, "Embree could not build its scene: " + report.message + " (error " +
                               std::to_string(report.code) + "); use a smaller scene or free memory");
     }
@@ -51,8 +51,8 @@ EmbreeGeometry make_geometry(RTCDevice device, const Scene& scene, std::span<con
 EmbreeDevice open_embree(EmbreeReport& report) {
     EmbreeDevice device(rtcNewDevice(nullptr));
     if (device == nullptr) {
-        throw Error(ExitCode::runtime, "Embree does not start on this machine (error " +
-                                           std::to_string(rtcGetDeviceError(nullptr)) + ")");
+        throw Error(ErrorKind::failure, "Embree does not start on this machine (error " +
+                                            std::to_string(rtcGetDeviceError(nullptr)) + ")");
     }
     rtcSetDeviceErrorFunction(device.get(), record_error, &report);
     return device;
@@ -75,4 +75,4 @@ EmbreeTree build_embree_tree(RTCDevice device, EmbreeReport& report, const Scene
     return tree;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/reference/embree_handles.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The first error that Embree reported, possibly from a thread of its own.
 struct EmbreeReport {
@@ -18,7 +18,7 @@ struct EmbreeReport {
     std::string message;
 };
 
-/// Errors of the device go to `report`, which must outlive it. Throws Error(ExitCode::runtime).
+/// Errors of the device go to `report`, which must outlive it. Throws Error(ErrorKind::failure).
 EmbreeDevice open_embree(EmbreeReport& report);
 
 /// A tree over the triangles `ids` of the scene, in that order: hit.primID is an index into `ids`. Copies
@@ -26,4 +26,4 @@ EmbreeDevice open_embree(EmbreeReport& report);
 EmbreeTree build_embree_tree(RTCDevice device, EmbreeReport& report, const Scene& scene,
                              std::span<const uint> ids, RTCBuildQuality quality, RTCSceneFlags flags);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

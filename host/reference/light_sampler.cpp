@@ -3,12 +3,12 @@
 
 #include <span>
 
+#include "host/base/math.h"
 #include "host/scene/ray_epsilon.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // With more point and spot lights than this, one of them is chosen by power.
 constexpr uint kMaxDeltaRays = 16;
 
@@ -236,4 +236,4 @@ Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 direction, Vec3 normal) 
     return emitted_radiance(hit.triangle, direction) * (cosine_density / (cosine_density + density));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

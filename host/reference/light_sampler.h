@@ -9,7 +9,7 @@
 #include "host/scene/emitters.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Irradiance (W/m²) that a point or spot light sends to a point that stands off its surface; 0 for others.
 Vec3 delta_light_irradiance(const EmbreeScene& embree, const Emitter& emitter, Vec3 position, Vec3 normal);
@@ -69,4 +69,4 @@ class LightSampler {
         triangle_density_;  ///< per triangle: probability among those ÷ area; empty: none emits
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

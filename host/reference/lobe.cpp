@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/lobe.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kSmooth = 1e-3f;
@@ -98,4 +98,4 @@ LobeSample sample_lobe(const Surface& surface, Vec3 to_viewer, LobeRandom random
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

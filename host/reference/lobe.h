@@ -5,7 +5,7 @@
 #include "host/reference/sampling.h"
 #include "host/reference/surface.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct LobeRandom {
     float choice = 0.0f;
@@ -22,4 +22,4 @@ struct LobeSample {
 /// path in black. Roughness is GGX's alpha, with Smith's separable masking; below 1e-3 it counts as smooth.
 LobeSample sample_lobe(const Surface& surface, Vec3 to_viewer, LobeRandom random);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <vector>
 
-#include "host/base/error.h"
+#include "host/base/math.h"
 #include "host/base/stopwatch.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/camera_path.h"
@@ -19,11 +19,11 @@
 #include "host/reference/sample_batch.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Bounces before Russian roulette may end a walk, and the most it lets live.
 constexpr int kSureBounces = 3;
 constexpr float kMaxSurvival = 0.95f;
@@ -214,7 +214,7 @@ std::vector<PixelStatistics> first_pixels(const PathTracerSettings& settings, co
                                             static_cast<std::size_t>(settings.height));
     }
     if (earlier->width != settings.width || earlier->height != settings.height) {
-        throw Error(ExitCode::file, "the picture to go on from has another size");
+        throw Error(ErrorKind::file, "the picture to go on from has another size");
     }
     return from_image(*earlier, settings.batch_size);
 }
@@ -234,17 +234,18 @@ PathTracerSettings completed(PathTracerSettings settings, const SceneCamera& cam
             std::max(1, static_cast<int>(std::lround(double(settings.width) * camera.height / camera.width)));
     }
     if (settings.width <= 0 || settings.height <= 0 || settings.spp <= 0) {
-        throw Error(ExitCode::usage, "the reference needs a picture of at least 1×1 pixels and 1 sample");
+        throw Error(ErrorKind::invalid_argument,
+                    "the reference needs a picture of at least 1×1 pixels and 1 sample");
     }
     if (settings.batch_size == 0) {
         settings.batch_size = samples_per_batch(settings.spp);
     }
     if (settings.batch_size != 1 && settings.batch_size != 4 && settings.batch_size != 16) {
-        throw Error(ExitCode::usage, "batches have 1, 4 or 16 samples");
+        throw Error(ErrorKind::invalid_argument, "batches have 1, 4 or 16 samples");
     }
     settings.spp = (settings.spp + settings.batch_size - 1) / settings.batch_size * settings.batch_size;
     if (settings.max_depth < 0 || !(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
-        throw Error(ExitCode::usage, "max depth and clamp radius must be 0 or more");
+        throw Error(ErrorKind::invalid_argument, "max depth and clamp radius must be 0 or more");
     }
     return settings;
 }
@@ -269,4 +270,4 @@ Image trace_paths(const Scene& scene, const PathTracerSettings& wanted, const Pr
     return to_image(pixels, settings.width, settings.height);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

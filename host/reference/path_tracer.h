@@ -9,7 +9,7 @@
 #include "host/reference/embree_scene.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct PathTracerSettings {
     int width = 0;               ///< pixels; 0: the camera's
@@ -28,8 +28,8 @@ struct PathTracerSettings {
 /// estimated from the means of batches, of which there are therefore at least eight from 8 spp on.
 int samples_per_batch(int spp);
 
-/// The settings with nothing left open: size, batch size, spp in whole batches. Throws Error(ExitCode::usage)
-/// on those that make no sense.
+/// The settings with nothing left open: size, batch size, spp in whole batches. Throws
+/// Error(ErrorKind::invalid_argument) on those that make no sense.
 PathTracerSettings completed(PathTracerSettings settings, const SceneCamera& camera);
 
 /// Told the fraction that is done, by one thread at a time; returns false to stop.
@@ -50,9 +50,9 @@ struct LongTrace {
 /// indirectVariance.*, and count.X, count.Y and count.Z: samples, those that found a receiver, and those that
 /// found a surface, which is all that going on needs besides. A variance is infinite where a pixel has fewer
 /// than two batches. A stopped rendering has, in each pixel, the mean of the samples it got. Throws what
-/// completed() throws, Error(ExitCode::file) if `earlier` is not a picture to go on from, and Embree's
+/// completed() throws, Error(ErrorKind::file) if `earlier` is not a picture to go on from, and Embree's
 /// errors.
 Image trace_paths(const Scene& scene, const PathTracerSettings& settings, const Progress& progress = {},
                   const LongTrace& long_trace = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

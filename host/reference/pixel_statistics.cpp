@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 void add_square(Double3& sum, const Double3& a, const Double3& b, int divisor) {
@@ -105,7 +105,7 @@ class ChannelReader {
         for (const std::string& name : channel_names()) {
             const int index = image.find_channel(name);
             if (index < 0) {
-                throw Error(ExitCode::file, "the picture to go on from has no channel '" + name + "'");
+                throw Error(ErrorKind::file, "the picture to go on from has no channel '" + name + "'");
             }
             indices_.push_back(static_cast<std::size_t>(index));
         }
@@ -147,12 +147,12 @@ PixelStatistics read_pixel(const ChannelReader& in, std::size_t i, int batch_siz
     const auto surfaces = in.number(i, kSurfaces);
     if (!(samples >= 0 && samples <= 1 << 30 && receivers >= 0 && receivers <= samples && surfaces >= 0 &&
           surfaces <= samples)) {
-        throw Error(ExitCode::file, "the picture to go on from has senseless counts of samples");
+        throw Error(ErrorKind::file, "the picture to go on from has senseless counts of samples");
     }
     pixel.samples = static_cast<int>(samples);
     pixel.batches = pixel.samples / batch_size;
     if (pixel.batches * batch_size != pixel.samples) {
-        throw Error(ExitCode::file, "the picture to go on from was made in other batches");
+        throw Error(ErrorKind::file, "the picture to go on from was made in other batches");
     }
     BatchSum& sum = pixel.sum;
     sum.receivers = static_cast<int>(receivers);
@@ -222,4 +222,4 @@ std::vector<PixelStatistics> from_image(const Image& image, int batch_size) {
     return pixels;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/image/image.h"
 #include "host/reference/camera_path.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Double3 {
     double x = 0, y = 0, z = 0;
@@ -47,8 +47,8 @@ struct PixelStatistics {
 
 /// Channels as trace_paths() says. Batches of a pixel are of one size.
 Image to_image(std::span<const PixelStatistics> pixels, int width, int height);
-/// The inverse of to_image(), to the rounding of floats. Throws Error(ExitCode::file) where a channel is
+/// The inverse of to_image(), to the rounding of floats. Throws Error(ErrorKind::file) where a channel is
 /// missing or counts make no sense.
 std::vector<PixelStatistics> from_image(const Image& image, int batch_size);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/reference/arena_size.h"
 #include "host/reference/light_sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radius, Vec3 position,
@@ -69,4 +69,4 @@ void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights
     });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

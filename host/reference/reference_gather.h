@@ -7,7 +7,7 @@
 #include "host/reference/embree_scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// E = Σ power/π · max0(cosθ_receiver)·max0(cosθ_vpl) / max(r², R²) · V for each receiver, V by the segment
 /// from VPL to receiver, t in (1e-5, 1 − 1e-5). Terms in single precision, sums in double. Absent receivers
@@ -24,4 +24,4 @@ void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads = 0);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Bijective mixing [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
@@ -35,4 +35,4 @@ SampleBatch::SampleBatch(std::uint64_t seed, std::uint64_t pixel, std::uint64_t 
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/base/random.h"
 #include "host/reference/sampling.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The decisions of a path that are stratified over a batch; what comes later is plain random.
 enum class Decision {
@@ -44,4 +44,4 @@ class SampleBatch {
     std::array<std::array<Point2, kMaxSize>, static_cast<std::size_t>(Decision::count)> points_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

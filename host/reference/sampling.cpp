@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/sampling.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 float square(float x) {
@@ -93,4 +93,4 @@ float ggx_masking(Vec3 w, float alpha) {
     return 2.0f / (1.0f + std::sqrt(1.0f + alpha * alpha * tan2));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Point2 {
     float x = 0.0f;
@@ -49,4 +49,4 @@ Vec3 sample_ggx_visible_normal(Vec3 w, float alpha, Point2 u);
 /// Smith's masking of direction w (local): with visible normals, the weight of the other direction.
 float ggx_masking(Vec3 w, float alpha);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/surface.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
     const Triangle& triangle = scene.triangles[hit.triangle];
@@ -26,4 +26,4 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
     return surface;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

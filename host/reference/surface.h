@@ -5,7 +5,7 @@
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Surface {
     Vec3 position;          ///< on the triangle
@@ -25,4 +25,4 @@ struct Surface {
 /// @param direction of the ray that hit.
 Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 uint direct_samples_per_sample(const RenderSettings& settings) {
@@ -108,4 +108,4 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
     return band;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -15,7 +15,7 @@
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The stages of a band, compiling from construction on.
 struct BandStages {
@@ -76,4 +76,4 @@ class BandRenderer {
     BatchBuffers buffers_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -14,7 +14,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string message_of(const std::exception_ptr& error) {
@@ -244,4 +244,4 @@ void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum) 
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -11,7 +11,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct FinishedBand {
     std::vector<float> rows;       ///< width · NEARLIGHT_LAYER_CHANNELS floats each, top to bottom
@@ -52,4 +52,4 @@ BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker
 /// that are no longer there; the first picture's are taken as they are.
 void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/local_gather.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void LocalGather::set_vpls(const DeviceScene& scene, std::span<const Vpl> sorted_vpls,
                            const LocalLightPlan& plan) {
@@ -38,4 +38,4 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
     return true;  // add() has waited, so `part` is no longer in use
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "host/stages/local_lights.h"
 #include "host/stages/vpl_light.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class LocalGather {
   public:
@@ -33,4 +33,4 @@ class LocalGather {
     std::size_t light_count_ = 0;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kAveragedChannels = 9;  // beauty, direct, indirect
@@ -69,4 +69,4 @@ void PassAverage::send(const std::function<void(std::span<const float> rows)>& s
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

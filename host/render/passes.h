@@ -10,7 +10,7 @@
 #include "host/base/stopwatch.h"
 #include "host/render/settings.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Of pass 0, 1, … of a picture with that seed: pass 0 has the seed itself, the others mix it with the pass,
 /// so that pictures of neighbouring seeds share none.
@@ -56,4 +56,4 @@ class PassAverage {
     std::size_t end_ = 0;           ///< of the present pass, floats
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

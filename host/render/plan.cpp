@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// So that the first rows are there soon, and of several devices the last to finish keeps the others waiting
@@ -82,4 +82,4 @@ RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint he
     return plan;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cl/device.h"
 #include "host/stages/camera_pass.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Bands of whole tile rows from top to bottom, each worked through in batches of samples. The first may be
 /// shorter, because somebody waits for it. No cut changes any bit of the picture.
@@ -44,4 +44,4 @@ inline constexpr std::size_t kBytesPerReceiver =
 RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
                      uint branch_count);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -11,7 +11,7 @@
 #include "host/render/band_renderer.h"
 #include "host/render/passes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Bytes of finished bands that may wait for an earlier one.
@@ -336,4 +336,4 @@ void begin_compiling(std::span<Device* const> devices, const RenderSettings& set
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

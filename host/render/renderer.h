@@ -14,7 +14,7 @@
 #include "host/render/view.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Stage ("gathering") and how far it is, 0 to 1. Returns false to stop.
 using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
@@ -90,4 +90,4 @@ RenderReport render(std::span<Device* const> devices, const Scene& scene, const 
 RenderReport render(Device& device, const Scene& scene, const RenderSettings& settings,
                     const RenderStart& start, const RowSink& sink, const RenderProgress& progress);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/samplers/sampler.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct RenderSettings {
     SamplerKind sampler = SamplerKind::close_range;
@@ -37,4 +37,4 @@ struct RenderSettings {
     BvhQuality bvh_quality = BvhQuality::quality;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

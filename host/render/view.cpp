@@ -7,7 +7,7 @@
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kDefaultMaxDepth = 8;
@@ -45,4 +45,4 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
     return view;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "host/scene/scene.h"
 #include "host/stages/pilot_view.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct View {
     SceneCamera scene_camera;  ///< at the size to render
@@ -23,4 +23,4 @@ struct View {
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const RenderSettings& settings);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of the mean square of a column: keeps the least squares solvable where columns are nearly alike.
@@ -210,4 +210,4 @@ void BalancedChoice::settle(std::size_t slot, bool drawn) {
     open_.pop_back();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

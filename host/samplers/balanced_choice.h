@@ -21,7 +21,7 @@
 #include "host/base/random.h"
 #include "host/samplers/resampling.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class BalancedChoice {
   public:
@@ -79,4 +79,4 @@ class BalancedChoice {
     std::vector<std::pair<uint, float>> drawn_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

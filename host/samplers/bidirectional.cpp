@@ -23,24 +23,24 @@
 #include "host/samplers/resampling.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-/// Candidates of each kind, as a multiple of the budget, and at least.
+/// ExaminedVpls of each kind, as a multiple of the budget, and at least.
 constexpr double kCandidatesPerVpl = 4;
 constexpr uint kFewestCandidates = 256;
 constexpr std::size_t kMostCameraPoints = 512;
 /// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
-constexpr uint kRoughSparseVpls = 512;
-constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 2};
+constexpr uint kReverseSparseVpls = 512;
+constexpr IncidentQuality kRoughQuality{.direct_samples = 4, .paths = 2};
 /// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
 constexpr float kLeastLight = 0.1f;
 constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;
-constexpr uint kRoughSeed = 0x20061u;
+constexpr uint kRoughLightSeed = 0x20061u;
 constexpr uint kPointStream = 0xca3e7au;
-constexpr uint kChoiceStream = 0x5e1ec8u;
+constexpr uint kBidirectionalChoice = 0x5e1ec8u;
 
 uint multiple_of_budget(double factor, const SamplingTask& task) {
     return static_cast<uint>(std::min(std::round(factor * task.vpl_count), 1e8));
@@ -61,7 +61,7 @@ CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& tas
 }
 
 /// VPLs of one kind, along the Morton curve, and what their weights are made of.
-struct Candidates {
+struct ExaminedVpls {
     std::vector<Vpl> vpls;
     std::vector<Vec3> rough_light;        ///< irradiance
     std::vector<float> reverse_density;   ///< n, 1/m²
@@ -75,13 +75,13 @@ struct Balance {
     float walks_per_watt = 0.0f;
 };
 
-Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balance& balance,
-                   std::span<const Vpl> vpls) {
-    Candidates candidates;
+ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Balance& balance,
+                     std::span<const Vpl> vpls) {
+    ExaminedVpls candidates;
     const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
     candidates.vpls = sorted.download();
-    candidates.rough_light =
-        incident_light_at(stages, task, balance.sparse, candidates.vpls, kRough, task.seed ^ kRoughSeed);
+    candidates.rough_light = incident_light_at(stages, task, balance.sparse, candidates.vpls, kRoughQuality,
+                                               task.seed ^ kRoughLightSeed);
 
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
@@ -99,7 +99,7 @@ Candidates examine(SamplerStages& stages, const SamplingTask& task, const Balanc
 
 /// Powers of reverse candidates for an irradiance of 1, weighted. Where rounding says that no point sees one,
 /// n = 0, walks answer for all of the light there.
-std::vector<Vpl> weigh_reverse(const Candidates& reverse) {
+std::vector<Vpl> weigh_reverse(const ExaminedVpls& reverse) {
     std::vector<Vpl> vpls = reverse.vpls;
     for (std::size_t i = 0; i < vpls.size(); ++i) {
         const float n = reverse.reverse_density[i];
@@ -108,7 +108,7 @@ std::vector<Vpl> weigh_reverse(const Candidates& reverse) {
     return vpls;
 }
 
-std::vector<Vpl> weigh_standard(const Candidates& standard) {
+std::vector<Vpl> weigh_standard(const ExaminedVpls& standard) {
     std::vector<Vpl> vpls = standard.vpls;
     for (std::size_t i = 0; i < vpls.size(); ++i) {
         const float n = standard.reverse_density[i];
@@ -143,11 +143,12 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));
     const Deposits deposits =
         trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
-    const Balance balance{.sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed),
-                          .points = choose_camera_points(stages, task, wanted),
-                          .walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power};
+    const Balance balance{
+        .sparse = trace_sparse_set(stages, task, kReverseSparseVpls, task.seed ^ kRoughLightSeed),
+        .points = choose_camera_points(stages, task, wanted),
+        .walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power};
 
-    const Candidates reverse =
+    const ExaminedVpls reverse =
         examine(stages, task, balance,
                 stages.reverse_vpls().trace(task.scene, balance.points, task.seed ^ kReverseSeed));
     const std::vector<Vpl> unlit = weigh_reverse(reverse);
@@ -157,7 +158,7 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     candidates.insert(candidates.end(), standard.begin(), standard.end());
 
     const Choice choice = resample(choice_weights(stages, task, candidates, ContributionNorm::mean),
-                                   task.vpl_count, Pcg32(task.seed, kChoiceStream).uniform());
+                                   task.vpl_count, Pcg32(task.seed, kBidirectionalChoice).uniform());
     std::ranges::copy(unlit, candidates.begin());
     VplSet set;
     set.vpls = take(choice, candidates);
@@ -175,4 +176,4 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

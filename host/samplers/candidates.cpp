@@ -7,7 +7,7 @@
 #include "host/base/math.h"
 #include "host/samplers/balanced_choice.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of the choice, that follows power alone.
@@ -126,4 +126,4 @@ Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::spa
     return choice.finish();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/samplers/resampling.h"
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// In proportion to the probabilities that candidates are to be chosen with: what each brings to the camera,
 /// in the given norm, and a small part that follows power alone, so that a candidate is chosen now and then
@@ -32,4 +32,4 @@ Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::spa
                        std::span<const float> rows, std::span<const float> weights, std::size_t wanted,
                        Pcg32 random);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

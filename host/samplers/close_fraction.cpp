@@ -6,7 +6,7 @@
 
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kPilotWalks = 512;
@@ -44,4 +44,4 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
     return std::clamp(static_cast<float>(close / (close + distant)), 0.1f, 0.9f);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

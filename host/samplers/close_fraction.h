@@ -4,7 +4,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Share of the VPLs that patches should have, from a pilot set of light walks: each side gets VPLs in
 /// proportion to the root of the sum of squares of what its VPLs bring to the camera, which is what minimises
@@ -12,4 +12,4 @@ namespace nearlight {
 /// close range.
 float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

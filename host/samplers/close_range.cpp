@@ -12,7 +12,7 @@
 #include "host/samplers/complete.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// For area and environment lights; the patches' irradiance is their power, so its noise is theirs.
@@ -21,7 +21,7 @@ constexpr uint kDirectSamplesPerPatch = 64;
 constexpr uint kPilotPoints = 4096;
 /// Where hardly a point of the selected triangles is lit or in view, more would take for ever.
 constexpr double kMostPointsPerVpl = 64;
-constexpr uint kPilotSeed = 0x717e5u;
+constexpr uint kCloseRangePilotSeed = 0x717e5u;
 
 /// Step 6: VPLs on `point_count` points, with the direct light there; those in the dark are left out.
 std::vector<Vpl> lit_patches(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface,
@@ -49,7 +49,8 @@ std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, Cl
     if (wanted == 0) {
         return {};
     }
-    const std::size_t pilot = lit_patches(stages, task, surface, kPilotPoints, task.seed ^ kPilotSeed).size();
+    const std::size_t pilot =
+        lit_patches(stages, task, surface, kPilotPoints, task.seed ^ kCloseRangePilotSeed).size();
     const double vpls_per_point =
         std::max(static_cast<double>(pilot) / kPilotPoints, 1.0 / kMostPointsPerVpl);
     const auto points = static_cast<std::size_t>(std::clamp(std::round(wanted / vpls_per_point), 1.0, 1e8));
@@ -97,4 +98,4 @@ VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task) {
     return sample_with_direct_patches(stages, task, surface);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

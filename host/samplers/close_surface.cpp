@@ -4,7 +4,7 @@
 #include "host/base/message.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, const CloseSelection& selection)
     : stages_(stages), task_(task), region_(empty_region(stages, task.scene)) {
@@ -60,4 +60,4 @@ std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
     return vpls;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which triangles are selected, and what belongs to the region.
 struct CloseSelection {
@@ -39,4 +39,4 @@ class CloseSurface {
     double area_ = 0.0;  ///< m²
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

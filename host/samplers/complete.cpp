@@ -41,7 +41,7 @@
 #include "host/samplers/sparse_walks.h"
 #include "host/stages/close_range.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // bench/RESULTS.md has what was tried, and on which views.
@@ -252,4 +252,4 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,11 +4,11 @@
 
 #include "host/samplers/close_surface.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// VPLs in the close range carry light of all depths, those elsewhere are deposits of light walks, and both
 /// are chosen from many candidates by what they bring to the camera. `surface` is all of the close range, lit
 /// or not.
 VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

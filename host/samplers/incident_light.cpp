@@ -7,7 +7,7 @@
 #include "host/base/receivers.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kSparseSeed = 0x5ba5e5u;
@@ -85,4 +85,4 @@ void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// VPLs of light walks over the whole scene that light other VPLs, not the picture.
 struct SparseSet {
@@ -36,4 +36,4 @@ void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance);
 /// The first `count` lanes.
 std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

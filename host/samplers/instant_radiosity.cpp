@@ -5,7 +5,7 @@
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task) {
     VplSet set;
@@ -15,4 +15,4 @@ VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task)
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

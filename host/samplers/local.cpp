@@ -20,7 +20,7 @@
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of the wide clamp to the user's; where that is 0, to the close range.
@@ -57,4 +57,4 @@ VplSet sample_local(SamplerStages& stages, const SamplingTask& task) {
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -25,7 +25,7 @@
 #include "host/samplers/resampling.h"
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
@@ -36,13 +36,13 @@ constexpr double kSeedsPerVpl = 8;
 constexpr double kChainsPerVpl = 4;
 constexpr uint kStepsPerChain = 4;
 /// Share of the mean target that is for what the estimate misses. It bounds the power of VPLs there.
-constexpr double kBlindShare = 0.1;
+constexpr double kMetropolisBlindShare = 0.1;
 
 constexpr uint kPilotSeeds = 2048;
 constexpr uint kLeastSeeds = 2048;
 constexpr uint kMostSeeds = 1u << 21u;
 constexpr uint kMostPairs = 1u << 22u;  ///< of numbers in one buffer, 32 MiB
-constexpr uint kPilotSeed = 0x3e7f0u;
+constexpr uint kMetropolisPilotSeed = 0x3e7f0u;
 constexpr std::uint64_t kStarts = 0x57a7;
 constexpr std::uint64_t kThinning = 0x7415;
 
@@ -80,7 +80,7 @@ float choose_blind_target(SamplerStages& stages, PathSpace& space) {
     for (const Vpl& vpl : pilot.vpls.download()) {
         power += luminance(vpl.power) / kPilotSeeds;
     }
-    const double target = kBlindShare / (1 - kBlindShare) * pilot.mean_target / power;
+    const double target = kMetropolisBlindShare / (1 - kMetropolisBlindShare) * pilot.mean_target / power;
     return target > 0 && target < 1e30 ? static_cast<float>(target)
                                        : 1.0f;  // nothing is in view, or lit: power alone counts
 }
@@ -142,7 +142,7 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
     PathSpace space{.scene = task.scene,
                     .view = task.view,
                     .clamp_radius = task.clamp_radius,
-                    .seed = task.seed ^ kPilotSeed,
+                    .seed = task.seed ^ kMetropolisPilotSeed,
                     .bounce_count = task.bounce_count,
                     .depth_cdf = make_depth_cdf(stages.device, task.bounce_count, task.scene.mean_albedo)};
     space.blind_target = choose_blind_target(stages, space);
@@ -167,4 +167,4 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

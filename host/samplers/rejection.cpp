@@ -25,7 +25,7 @@
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
@@ -37,23 +37,23 @@ constexpr double kWantedToMean = 16;
 constexpr double kMostCandidatesPerVpl = 32;
 /// At least this share of the VPLs is accepted by ε alone. It bounds the power of VPLs that the estimate
 /// misses.
-constexpr double kBlindShare = 0.1;
+constexpr double kRejectionBlindShare = 0.1;
 
 constexpr uint kFirstPilotWalks = 2048;
 constexpr uint kMostPilotWalks = 32768;
 constexpr std::ptrdiff_t kEnoughContributors = 512;
-constexpr uint kPilotSeed = 0x4e1ec7u;
+constexpr uint kRejectionPilotSeed = 0x4e1ec7u;
 constexpr std::uint64_t kDecisions = 0xacce97;
 
-struct Candidates {
+struct WeighedCandidates {
     Buffer<Vpl> vpls;                  ///< along the Morton curve
     std::vector<float> contributions;  ///< to the camera, times the walks launched: what each would bring if
                                        ///< it came from the only walk
 };
 
-Candidates weigh(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls, std::size_t count,
-                 uint walk_count) {
-    Candidates candidates{.vpls = Buffer<Vpl>(stages.device, count), .contributions = {}};
+WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
+                        std::size_t count, uint walk_count) {
+    WeighedCandidates candidates{.vpls = Buffer<Vpl>(stages.device, count), .contributions = {}};
     Buffer<uint> order(stages.device, count);
     Buffer<float> contributions(stages.device, count);
     stages.morton_sort.order(vpls, count, order);
@@ -85,10 +85,10 @@ Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion
     const auto contributes = [](float contribution) { return contribution > 0.0f; };
     for (uint round = 0; pilot.walk_count < kMostPilotWalks; ++round) {
         const LightWalks walks =
-            light_walks(task, kFirstPilotWalks << round, task.seed ^ (kPilotSeed + round));
+            light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
         stages.light_tracer.run(
             task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-                const Candidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+                const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
                 pilot.contributions.insert(pilot.contributions.end(), candidates.contributions.begin(),
                                            candidates.contributions.end());
             });
@@ -132,12 +132,13 @@ std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributi
     constexpr double kLeast = 1 / kMostCandidatesPerVpl;
     Acceptance acceptance{.wanted = kWantedToMean * total / count};
     // Below the least contribution all that bring anything are accepted, and a lower Φv would change nothing.
-    while (acceptance.expected(contributions) / count < (1 - kBlindShare) * kLeast &&
+    while (acceptance.expected(contributions) / count < (1 - kRejectionBlindShare) * kLeast &&
            acceptance.wanted > least) {
         acceptance.wanted *= 0.9;
     }
     const double accepted = acceptance.expected(contributions) / count;
-    acceptance.floor = std::max(kBlindShare / (1 - kBlindShare) * accepted, kLeast - accepted);
+    acceptance.floor =
+        std::max(kRejectionBlindShare / (1 - kRejectionBlindShare) * accepted, kLeast - accepted);
     return acceptance;
 }
 
@@ -163,7 +164,7 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
     stages.light_tracer.run(
         task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-            const Candidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+            const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
             const std::vector<Vpl> batch = candidates.vpls.download();
             for (std::size_t i = 0; i < count; ++i) {
                 const double probability = acceptance->probability(candidates.contributions[i]);
@@ -180,4 +181,4 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     return set;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::vector<Vpl> take(const Choice& choice, std::span<const Vpl> candidates) {
     return vpls;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which candidates were chosen, ascending, and the factor for the power of each.
 struct Choice {
@@ -35,4 +35,4 @@ Choice resample(std::span<const float> weights, std::size_t wanted, double shift
 /// The chosen candidates, powers multiplied by their factors.
 std::vector<Vpl> take(const Choice& choice, std::span<const Vpl> candidates);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

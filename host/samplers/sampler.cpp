@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::array kSamplers{
@@ -53,4 +53,4 @@ VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task) {
     return entry_of(task.sampler).sample(stages, task);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

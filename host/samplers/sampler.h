@@ -12,7 +12,7 @@
 #include "host/stages/local_lights.h"
 #include "host/stages/pilot_view.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 enum class SamplerKind {
     close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
@@ -82,4 +82,4 @@ struct PolicyEntry {
 std::span<const SamplerEntry> all_samplers();
 std::span<const PolicyEntry> all_policies();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

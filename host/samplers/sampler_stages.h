@@ -20,7 +20,7 @@
 #include "host/stages/vpl_order.h"
 #include "host/stages/vpl_placement.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct SamplerStages {
     explicit SamplerStages(Device& on_device, const GatherConfig& gather_config = {})
@@ -72,4 +72,4 @@ struct SamplerStages {
     std::optional<ReverseVpls> reverse_vpls_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

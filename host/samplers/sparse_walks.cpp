@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kPilotWalks = 512;
 /// Where hardly a walk lands (a light outside that shines past the scene), more would take for ever.
 constexpr uint kMostWalksPerVpl = 256;
-constexpr uint kPilotSeed = 0x9107u;
+constexpr uint kWalkCountPilotSeed = 0x9107u;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     LightWalks walks{.walk_count = kPilotWalks,
                      .bounce_count = task.bounce_count,
                      .mean_albedo = task.scene.mean_albedo,
-                     .seed = task.seed ^ kPilotSeed};
+                     .seed = task.seed ^ kWalkCountPilotSeed};
     const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
     const double deposits_per_walk = static_cast<double>(pilot_deposits) / kPilotWalks;
     const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMostWalksPerVpl);
@@ -40,4 +40,4 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     return {stages.light_tracer.run(task.scene, region, keep, walks), walks.walk_count};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

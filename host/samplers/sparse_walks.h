@@ -6,7 +6,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A region without triangles: nothing is close.
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
@@ -21,4 +21,4 @@ struct Deposits {
 Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
                      KeepDeposits keep, uint wanted);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

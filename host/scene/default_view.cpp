@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/default_view.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kFieldOfView = 45.0;
@@ -57,4 +57,4 @@ void add_default_light(Scene& scene, NoteSink& notes) {
     notes.remark(scene.source, 0, "nothing emits light; an even environment and a point light are used");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A 640 × 480 camera (45° wide) that frames the bounding box from the front, right and above; y is up.
 SceneCamera default_camera(const Aabb& box);
@@ -16,4 +16,4 @@ void add_default_light(Scene& scene, NoteSink& notes);
 /// The same, and the default camera.
 void add_default_view(Scene& scene, NoteSink& notes);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

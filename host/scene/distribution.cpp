@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kQuanta = 0x1p24;
@@ -46,4 +46,4 @@ std::size_t select(std::span<const float> cdf, float u) {
     return static_cast<std::size_t>(std::upper_bound(cdf.begin(), cdf.end(), u) - cdf.begin());
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Cumulative distribution in proportion to `weights`; negative weights and NaN count as zero, infinity is
 /// not allowed. Entry i is the sum of the probabilities up to and including i, so that the probability of i
@@ -21,4 +21,4 @@ std::vector<float> cumulative_distribution(std::span<const double> weights);
 /// Index of the first entry greater than u, which is in [0, 1): selects by a table made above.
 std::size_t select(std::span<const float> cdf, float u);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

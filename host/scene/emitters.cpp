@@ -3,7 +3,7 @@
 
 #include "host/scene/distribution.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -169,4 +169,4 @@ EnvironmentTable build_environment_table(const Scene& scene) {
     return table;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

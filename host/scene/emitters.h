@@ -6,7 +6,7 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct EmitterTable {
     std::vector<Emitter>
@@ -32,4 +32,4 @@ struct EnvironmentTable {
 };
 EnvironmentTable build_environment_table(const Scene& scene);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

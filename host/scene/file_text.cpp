@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <fstream>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::string read_file_text(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
-        throw Error(ExitCode::file, file.string() + ": no such file");
+        throw Error(ErrorKind::file, file.string() + ": no such file");
     }
     if (std::filesystem::is_directory(file, ignored)) {
-        throw Error(ExitCode::file, file.string() + ": is a directory, not a file");
+        throw Error(ErrorKind::file, file.string() + ": is a directory, not a file");
     }
     std::ifstream stream(file, std::ios::binary);
     std::string text;
@@ -24,7 +24,7 @@ std::string read_file_text(const std::filesystem::path& file) {
         stream.read(text.data(), static_cast<std::streamsize>(size));
     }
     if (!stream) {
-        throw Error(ExitCode::file, file.string() + ": cannot be read");
+        throw Error(ErrorKind::file, file.string() + ": cannot be read");
     }
     return text;
 }
@@ -34,4 +34,4 @@ std::filesystem::path resolve_path(const std::filesystem::path& file, std::strin
     return file.parent_path() / name;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

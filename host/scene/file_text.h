@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
-/// Throws Error(ExitCode::file) where the file is missing, a directory or unreadable.
+/// Throws Error(ErrorKind::file) where the file is missing, a directory or unreadable.
 std::string read_file_text(const std::filesystem::path& file);
 
 /// `name` as written in `file`: relative to its folder, backslashes allowed as separators.
 std::filesystem::path resolve_path(const std::filesystem::path& file, std::string name);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // Light that metal spreads evenly must die out in a closed room of it.
@@ -117,4 +117,4 @@ Material glass_material(double eta, bool thin) {
     return material;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

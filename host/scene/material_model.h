@@ -4,7 +4,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Fresnel reflectance of a dielectric, eta = index behind ÷ index in front, unpolarised.
 double dielectric_reflectance(double cosine, double eta);
@@ -22,4 +22,4 @@ Material conductor_material(Vec3 eta, Vec3 k, Vec3 specular, float roughness);
 /// A body (thin = false) or a pane of glass.
 Material glass_material(double eta, bool thin);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Indices = std::array<uint, 3>;
@@ -36,7 +36,7 @@ Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {
 
 void check_mesh(const Mesh& mesh) {
     const auto fail = [&](const std::string& what) {
-        throw Error(ExitCode::file, mesh.source.string() + ": " + what);
+        throw Error(ErrorKind::file, mesh.source.string() + ": " + what);
     };
     if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
         (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())) {
@@ -154,4 +154,4 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -11,7 +11,7 @@
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct Mesh {
     std::filesystem::path source;  ///< for messages
@@ -33,7 +33,7 @@ struct MeshPlacement {
 /// Adds the mesh to the scene. Without normals it gets smooth ones (weighted by angle). The front of a
 /// triangle is the side of its vertex normals where the mesh brought some, otherwise the side from which the
 /// transformed corners run counter-clockwise; so it is in Mitsuba 3, mirrored transforms included. Triangles
-/// with a NaN or infinite corner are left out, with a note. Throws Error(ExitCode::file) for an index out of
+/// with a NaN or infinite corner are left out, with a note. Throws Error(ErrorKind::file) for an index out of
 /// range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
@@ -41,4 +41,4 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
 std::vector<Vec3> smooth_normals(std::span<const Vec3> positions,
                                  std::span<const std::array<uint, 3>> triangles);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/note_sink.h"
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void NoteSink::approximation(const std::filesystem::path& file, int line, const std::string& text) {
     if (strict_) {
-        throw Error(ExitCode::file, to_string(Note{file, line, text}) + " (an error because of --strict)");
+        throw Error(ErrorKind::file, to_string(Note{file, line, text}) + " (an error because of --strict)");
     }
     remark(file, line, text);
 }
@@ -18,4 +18,4 @@ void NoteSink::remark(const std::filesystem::path& file, int line, const std::st
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,14 +9,14 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Collects notes; each text is said once, with the place where it came up first.
 class NoteSink {
   public:
     NoteSink(std::vector<Note>& notes, bool strict) : notes_(notes), strict_(strict) {}
 
-    /// An approximation. Throws Error(ExitCode::file) when strict.
+    /// An approximation. Throws Error(ErrorKind::file) when strict.
     void approximation(const std::filesystem::path& file, int line, const std::string& text);
     /// Something to know that makes the picture no less exact; never an error.
     void remark(const std::filesystem::path& file, int line, const std::string& text);
@@ -27,4 +27,4 @@ class NoteSink {
     bool strict_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,13 +9,13 @@
 #include <streambuf>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
 #include "host/scene/texture_loader.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kNone = std::numeric_limits<uint>::max();
@@ -130,10 +130,10 @@ class ObjBuilder {
             return kNone;
         }
         if (index == 0 || at < 0 || at >= signed_count) {
-            throw Error(ExitCode::file, obj_.mesh.source.string() + ":" +
-                                            std::to_string(line_of_face(obj_.text, faces_)) +
-                                            ": face refers to " + what + " " + std::to_string(index) +
-                                            ", but there are only " + std::to_string(count) + " so far");
+            throw Error(ErrorKind::file, obj_.mesh.source.string() + ":" +
+                                             std::to_string(line_of_face(obj_.text, faces_)) +
+                                             ": face refers to " + what + " " + std::to_string(index) +
+                                             ", but there are only " + std::to_string(count) + " so far");
         }
         return static_cast<uint>(at);
     }
@@ -301,7 +301,7 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
     std::string warning;
     std::string error;
     if (!tinyobj::LoadObjWithCallback(stream, make_callbacks(), &builder, nullptr, &warning, &error)) {
-        throw Error(ExitCode::file, file.string() + ": not a valid OBJ file: " + trimmed(error));
+        throw Error(ErrorKind::file, file.string() + ": not a valid OBJ file: " + trimmed(error));
     }
     builder.finish();
     if (builder.short_faces() > 0) {
@@ -329,4 +329,4 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/scene/mesh.h"
 #include "host/scene/scene_loader.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct ObjFile {
     Mesh mesh;                           ///< groups refer to `materials`
@@ -18,11 +18,11 @@ struct ObjFile {
     std::string text;                    ///< the file itself, to find lines in; empty unless kept
 };
 
-/// Reads the geometry: polygons become fans, negative indices count back. Throws Error(ExitCode::file) with
+/// Reads the geometry: polygons become fans, negative indices count back. Throws Error(ErrorKind::file) with
 /// file and line for an index out of range. Faces of fewer than three corners are left out, with a note.
 ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text = false);
 
 /// An OBJ file with its materials as a whole scene, with a camera and, where nothing emits, light made up.
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

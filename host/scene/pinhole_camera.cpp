@@ -5,18 +5,20 @@
 #include <numbers>
 #include <string>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int height) {
     if (width <= 0 || height <= 0) {
-        throw Error(ExitCode::usage, "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                                         " pixels is empty; give a --size of at least 1x1");
+        throw Error(ErrorKind::invalid_argument, "a picture of " + std::to_string(width) + "x" +
+                                                     std::to_string(height) +
+                                                     " pixels is empty; give a --size of at least 1x1");
     }
     if (!(camera.fov_x_degrees > 0.0 && camera.fov_x_degrees < 180.0)) {
-        throw Error(ExitCode::usage, "a field of view of " + std::to_string(camera.fov_x_degrees) +
-                                         " degrees is not between 0 and 180; correct the scene's camera");
+        throw Error(ErrorKind::invalid_argument,
+                    "a field of view of " + std::to_string(camera.fov_x_degrees) +
+                        " degrees is not between 0 and 180; correct the scene's camera");
     }
     // On the plane at distance 1, where +X points to the left of the picture and +Y up.
     const double half_width = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
@@ -36,4 +38,4 @@ PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int heig
     return pinhole;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

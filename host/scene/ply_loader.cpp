@@ -7,10 +7,10 @@
 #include <sstream>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/scene/file_text.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 enum class Scalar { i8, u8, i16, u16, i32, u32, f32, f64 };
@@ -36,7 +36,7 @@ struct PlyHeader {
 };
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-    throw Error(ExitCode::file, file.string() + ": " + what);
+    throw Error(ErrorKind::file, file.string() + ": " + what);
 }
 
 Scalar parse_scalar(const std::filesystem::path& file, std::string_view name) {
@@ -298,4 +298,4 @@ Mesh read_ply(const std::filesystem::path& file) {
     return mesh;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

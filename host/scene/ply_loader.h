@@ -6,11 +6,11 @@
 
 #include "host/scene/mesh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Reads positions, normals (nx, ny, nz), texture coordinates (u, v or s, t) and faces, which become fans;
-/// other elements and properties are skipped. `uvs` are as in the file. Throws Error(ExitCode::file) where
+/// other elements and properties are skipped. `uvs` are as in the file. Throws Error(ErrorKind::file) where
 /// the file is missing, truncated or not understood.
 Mesh read_ply(const std::filesystem::path& file);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

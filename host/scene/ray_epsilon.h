@@ -6,7 +6,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Distance (m) by which a point p on a surface is moved off it: some rounding errors of its coordinates, and
 /// never less than those of a point 5 % of `extent` (largest side of the scene's bounds, m) from the origin.
@@ -20,4 +20,4 @@ inline Vec3 stand_off(Vec3 p, Vec3 normal, float extent) {
     return p + normal * ray_epsilon(p, extent);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

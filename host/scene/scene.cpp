@@ -3,7 +3,7 @@
 
 #include "host/scene/texture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// t of the comment at Material.
@@ -69,4 +69,4 @@ Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float 
     return saturated(reflectance(scene, material, u, v), material.base_scale, material.base_saturation);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

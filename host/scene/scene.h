@@ -11,7 +11,7 @@
 #include "host/base/math.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Something that the loader could not take over exactly, said once.
 struct Note {
@@ -84,4 +84,4 @@ Vec3 light_albedo(const Scene& scene, const Material& material, float u, float v
 /// Lambertian reflectance that the camera sees, without the coat's Fresnel factor; see Material.
 Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float v);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // The bytes of numbers are hashed as they lie in memory.
@@ -94,4 +94,4 @@ std::uint64_t scene_hash(const Scene& scene) {
     return hasher.value();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

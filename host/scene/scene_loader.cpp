@@ -5,12 +5,12 @@
 #include <cctype>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj_loader.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string lower_case_extension(const std::filesystem::path& file) {
@@ -53,20 +53,20 @@ void remark_emptiness(Scene& scene) {
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
-        throw Error(ExitCode::file, file.string() + ": no such scene file");
+        throw Error(ErrorKind::file, file.string() + ": no such scene file");
     }
     if (std::filesystem::is_directory(file, ignored)) {
-        throw Error(ExitCode::file, file.string() + ": is a directory; name the scene file in it");
+        throw Error(ErrorKind::file, file.string() + ": is a directory; name the scene file in it");
     }
     const std::string extension = lower_case_extension(file);
     const auto loader = std::ranges::find(kLoaders, extension, &Loader::extension);
     if (loader == std::end(kLoaders)) {
-        throw Error(ExitCode::file, file.string() + ": unknown scene format '" + extension +
-                                        "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
+        throw Error(ErrorKind::file, file.string() + ": unknown scene format '" + extension +
+                                         "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
     }
     Scene scene = loader->load(file, options);
     remark_emptiness(scene);
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

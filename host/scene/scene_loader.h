@@ -8,7 +8,7 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct LoadOptions {
     /// Values for `$name` in Mitsuba XML; they win over <default>. Of glTF files, `camera`.
@@ -17,8 +17,8 @@ struct LoadOptions {
     bool strict = false;
 };
 
-/// By extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj. Throws Error(ExitCode::file) with file and line where the
-/// file is missing, broken or holds something unknown.
+/// By extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj. Throws Error(ErrorKind::file) with
+/// file and line where the file is missing, broken or holds something unknown.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// The part of x after the floor, in [0, 1]: 1 is what rounding makes of a tiny negative x.
@@ -72,4 +72,4 @@ Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, flo
     return bilinear(scene.images[static_cast<std::size_t>(texture.image)], s, t);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Linear value of each 8-bit sRGB code [IEC 61966-2-1]; kernels read this very table.
 const std::array<float, 256>& srgb_decode_table();
@@ -19,4 +19,4 @@ Vec3 decode_texel(std::uint32_t texel);
 /// four nearest texels, repeated in both directions. Coordinates that are not finite count as 0.
 Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/image/color.h"
 #include "host/image/image_io.h"
 #include "host/scene/texture.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 bool holds_floats(const std::filesystem::path& file) {
@@ -111,4 +111,4 @@ EnvironmentLight load_environment(const std::filesystem::path& file, float scale
     return light;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

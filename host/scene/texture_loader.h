@@ -11,7 +11,7 @@
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Reads each file once, however many materials use it.
 class TextureLoader {
@@ -35,7 +35,7 @@ class TextureLoader {
 SceneTexture plain_texture(int image);
 /// Linear mean colour.
 Vec3 mean_color(const TextureImage& image);
-/// Linear RGB radiance times `scale`, identity rotation. Throws Error(ExitCode::file).
+/// Linear RGB radiance times `scale`, identity rotation. Throws Error(ErrorKind::file).
 EnvironmentLight load_environment(const std::filesystem::path& image, float scale);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

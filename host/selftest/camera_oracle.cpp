@@ -8,7 +8,7 @@
 #include "host/selftest/close_range_oracle.h"
 #include "host/selftest/ray_comparison.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of coordinates and distances, relative to the scene's extent: a direction in single precision, times a
@@ -81,4 +81,4 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
     return comparison;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "host/reference/embree_scene.h"
 #include "host/stages/camera_pass.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The ray through the centre of a pixel; the direction has unit length.
 RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y);
@@ -23,4 +23,4 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
                                      const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

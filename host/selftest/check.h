@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct CheckResult {
     std::string name;
@@ -21,4 +21,4 @@ struct CheckResult {
     }
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

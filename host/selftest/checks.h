@@ -7,7 +7,7 @@
 #include "host/selftest/check.h"
 #include "host/stages/device_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 // primitive_checks.cpp: parallel primitives against the standard library.
 
@@ -94,4 +94,4 @@ void check_local_lights(Device& device, CheckResult& result);
 /// A case is a channel of a pixel.
 void check_film(Device& device, CheckResult& result);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // The point of a triangle inside five half-spaces that is nearest to the camera, as a quadratic
@@ -102,4 +102,4 @@ bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack) {
     return flag ? !surely_outside : !surely_inside;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

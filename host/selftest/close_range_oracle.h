@@ -5,7 +5,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct TriangleCorners {
     Vec3 a, b, c;
@@ -18,4 +18,4 @@ double nearest_squared_distance(const TriangleCorners& corners, const CloseRange
 /// Whether a point lies in the close range as the flag says, or so near its border (m) that rounding decides.
 bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/bvh/segment_distance.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Excuses segments that pass an edge within 10⁻⁵ of the scene's extent, but only so many: where everything
 /// is wrong, looking closely at each segment would take minutes and excuse nothing.
@@ -25,4 +25,4 @@ class EdgeExcuse {
     int looks_left_ = 400;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "host/selftest/film_oracle.h"
 #include "host/stages/film.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 void check_film(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 53, .height = 37};
@@ -37,4 +37,4 @@ void check_film(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

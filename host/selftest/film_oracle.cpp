@@ -7,7 +7,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Packet and lane of a sample of a pixel.
@@ -88,4 +88,4 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
     return out;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

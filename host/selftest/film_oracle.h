@@ -7,7 +7,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// A picture whose edges cut tiles.
 struct FilmLayout {
@@ -34,4 +34,4 @@ FilmSamples random_film_samples(const FilmLayout& layout);
 /// What the layers of a pixel must be, in the order of layer_channels().
 std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout& layout, uint x, uint y);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,10 +9,10 @@
 #include "host/selftest/edge_excuse.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kClampRadius = 0.05f;
+constexpr float kGatherRadius = 0.05f;
 
 }  // namespace
 
@@ -29,12 +29,13 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     const std::vector<GatherPair> pairs =
         Gatherer(device, {.kernel = kernel})
-            .gather_recorded({tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kClampRadius},
-                             irradiance);
+            .gather_recorded(
+                {tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kGatherRadius},
+                irradiance);
 
     const EmbreeScene embree(scene);
     std::vector<IrradiancePacket> expected(receivers.size());
-    gather_reference(embree, vpls, kClampRadius, receivers, expected);
+    gather_reference(embree, vpls, kGatherRadius, receivers, expected);
     const std::vector<IrradiancePacket> found = irradiance.download();
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
         const std::size_t packet = r / NEARLIGHT_PACKET_SIZE;
@@ -57,4 +58,4 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -22,10 +22,10 @@
 #include "host/stages/light_tracer.h"
 #include "host/stages/metropolis_chains.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kTriangles = 3000;
+constexpr std::size_t kLightTriangles = 3000;
 
 /// Whether a shadow ray of the receiver passes an edge.
 bool is_excused(EdgeExcuse& edges, const Scene& scene, Vec3 x) {
@@ -124,7 +124,7 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
 }
 
 void check_camera_pass(Device& device, CheckResult& result) {
-    const Scene scene = make_sphere_room(kTriangles);
+    const Scene scene = make_sphere_room(kLightTriangles);
     const PinholeCamera camera = make_pinhole_camera(scene.camera, 150, 101);
     const CloseRange region = make_close_range(camera, 4.0f);
     const CameraBand band{.tile_row_count = (camera.height + 7) / 8};
@@ -140,4 +140,4 @@ void check_camera_pass(Device& device, CheckResult& result) {
     result.mismatches = comparison.mismatches;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/base/math.h"
 #include "host/selftest/checks.h"
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "host/base/receivers.h"
@@ -17,10 +17,8 @@
 #include "host/stages/bounce_tracer.h"
 #include "host/stages/local_lights.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// At the middle of every so many triangles.
 std::vector<ReceiverPacket> receivers_on(const Scene& scene) {
@@ -239,4 +237,4 @@ void check_local_lights(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

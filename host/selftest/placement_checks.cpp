@@ -14,10 +14,10 @@
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_placement.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kTriangles = 4000;
+constexpr std::size_t kPlacementTriangles = 4000;
 
 TriangleCorners corners_of(const Scene& scene, uint id) {
     const Triangle& triangle = scene.triangles[id];
@@ -82,19 +82,19 @@ double lit_share(const Scene& scene, const EmbreeScene& embree, uint id, float e
 void check_classifier(Device& device, CheckResult& result) {
     constexpr float kRange = 1.0f;
     constexpr double kSlack = 5e-5;
-    const Scene scene = make_triangle_soup(kTriangles, 21);
+    const Scene scene = make_triangle_soup(kPlacementTriangles, 21);
     SceneCamera camera;
     camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 55;
     const CloseRange region = make_close_range(make_pinhole_camera(camera, 320, 200), kRange);
-    Buffer<uint> flags(device, kTriangles);
-    Buffer<float> areas(device, kTriangles);
+    Buffer<uint> flags(device, kPlacementTriangles);
+    Buffer<float> areas(device, kPlacementTriangles);
     TriangleClassifier(device).classify(
         Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
         Buffer<Material>(device, scene.materials), Buffer<CloseRange>(device, std::span(&region, 1)),
-        kTriangles, flags, areas);
+        kPlacementTriangles, flags, areas);
     const std::vector<uint> found = flags.download();
-    for (uint i = 0; i < kTriangles; ++i) {
+    for (uint i = 0; i < kPlacementTriangles; ++i) {
         if (triangle_area(scene, scene.triangles[i]) < 1e-6f) {
             continue;  // of no area, or so little that rounding decides whether there is any
         }
@@ -133,19 +133,19 @@ void check_light_visibility(Device& device, CheckResult& result) {
 }
 
 void check_placement(Device& device, CheckResult& result) {
-    const Scene scene = make_triangle_soup(kTriangles, 22);
+    const Scene scene = make_triangle_soup(kPlacementTriangles, 22);
     std::vector<uint> ids;
     std::vector<float> areas;
     std::vector<double> ends;  // of the area up to and including ids[i]
     double sum = 0;
-    for (uint i = 0; i < kTriangles; ++i) {
+    for (uint i = 0; i < kPlacementTriangles; ++i) {
         areas.push_back(triangle_area(scene, scene.triangles[i]));
         if (areas[i] > 1e-4f) {
             ids.push_back(i);
             ends.push_back(sum += areas[i]);
         }
     }
-    std::vector<std::size_t> place_of(kTriangles, ids.size());
+    std::vector<std::size_t> place_of(kPlacementTriangles, ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) {
         place_of[ids[i]] = i;
     }
@@ -164,7 +164,7 @@ void check_placement(Device& device, CheckResult& result) {
         const double part = sum / static_cast<double>(count);
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t place =
-                found[k].triangle < kTriangles ? place_of[found[k].triangle] : ids.size();
+                found[k].triangle < kPlacementTriangles ? place_of[found[k].triangle] : ids.size();
             if (place == ids.size()) {
                 result.expect(false);
                 continue;
@@ -178,4 +178,4 @@ void check_placement(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

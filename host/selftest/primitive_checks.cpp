@@ -10,7 +10,7 @@
 #include "host/stages/compaction.h"
 #include "host/stages/morton_sort.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Around work-group sizes, around the lengths at which arrays are split, and a large one.
@@ -146,4 +146,4 @@ void check_morton(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

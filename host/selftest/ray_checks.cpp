@@ -7,14 +7,14 @@
 #include "host/selftest/test_rays.h"
 #include "host/stages/ray_caster.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kTriangles = 600;
+constexpr std::size_t kRayTriangles = 600;
 constexpr std::size_t kRays = 2000;
 
 struct RayBench {
-    Scene scene = make_triangle_soup(kTriangles, 31);
+    Scene scene = make_triangle_soup(kRayTriangles, 31);
     Bvh bvh = build_scene_bvhs(scene).opaque;
     std::vector<RayFamily> families = make_ray_families(scene, kRays, 32);
 };
@@ -55,4 +55,4 @@ void check_any_hit(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/reference/brute_force.h"
 #include "host/reference/embree_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Relative rounding of a distance to a surface that is met head-on.
@@ -122,4 +122,4 @@ std::vector<BvhHit> embree_hits(const Scene& scene, std::span<const RayQuery> ra
     return hits;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/bvh/bvh.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// How near an edge a ray must pass for both answers to be right, as a fraction of the scene's extent: a few
 /// roundings of the products that decide on which side of the edge it passes.
@@ -42,4 +42,4 @@ std::vector<BvhHit> brute_force_hits(const Scene& scene, std::span<const RayQuer
 std::vector<BvhHit> host_hits(const Bvh& bvh, std::span<const RayQuery> rays);
 std::vector<BvhHit> embree_hits(const Scene& scene, std::span<const RayQuery> rays);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

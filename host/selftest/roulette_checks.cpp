@@ -9,10 +9,10 @@
 #include "host/selftest/roulette_oracle.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kClampRadius = 0.05f;
+constexpr float kRouletteRadius = 0.05f;
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
 constexpr uint kRunPackets = 5;  // of 20: bundles of 4 and of 1
@@ -32,7 +32,7 @@ struct RouletteCase {
                 .vpl_count = vpls.size(),
                 .receivers = receiver_buffer,
                 .packet_count = receivers.size(),
-                .clamp_radius = kClampRadius,
+                .clamp_radius = kRouletteRadius,
                 .roulette = roulette,
                 .seed = seed,
                 .run_packets = kRunPackets};
@@ -65,7 +65,7 @@ void check_choices(Device& device, const RouletteCase& data, CheckResult& result
                                                       .vpl_count = data.vpls.size(),
                                                       .receivers = data.receiver_buffer,
                                                       .bundles = layout,
-                                                      .clamp_radius = kClampRadius,
+                                                      .clamp_radius = kRouletteRadius,
                                                       .threshold = kThreshold,
                                                       .seed = seed},
                                                      0, layout.bundle_count());
@@ -82,7 +82,7 @@ void check_choices(Device& device, const RouletteCase& data, CheckResult& result
     }
     for (uint bundle = 0; bundle < layout.bundle_count(); ++bundle) {
         const std::vector<double> probabilities = roulette_probabilities(
-            data.vpls, data.receivers, layout.bundle(bundle), kClampRadius, kThreshold);
+            data.vpls, data.receivers, layout.bundle(bundle), kRouletteRadius, kThreshold);
         for (std::size_t vpl = 0; vpl < probabilities.size(); ++vpl) {
             const double p = probabilities[vpl];
             const double count = chosen[bundle * data.vpls.size() + vpl];
@@ -134,4 +134,4 @@ void check_roulette(Device& device, CheckResult& result) {
     check_expectation(device, data, result);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

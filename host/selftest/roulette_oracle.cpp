@@ -5,7 +5,7 @@
 
 #include "host/base/receivers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 double dot64(Vec3 a, Vec3 b) {
@@ -55,4 +55,4 @@ std::vector<double> roulette_probabilities(std::span<const Vpl> vpls,
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

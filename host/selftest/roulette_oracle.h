@@ -8,7 +8,7 @@
 #include "host/base/math.h"
 #include "host/base/receiver_bundles.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// min(1, b / (threshold · mean of b)), one for each VPL; b is the root mean square, over the receivers of
 /// the bundle, of what the VPL could bring to them in its strongest channel if nothing were in the way.
@@ -17,4 +17,4 @@ std::vector<double> roulette_probabilities(std::span<const Vpl> vpls,
                                            const BundleLayout::Bundle& bundle, float clamp_radius,
                                            float threshold);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

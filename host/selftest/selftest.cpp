@@ -3,7 +3,7 @@
 
 #include "host/selftest/checks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 struct NamedCheck {
@@ -55,4 +55,4 @@ std::vector<CheckResult> run_selftest(Device& device, const std::function<void(c
     return results;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

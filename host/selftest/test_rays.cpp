@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/test_rays.h"
 
+#include "host/base/math.h"
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kFar = 1e10f;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 Vec3 point_in_cube(Pcg32& random) {
@@ -104,4 +104,4 @@ std::vector<RayQuery> make_broken_rays() {
     return rays;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Small triangles within about [−1, 1]³; some lie in axis-aligned planes, some are lines or points.
 Scene make_triangle_soup(std::size_t triangle_count, std::uint64_t seed);
@@ -27,4 +27,4 @@ std::vector<RayFamily> make_ray_families(const Scene& scene, std::size_t count, 
 /// Rays with NaN or infinity somewhere, without direction, or with an empty interval: none hits anything.
 std::vector<RayQuery> make_broken_rays();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

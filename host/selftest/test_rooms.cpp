@@ -4,10 +4,10 @@
 #include "host/bench/synthetic_scene.h"
 #include "host/scene/material_model.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kTriangles = 3000;
+constexpr std::size_t kRoomTriangles = 3000;
 constexpr uint kRings = 48;
 constexpr uint kSegments = 96;
 
@@ -28,7 +28,7 @@ void add_inward_triangle(Scene& scene, uint a, uint b, uint c) {
 }  // namespace
 
 Scene make_even_room(Vec3 albedo) {
-    Scene scene = make_sphere_room(kTriangles);
+    Scene scene = make_sphere_room(kRoomTriangles);
     for (Material& material : scene.materials) {
         material.base = albedo;
     }
@@ -36,7 +36,7 @@ Scene make_even_room(Vec3 albedo) {
 }
 
 Scene make_delta_lit_room() {
-    Scene scene = make_sphere_room(kTriangles);
+    Scene scene = make_sphere_room(kRoomTriangles);
     for (Material& material : scene.materials) {
         material.emission = {0, 0, 0};
     }
@@ -80,4 +80,4 @@ Scene make_lit_sphere(float radius, float albedo) {
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

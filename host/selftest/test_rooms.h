@@ -5,7 +5,7 @@
 #include "host/base/math.h"
 #include "host/scene/scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Full of rough spheres, closed, with a lamp and of one albedo: no light is lost but what the albedo takes.
 Scene make_even_room(Vec3 albedo);
@@ -17,4 +17,4 @@ Scene make_delta_lit_room();
 /// 2 ‰ that flat triangles take.
 Scene make_lit_sphere(float radius, float albedo);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -24,10 +24,10 @@
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/vpl_contribution.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kClampRadius = 0.05f;
+constexpr float kVplRadius = 0.05f;
 
 Vec3 random_vector(Pcg32& random) {
     const float x = random.uniform();
@@ -86,7 +86,7 @@ std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count)
 std::vector<Vec3> seen_of(const EmbreeScene& embree, const Vpl& vpl,
                           std::span<const ReceiverPacket> receivers, std::span<const CameraVertex> response) {
     std::vector<IrradiancePacket> irradiance(receivers.size());
-    gather_reference(embree, std::span(&vpl, 1), kClampRadius, receivers, irradiance);
+    gather_reference(embree, std::span(&vpl, 1), kVplRadius, receivers, irradiance);
     std::vector<Vec3> seen;
     for (std::size_t i = 0; i < response.size(); ++i) {
         seen.push_back(response[i].throughput * response[i].albedo * irradiance_at(irradiance, i) *
@@ -109,7 +109,7 @@ double squared_importance(const Vpl& vpl, const ReceiverPoint& x, const CameraVe
     const double r2 = dot(segment, segment);
     const double cosines = std::max(0.0, static_cast<double>(dot(vpl.normal, segment))) *
                            std::max(0.0, -static_cast<double>(dot(x.normal, segment)));
-    const double term = r2 > 0 ? cosines / (r2 * std::max<double>(r2, kClampRadius * kClampRadius)) : 0.0;
+    const double term = r2 > 0 ? cosines / (r2 * std::max<double>(r2, kVplRadius * kVplRadius)) : 0.0;
     const Vec3 color = response.throughput * response.albedo;
     return term * term * dot(color, color);
 }
@@ -246,10 +246,10 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
     VplContribution contribution(device, gatherer);
     const Buffer<Vpl> on_device_vpls(device, vpls);
     Buffer<float> brought(device, vpls.size());
-    contribution.run(on_device, on_device_vpls, vpls.size(), view, kClampRadius, brought);
+    contribution.run(on_device, on_device_vpls, vpls.size(), view, kVplRadius, brought);
     const std::vector<float> sums = brought.download();
     const std::vector<float> errors =
-        contribution.by_group(on_device, on_device_vpls, vpls.size(), view, kClampRadius).errors;
+        contribution.by_group(on_device, on_device_vpls, vpls.size(), view, kVplRadius).errors;
     // So few receivers are all among the importons in groups.
     const std::size_t importon_count =
         std::size_t{view.importon_groups.group_count} * view.importon_groups.group_size;
@@ -311,4 +311,4 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

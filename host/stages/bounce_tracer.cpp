@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/bounce_tracer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 BounceTracer::BounceTracer(Device& device)
     : program_(device, "bounce_tracer.cl"), bounce_tracer_(program_, "bounce_tracer") {}
@@ -17,4 +17,4 @@ void BounceTracer::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& r
                                 paths.clamp_radius, paths.seed, irradiance);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct BouncePaths {
     uint sample_count = 1;  ///< paths a receiver
@@ -28,4 +28,4 @@ class BounceTracer {
     Kernel bounce_tracer_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/camera_pass.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 std::size_t packet_count(const CameraBand& band, uint image_width) {
     return static_cast<std::size_t>((image_width + 7) / 8) * band.tile_row_count * band.sample_count *
@@ -20,4 +20,4 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& came
                               band.samples_per_pixel, band.branch_count, seed, receivers, vertices);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which tile rows and samples of the picture one launch covers.
 struct CameraBand {
@@ -35,4 +35,4 @@ class CameraPass {
     Kernel camera_pass_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/cl/device.h"
 #include "kernels/shared/types.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// `count` runs of `size` elements each, the last one perhaps shorter, none empty.
 struct Chunks {
@@ -34,14 +34,14 @@ inline std::size_t chunk_local_size(const Device& device) {
     return device.tunables().run_local_size;
 }
 
-/// Kernels count in 32 bits. Throws Error(ExitCode::out_of_memory) beyond them.
+/// Kernels count in 32 bits. Throws Error(ErrorKind::out_of_memory) beyond them.
 inline uint to_kernel_count(std::size_t count, const char* what) {
     if (count > UINT32_MAX) {
-        throw Error(ExitCode::out_of_memory, std::to_string(count) + " " + what +
-                                                 " are more than the 2^32 - 1 that kernels can count; use "
-                                                 "fewer");
+        throw Error(ErrorKind::out_of_memory, std::to_string(count) + " " + what +
+                                                  " are more than the 2^32 - 1 that kernels can count; use "
+                                                  "fewer");
     }
     return static_cast<uint>(count);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Through `origin`, spanned by `a` and `b`, facing the side of `inside`.
@@ -47,4 +47,4 @@ bool in_frustum(const CloseRange& close, Vec3 point, float margin) {
     });
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The four sides of the view frustum, then the plane through the camera that faces forward; `range` in
 /// metres, may be infinite.
@@ -15,4 +15,4 @@ CloseRange make_close_range(const PinholeCamera& camera, float range);
 /// planes. What hides it does not matter.
 bool in_frustum(const CloseRange& close, Vec3 point, float margin);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

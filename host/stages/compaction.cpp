@@ -3,7 +3,7 @@
 
 #include "host/stages/chunks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 Compaction::Compaction(Device& device)
     : device_(&device),
@@ -34,4 +34,4 @@ std::size_t Compaction::list_set(const Buffer<uint>& flags, std::size_t count, B
     return scan_.total().download_one(0);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "host/stages/prefix_scan.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class Compaction {
   public:
@@ -39,4 +39,4 @@ class Compaction {
     Buffer<uint> chunk_counts_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

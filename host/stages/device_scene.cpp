@@ -5,7 +5,7 @@
 
 #include "host/scene/emitters.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// All images one after the other, and the textures that say where each begins.
@@ -117,4 +117,4 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bv
     return on_device;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/scene/scene.h"
 #include "host/stages/device_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct DeviceScene {
     DeviceTree tree;   ///< of opaque surfaces
@@ -46,4 +46,4 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& t
 DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
                          GatherKernel kernel = GatherKernel::automatic);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

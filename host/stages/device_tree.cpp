@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/device_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 DeviceTree upload(Device& device, const Bvh* binary, const WideBvh* wide) {
@@ -59,4 +59,4 @@ DeviceTree upload_both_trees(Device& device, const Bvh& bvh) {
     return upload(device, bvh, {.binary = true, .wide = true});
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/bvh/scene_trees.h"
 #include "host/cl/buffer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which kernel gathers. Both compute the same sum; visibility may differ for rays that meet an edge of a
 /// triangle within rounding.
@@ -56,4 +56,4 @@ DeviceTree upload_tree(Device& device, const Bvh& bvh, GatherKernel kernel = Gat
 /// For those and for gathers with either kernel.
 DeviceTree upload_both_trees(Device& device, const Bvh& bvh);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/direct_light.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 DirectLight::DirectLight(Device& device)
     : program_(device, "direct_light.cl"), direct_light_(program_, "direct_light") {}
@@ -13,4 +13,4 @@ void DirectLight::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& re
                                static_cast<uint>(packet_count), sample_count, seed, irradiance);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class DirectLight {
   public:
@@ -21,4 +21,4 @@ class DirectLight {
     Kernel direct_light_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/film.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 Film::Film(Device& device)
     : program_(device, "film.cl"), film_add_(program_, "film_add"), film_resolve_(program_, "film_resolve") {}
@@ -24,4 +24,4 @@ std::vector<std::string> layer_channels() {
             "N.Z",        "P.X",        "P.Y",      "P.Z",      "depth.Z",  "closerange.Y"};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

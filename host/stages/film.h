@@ -5,7 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/camera_pass.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class Film {
   public:
@@ -29,4 +29,4 @@ class Film {
 /// Names of a finished picture's channels: R, G, B, direct.R, …, closerange.Y.
 std::vector<std::string> layer_channels();
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/base/stopwatch.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// VPLs that are summed by themselves before they are added to the irradiance, if there are no groups;
@@ -33,8 +33,8 @@ GatherConfig resolved(GatherConfig config, const Device& device) {
         config.launch_seconds = 1e-3 * device.tunables().launch_ms;
     }
     if (config.packet_width < 16 || config.packet_width > 256 || !std::has_single_bit(config.packet_width)) {
-        throw Error(ExitCode::usage, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
-                                         std::to_string(config.packet_width));
+        throw Error(ErrorKind::invalid_argument, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
+                                                     std::to_string(config.packet_width));
     }
     return config;
 }
@@ -172,11 +172,11 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::siz
 template <typename Work>
 bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work& work) {
     if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
-        throw Error(ExitCode::runtime, "gather_packets needs a wide tree: upload the tree for that kernel");
+        throw Error(ErrorKind::failure, "gather_packets needs a wide tree: upload the tree for that kernel");
     }
     const bool roulette = input.roulette > 0.0f;
     if (roulette && input.group_size != 0) {
-        throw Error(ExitCode::usage, "the gather has no roulette where it sums by groups");
+        throw Error(ErrorKind::invalid_argument, "the gather has no roulette where it sums by groups");
     }
     const std::size_t bundle_count = input.bundles().bundle_count();
     Kernel& kernel = kernel_of(roulette, recording);
@@ -233,4 +233,4 @@ std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,
     return result;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -15,7 +15,7 @@
 #include "host/stages/roulette.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
@@ -76,7 +76,7 @@ enum class GatherPair : std::uint8_t {
 class Gatherer {
   public:
     /// Begins to compile the kernel; the first gather throws what went wrong (see Program). Throws
-    /// Error(ExitCode::usage) for a packet width that there is not.
+    /// Error(ErrorKind::invalid_argument) for a packet width that there is not.
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
     /// irradiance[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
@@ -87,7 +87,7 @@ class Gatherer {
     ///
     /// With groups, `irradiance` must have packet_count · (1 + group_count()) packets: the first packet_count
     /// get the sum of squares Σ_i (power_i/π · …)², channel by channel, the next as many the sum over the
-    /// first group, and so on. Throws Error(ExitCode::usage) for groups with roulette.
+    /// first group, and so on. Throws Error(ErrorKind::invalid_argument) for groups with roulette.
     bool gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
                 const GatherProgress& progress = {});
 
@@ -126,4 +126,4 @@ class Gatherer {
     std::optional<Roulette> roulette_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// How far apart opposite normals are, as a part of the extent of all positions.
@@ -67,4 +67,4 @@ std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::s
     return groups;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

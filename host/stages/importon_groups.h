@@ -7,10 +7,10 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Splits them into `wanted` groups of nearly equal size (fewer if there are fewer importons; none is empty),
 /// again and again at the median of what spreads most, position or normal.
 std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::size_t wanted);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

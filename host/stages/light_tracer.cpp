@@ -5,7 +5,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
@@ -70,4 +70,4 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which deposits are kept of those in the close range; the values are kernels/light_tracer.cl's.
 enum class KeepDeposits : uint { all = 0, indirect_inside = 1, outside = 2 };
@@ -52,4 +52,4 @@ class LightTracer {
     Compaction compaction_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/light_visibility.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of the whole scene's area: a few centimetres square in a hall. Smaller triangles get a single point.
@@ -18,4 +18,4 @@ void LightVisibility::run(const DeviceScene& scene, const Buffer<uint>& ids, std
                                    static_cast<float>(kAreaPerPoint * scene.total_area), seed, selected);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

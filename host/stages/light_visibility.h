@@ -5,7 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class LightVisibility {
   public:
@@ -20,4 +20,4 @@ class LightVisibility {
     Kernel light_visibility_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Slots that are worked on at a time: enough to keep the device busy, a few dozen MiB at most.
@@ -82,4 +82,4 @@ std::size_t LocalLights::add(const DeviceScene& scene, const LocalVpls& vpls,
     return light_count;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What local lights are to supply, and how. VPLs at y are gathered with the radius R_g(y) = widest_radius /
 /// 2^level, level the first of 0 to 3 for which that is at most radius_at_unit_light / √E(y), and not below
@@ -89,4 +89,4 @@ class LocalLights {
     Compaction compaction_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

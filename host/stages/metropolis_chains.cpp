@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 /// Depth and choice of light, position, direction, and one pair for each bounce but the last.
 PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_count)
     : count(static_cast<uint>(state_count)),
@@ -75,4 +75,4 @@ void MetropolisChains::keep(const PathStates& chains, float scale, Buffer<Vpl>& 
                        static_cast<uint>(first), kept);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

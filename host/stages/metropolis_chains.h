@@ -9,7 +9,7 @@
 #include "host/stages/pilot_view.h"
 #include "host/stages/vpl_contribution.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// States of chains, or seeds of them: points of the unit cube and the VPLs they stand for.
 struct PathStates {
@@ -64,4 +64,4 @@ class MetropolisChains {
     Compaction compaction_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include "host/stages/chunks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kDigitCount = 256;
@@ -82,4 +82,4 @@ void MortonSort::sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t coun
     }
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/stages/prefix_scan.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Elements are structs that begin with their position (Vec3, Vpl, SurfaceSample, …).
 class MortonSort {
@@ -79,4 +79,4 @@ class MortonSort {
     Buffer<uint> positions_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/patch_vpls.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 PatchVpls::PatchVpls(Device& device)
     : program_(device, "patch_vpls.cl"), patch_vpls_(program_, "patch_vpls") {}
@@ -13,4 +13,4 @@ void PatchVpls::run(const DeviceScene& scene, const Buffer<SurfaceSample>& sampl
                              region.whole_triangles ? 1u : 0u, area_per_sample, vpls, flags);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

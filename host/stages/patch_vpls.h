@@ -6,7 +6,7 @@
 #include "host/stages/device_scene.h"
 #include "host/stages/light_tracer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class PatchVpls {
   public:
@@ -22,4 +22,4 @@ class PatchVpls {
     Kernel patch_vpls_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/importon_groups.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kPixelCount = 1024;
@@ -130,4 +130,4 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     return view;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

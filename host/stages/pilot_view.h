@@ -8,7 +8,7 @@
 #include "host/scene/scene.h"
 #include "host/stages/camera_pass.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What is asked of importons; kernels/vpl_contribution.cl has the formulas.
 enum class ContributionNorm {
@@ -56,4 +56,4 @@ void set_importons(Device& device, PilotView& view, std::span<const Vpl> importo
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
                         const SceneCamera& camera, uint seed);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

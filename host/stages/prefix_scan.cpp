@@ -5,7 +5,7 @@
 
 #include "host/stages/chunks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 template <typename T>
@@ -75,4 +75,4 @@ void PrefixScan<T>::scan_level(const Buffer<T>& input, Buffer<T>& output, uint c
 template class PrefixScan<uint>;
 template class PrefixScan<std::uint64_t>;
 
-}  // namespace nearlight
+}  // namespace nearlight::core

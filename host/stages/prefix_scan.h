@@ -9,7 +9,7 @@
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// T is uint or std::uint64_t. Sums wrap around as unsigned integers do; the caller sees to it that they fit.
 template <typename T>
@@ -47,4 +47,4 @@ class PrefixScan {
 extern template class PrefixScan<uint>;
 extern template class PrefixScan<std::uint64_t>;
 
-}  // namespace nearlight
+}  // namespace nearlight::core

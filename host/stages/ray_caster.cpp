@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/ray_caster.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 RayCaster::RayCaster(Device& device)
     : device_(&device),
@@ -34,4 +34,4 @@ std::vector<uint> RayCaster::any_hits(const Bvh& bvh, std::span<const RayQuery> 
     return occluded.download();
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_tree.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class RayCaster {
   public:
@@ -30,4 +30,4 @@ class RayCaster {
     Kernel cast_any_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/reverse_vpls.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 CameraPoints make_camera_points(Device& device, std::span<const Vpl> importons, uint rays_per_point) {
     std::vector<Vpl> points(importons.begin(), importons.end());
@@ -49,4 +49,4 @@ void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& 
                       density);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/stages/device_scene.h"
 #include "host/stages/gatherer.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Where reverse VPLs are made from.
 struct CameraPoints {
@@ -45,4 +45,4 @@ class ReverseVpls {
     Compaction compaction_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

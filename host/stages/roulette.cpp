@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Of bounds, indices and weights together.
@@ -46,4 +46,4 @@ const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t firs
     return lists_;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Which VPLs each bundle of [first_bundle, end_bundle) asks about. Entry k of a bundle, k < counts[bundle −
 /// first_bundle], is at (bundle − first_bundle)·stride + k of `vpls` (an index) and `weights` (1/p, what the
@@ -54,4 +54,4 @@ class Roulette {
     RouletteLists lists_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include "host/stages/chunks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 TriangleClassifier::TriangleClassifier(Device& device)
     : program_(device, "triangle_classifier.cl"),
@@ -22,4 +22,4 @@ void TriangleClassifier::centroids(const Buffer<Vertex>& vertices, const Buffer<
     centroids_.launch_items(count, vertices, triangles, ids, centroids, to_kernel_count(count, "triangles"));
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

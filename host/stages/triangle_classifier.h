@@ -6,7 +6,7 @@
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class TriangleClassifier {
   public:
@@ -29,4 +29,4 @@ class TriangleClassifier {
     Kernel centroids_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
     : device_(&device),
@@ -69,4 +69,4 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
     return {.errors = errors.download(), .rows = rows.download()};
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/stages/pilot_view.h"
 #include "host/stages/vpl_light.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// What VPLs bring to the parts of a picture.
 struct GroupContribution {
@@ -46,4 +46,4 @@ class VplContribution {
     Kernel vpl_least_importance_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/vpl_light.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 VplLight::VplLight(Device& device)
     : program_(device, "vpl_light.cl"),
@@ -26,4 +26,4 @@ void VplLight::add(const Buffer<IrradiancePacket>& more, std::size_t packet_coun
     add_irradiance_.launch_items(lane_count, more, static_cast<uint>(lane_count), irradiance);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "host/cl/kernel.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class VplLight {
   public:
@@ -27,4 +27,4 @@ class VplLight {
     Kernel add_irradiance_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

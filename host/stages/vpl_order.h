@@ -11,7 +11,7 @@
 #include "host/stages/compaction.h"
 #include "host/stages/morton_sort.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 class VplOrder {
   public:
@@ -57,4 +57,4 @@ class VplOrder {
     Compaction compaction_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 
 #include "host/stages/chunks.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 float area_units_per_square_metre(double total_area) {
     // total_area · 2^exponent lies in [2^61, 2^62); what rounding adds fits in the two bits above.
@@ -44,4 +44,4 @@ std::size_t VplPlacement::place(const Buffer<Vertex>& vertices, const Buffer<Tri
     return sample_count;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/stages/prefix_scan.h"
 #include "kernels/shared/types.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Units of area per m² for fixed-point sums: the power of two at which triangles of `total_area` in all (>
 /// 0, of the whole scene, so that any selection fits) sum up to less than 2^62. A triangle's area is then
@@ -44,4 +44,4 @@ class VplPlacement {
     double total_area_ = 0.0;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

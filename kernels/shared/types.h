@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
-namespace nearlight {
+namespace nearlight::core {
 using uint = std::uint32_t;
 #endif
 
@@ -293,7 +293,7 @@ NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 32);
-}  // namespace nearlight
+}  // namespace nearlight::core
 #endif
 
 #endif

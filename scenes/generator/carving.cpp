@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/generator/carving.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr int kBlock = 8;        // cells along a side of the blocks that are culled together
@@ -262,4 +262,4 @@ Mesh Carving::mesh(const Aabb& box, float cell) const {
     return CarvingMesher(*this, box, cell).run();
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

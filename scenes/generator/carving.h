@@ -7,7 +7,7 @@
 
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// Distance to a surface in metres, negative inside; may be off by a third, but not in its sign.
 using Distance = std::function<float(Vec3)>;
@@ -48,4 +48,4 @@ class Carving {
     float roughness_reach_ = 0.0f;
 };
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -3,7 +3,7 @@
 // https://www.graphics.cornell.edu/online/box/data.html], millimetres there, metres here.
 #include "scenes/generator/scenes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 using Quad = std::array<Vec3, 4>;
@@ -64,4 +64,4 @@ SceneFiles make_cornell_box() {
     return scene;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

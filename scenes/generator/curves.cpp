@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/generator/curves.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 Vec3 catmull_rom(Vec3 a, Vec3 b, Vec3 c, Vec3 d, float t) {
@@ -81,4 +81,4 @@ Profile solid(std::span<const Vec3> corners, float bevel) {
     return rounded(corners, bevel, 3);
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -7,7 +7,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 using Curve = std::vector<Vec3>;
 /// (radius, height, 0) from the bottom of the axis, along the outside, and back to the axis.
@@ -27,4 +27,4 @@ Profile vessel(std::span<const Vec3> outside, float thickness, int steps = 10);
 /// Profile of a solid of revolution from its corners, which are bevelled; axis to axis.
 Profile solid(std::span<const Vec3> corners, float bevel);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

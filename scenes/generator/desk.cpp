@@ -7,7 +7,7 @@
 #include "scenes/generator/scenes.h"
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr float kDeskTop = 0.75f;
@@ -96,4 +96,4 @@ SceneFiles make_desk() {
     return scene;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

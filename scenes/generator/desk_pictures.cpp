@@ -3,7 +3,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 Bitmap make_screen_picture() {
     Bitmap screen(512, 288, {0.10f, 0.30f, 0.45f});
@@ -81,4 +81,4 @@ Bitmap make_painting() {
     return painting;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

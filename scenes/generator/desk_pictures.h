@@ -4,7 +4,7 @@
 
 #include "scenes/generator/files.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// Windows with text and a chart.
 Bitmap make_screen_picture();
@@ -13,4 +13,4 @@ Bitmap make_printed_page(std::uint64_t seed, bool with_picture);
 /// Hills under an evening sky.
 Bitmap make_painting();
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -4,7 +4,7 @@
 #include "scenes/generator/furniture.h"
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 Mesh make_leaf(float leaf_length, float width, float droop) {
@@ -252,4 +252,4 @@ Model make_picture(float width, float height) {
     return picture;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -6,7 +6,7 @@
 #include "host/base/random.h"
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// From the foot to a shade whose opening is about `head`, where a point light may hang free.
 Model make_desk_lamp(Vec3 foot, Vec3 head);
@@ -25,4 +25,4 @@ Model make_papers(Pcg32& random);
 /// A framed painting in the plane z = 0, centred; looks along +z.
 Model make_picture(float width, float height);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

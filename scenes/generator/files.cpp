@@ -5,9 +5,9 @@
 #include <cstring>
 #include <fstream>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PLY files are written as the host stores numbers");
@@ -17,7 +17,7 @@ void write_file(const std::filesystem::path& file, const std::string& header, co
     stream << header << body;
     stream.close();
     if (!stream) {
-        throw Error(ExitCode::file,
+        throw Error(ErrorKind::file,
                     "cannot write " + file.string() + ": check the folder and its free space");
     }
 }
@@ -90,4 +90,4 @@ void write_ppm(const std::filesystem::path& file, const Bitmap& bitmap) {
                body);
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -10,7 +10,7 @@
 
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// sRGB-encoded picture, top row first.
 struct Bitmap {
@@ -29,4 +29,4 @@ struct Bitmap {
 void write_ply(const std::filesystem::path& file, const Mesh& mesh);
 void write_ppm(const std::filesystem::path& file, const Bitmap& bitmap);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -4,7 +4,7 @@
 #include "scenes/generator/noise.h"
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 float between(Pcg32& random, float low, float high) {
     return low + (high - low) * random.uniform();
@@ -180,4 +180,4 @@ Bitmap make_wood_grain(Vec3 light, Vec3 dark, int rings) {
     return bitmap;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -6,7 +6,7 @@
 #include "scenes/generator/files.h"
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// Uniform in [low, high).
 float between(Pcg32& random, float low, float high);
@@ -33,4 +33,4 @@ Mesh make_table(Vec3 size);
 /// Grain along u; wraps around in both directions.
 Bitmap make_wood_grain(Vec3 light, Vec3 dark, int rings);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

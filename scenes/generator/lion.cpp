@@ -4,7 +4,7 @@
 #include "scenes/generator/carving.h"
 #include "scenes/generator/noise.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr Vec3 kHead{0.0f, 0.71f, 0.15f};
@@ -209,4 +209,4 @@ Mesh make_guardian_lion(float cell) {
     return lion.mesh({{-0.38f, -0.03f, -0.52f}, {0.38f, 1.02f, 0.5f}}, cell);
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

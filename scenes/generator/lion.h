@@ -4,9 +4,9 @@
 
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// Sits on y = 0 and looks along +z, about 0.95 high; `cell` is the edge length of its triangles.
 Mesh make_guardian_lion(float cell);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

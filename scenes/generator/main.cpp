@@ -4,14 +4,14 @@
 #include <functional>
 #include <stdexcept>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 #include "scenes/generator/scenes.h"
 
 namespace {
 
-using namespace nearlight::scenes;
+using namespace nearlight::core::scenes;
 using nearlight::Error;
-using nearlight::ExitCode;
+using nearlight::ErrorKind;
 
 struct Options {
     std::filesystem::path out;
@@ -34,7 +34,7 @@ float parse_detail(const std::string& text) {
         used = 0;
     }
     if (used != text.size() || text.empty() || !(detail >= 1.0f && detail <= 8.0f)) {
-        throw Error(ExitCode::usage, "--detail " + text + ": expected a number from 1 to 8");
+        throw Error(ErrorKind::invalid_argument, "--detail " + text + ": expected a number from 1 to 8");
     }
     return detail;
 }
@@ -45,7 +45,8 @@ Options parse(const std::vector<std::string>& arguments) {
         const std::string& argument = arguments[i];
         if (argument == "--out" || argument == "--detail") {
             if (++i == arguments.size()) {
-                throw Error(ExitCode::usage, argument + " needs a value; see nearlight-scenes --help");
+                throw Error(ErrorKind::invalid_argument,
+                            argument + " needs a value; see nearlight-scenes --help");
             }
             if (argument == "--out") {
                 options.out = arguments[i];
@@ -53,13 +54,14 @@ Options parse(const std::vector<std::string>& arguments) {
                 options.detail = parse_detail(arguments[i]);
             }
         } else if (argument.starts_with("-")) {
-            throw Error(ExitCode::usage, "unknown option " + argument + "; see nearlight-scenes --help");
+            throw Error(ErrorKind::invalid_argument,
+                        "unknown option " + argument + "; see nearlight-scenes --help");
         } else {
             options.names.push_back(argument);
         }
     }
     if (options.out.empty()) {
-        throw Error(ExitCode::usage, "--out DIR is missing; see nearlight-scenes --help");
+        throw Error(ErrorKind::invalid_argument, "--out DIR is missing; see nearlight-scenes --help");
     }
     return options;
 }
@@ -85,7 +87,8 @@ void run(const Options& options) {
         {"showcase", make_showcase}};
     for (const std::string& name : options.names) {
         if (!scenes.contains(name)) {
-            throw Error(ExitCode::usage, "no scene is called " + name + "; see nearlight-scenes --help");
+            throw Error(ErrorKind::invalid_argument,
+                        "no scene is called " + name + "; see nearlight-scenes --help");
         }
     }
     for (const auto& [name, make] : scenes) {
@@ -108,9 +111,9 @@ int main(int argc, char** argv) {
         return 0;
     } catch (const Error& error) {
         std::fprintf(stderr, "nearlight-scenes: %s\n", error.what());
-        return static_cast<int>(error.code());
+        return error.kind() == ErrorKind::invalid_argument ? 2 : 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "nearlight-scenes: %s\n", error.what());
-        return static_cast<int>(ExitCode::runtime);
+        return 1;
     }
 }

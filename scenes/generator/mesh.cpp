@@ -5,7 +5,7 @@
 
 #include "scenes/generator/noise.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 uint Mesh::add_vertex(Vec3 position, Vec3 normal, float u, float v) {
     vertices.push_back({position, u, normal, v});
@@ -131,4 +131,4 @@ void Model::place(const Model& other, Vec3 position, float degrees) {
     add(other, translation(position.x, position.y, position.z) * rotation(0, 1, 0, degrees));
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

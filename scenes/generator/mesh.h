@@ -9,7 +9,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 struct Mesh {
     std::vector<Vertex> vertices;
@@ -53,4 +53,4 @@ class Model {
     std::map<std::string, Mesh> parts_;
 };
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

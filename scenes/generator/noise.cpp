@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 float lattice_value(int x, int y, int z) {
@@ -48,4 +48,4 @@ float fractal_noise(Vec3 p, int octaves) {
     return sum;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -3,7 +3,7 @@
 
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr int kSegments = 72;
@@ -298,4 +298,4 @@ Model make_crock(float height, const std::string& glaze, const std::string& trim
     return sized;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

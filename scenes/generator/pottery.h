@@ -5,7 +5,7 @@
 #include "scenes/generator/curves.h"
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// A handle in the half plane z = 0, x > 0 through the points (distance from axis, height).
 Mesh make_handle(std::span<const Vec3> points, float radius);
@@ -27,4 +27,4 @@ Model make_pot(Pot kind, const std::string& glaze, const std::string& trim);
 /// A storage crock of the given height with a lid, two lugs and two painted rings.
 Model make_crock(float height, const std::string& glaze, const std::string& trim, bool lid);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

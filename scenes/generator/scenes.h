@@ -8,7 +8,7 @@
 #include "scenes/generator/files.h"
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 struct SceneFiles {
     Model model;                            ///< geometry/PART.ply
@@ -21,4 +21,4 @@ SceneFiles make_desk();
 SceneFiles make_stone_and_tea(float detail);
 SceneFiles make_showcase();
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

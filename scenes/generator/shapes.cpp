@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 float component(Vec3 v, int axis) {
@@ -288,4 +288,4 @@ std::pair<Mesh, Mesh> split(const Mesh& mesh, const std::function<bool(Vec3)>& i
     return result;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

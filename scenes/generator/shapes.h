@@ -7,7 +7,7 @@
 #include "scenes/generator/curves.h"
 #include "scenes/generator/mesh.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 
 /// Stands on y = 0, centred in x and z, with rounded edges. u runs along the longer side of each face, in
 /// metres.
@@ -36,4 +36,4 @@ Mesh sheet(const std::function<Vec3(float, float)>& surface, int u_steps, int v_
 /// Parts of the mesh whose triangles' centres satisfy `inside`, and the others.
 std::pair<Mesh, Mesh> split(const Mesh& mesh, const std::function<bool(Vec3)>& inside);
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -5,7 +5,7 @@
 #include "scenes/generator/scenes.h"
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr float kWidth = 1.9f, kDepth = 0.46f, kHeight = 2.15f;
@@ -157,4 +157,4 @@ SceneFiles make_showcase() {
     return scene;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

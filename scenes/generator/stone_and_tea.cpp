@@ -6,7 +6,7 @@
 #include "scenes/generator/scenes.h"
 #include "scenes/generator/shapes.h"
 
-namespace nearlight::scenes {
+namespace nearlight::core::scenes {
 namespace {
 
 constexpr float kTable = 0.76f;
@@ -187,4 +187,4 @@ SceneFiles make_stone_and_tea(float detail) {
     return scene;
 }
 
-}  // namespace nearlight::scenes
+}  // namespace nearlight::core::scenes

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(Fnv1a, HasThePublishedValues) {
@@ -46,4 +46,4 @@ TEST(HexDigits, AreInReadingOrder) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
@@ -73,4 +73,4 @@ TEST(Random, UniformStaysBelowOneAndHasTheRightMean) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using testing::IsEmpty;
@@ -83,4 +83,4 @@ TEST(BuildBench, DescribesFourTreesOverTheSameRays) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

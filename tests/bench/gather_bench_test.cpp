@@ -15,7 +15,7 @@
 #include "host/reference/reference_gather.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 /// What a camera sees of a room full of noisy spheres, and VPLs in it.
@@ -248,4 +248,4 @@ TEST(GatherWorkload, VplsOfASceneWithoutLampsLieOnItsSurfaces) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

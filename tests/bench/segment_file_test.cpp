@@ -11,13 +11,13 @@
 #include "tests/image/temporary_folder.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 template <typename Action>
 void expect_refusal(const std::string& text, Action&& action) {
     const Error error = error_of(std::forward<Action>(action));
-    EXPECT_EQ(error.code(), ExitCode::file);
+    EXPECT_EQ(error.kind(), ErrorKind::file);
     EXPECT_TRUE(mentions(error, text));
 }
 
@@ -128,4 +128,4 @@ TEST_F(SegmentFile, RefusesWrongContents) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -11,7 +11,7 @@
 #include "host/bvh/bvh.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 std::vector<uint> all_triangles(const Scene& scene) {
@@ -95,4 +95,4 @@ TEST_F(TraceBenchOnDevice, AgreesWithEmbree) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

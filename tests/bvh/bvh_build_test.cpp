@@ -9,7 +9,7 @@
 #include "host/bvh/flatten.h"
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::add_triangle;
@@ -186,4 +186,4 @@ TEST(BvhBuild, GlassGoesToATreeOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "tests/bvh/soup.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class BvhCache : public testing::Test {
@@ -139,4 +139,4 @@ TEST_F(BvhCache, KeepsNothingWhereThereIsNoFolderOrLittleToBuild) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using testing::Contains;
@@ -92,4 +92,4 @@ TEST(BvhCheck, WrongDepthAndUnequalArrays) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
+#include "host/base/math.h"
 #include "host/bvh/child_order.h"
 #include "host/bvh/flatten.h"
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::add_triangle;
@@ -25,10 +25,9 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr BvhConfig kQuality{.quality = BvhQuality::quality};
 
-void expect_sound(const Scene& scene, const BvhConfig& config = kQuality) {
+void expect_sound_and_small(const Scene& scene, const BvhConfig& config = kQuality) {
     const Bvh bvh = build_all(scene, config);
     EXPECT_THAT(check_bvh(bvh, scene, all_ids(scene)), IsEmpty());
     EXPECT_LE(static_cast<float>(bvh.triangles.size()),
@@ -46,15 +45,15 @@ Scene huge_and_tiny() {
 TEST(BvhQuality, SmallCounts) {
     for (const int count : {0, 1, 2, 3, 5, 17, 40}) {
         SCOPED_TRACE(count);
-        expect_sound(random_soup(count, 4.0f, 3));
+        expect_sound_and_small(random_soup(count, 4.0f, 3));
     }
 }
 
 TEST(BvhQuality, SoupsAndLeafSizes) {
     for (const uint leaf_size : {1u, 4u, 16u}) {
         SCOPED_TRACE(leaf_size);
-        expect_sound(random_soup(2000, 3.0f, leaf_size),
-                     {.quality = BvhQuality::quality, .max_leaf_triangles = leaf_size});
+        expect_sound_and_small(random_soup(2000, 3.0f, leaf_size),
+                               {.quality = BvhQuality::quality, .max_leaf_triangles = leaf_size});
     }
 }
 
@@ -78,11 +77,11 @@ TEST(BvhQuality, DegenerateHugeAndCoincidentTriangles) {
         add_triangle(scene, {0, 0, 0}, {1e-42f, 0, 0}, {0, 1e-42f, 0});  // denormal
         add_triangle(scene, {0, 0, 0}, {3, 1, 2}, {1, 5, 0});            // 20 times the same
     }
-    expect_sound(scene);
+    expect_sound_and_small(scene);
     add_triangle(scene, {-1e12f, 0, -1e12f}, {1e12f, 1, -1e12f}, {0, 2, 1e12f});
-    expect_sound(scene);
+    expect_sound_and_small(scene);
     add_triangle(scene, {-3e38f, 0, 0}, {3e38f, 1, 0}, {0, 3e38f, 0});
-    expect_sound(scene);
+    expect_sound_and_small(scene);
 }
 
 TEST(BvhQuality, CutsPayForLongDiagonals) {
@@ -203,4 +202,4 @@ TEST(ChildOrder, WhatOccludesComesFirst) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

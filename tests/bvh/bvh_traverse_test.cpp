@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "host/base/math.h"
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Double3 {
     double x, y, z;
@@ -193,4 +191,4 @@ TEST(BvhTraverse, AnEmptyTreeAndDegenerateTrianglesAreNeverHit) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

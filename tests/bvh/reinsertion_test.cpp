@@ -10,7 +10,7 @@
 #include "host/bvh/flatten.h"
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::add_triangle;
@@ -124,4 +124,4 @@ TEST(Reinsertion, KeepsToTheGreatestDepth) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/base/random.h"
 #include "host/bvh/bvh.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 inline Scene scene_of_one_material() {
     Scene scene;
@@ -88,4 +88,4 @@ inline Bvh build_all(const Scene& scene, const BvhConfig& config = {}) {
     return build_bvh(scene, all_ids(scene), config);
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(ThreadLimit, HoldsWhileItLives) {
@@ -20,4 +20,4 @@ TEST(ThreadLimit, HoldsWhileItLives) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/bvh/collapse_plan.h"
 #include "tests/bvh/soup.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using testing::Contains;
@@ -150,4 +150,4 @@ TEST(WideBvhCheck, SeesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

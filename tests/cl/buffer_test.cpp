@@ -6,7 +6,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -72,7 +72,7 @@ TEST_F(BufferTest, MoreThanTheDeviceAllowsIsOutOfMemory) {
     on_each_device([](Device& device) {
         const std::size_t count = device.entry().max_allocation_bytes / sizeof(uint) + 1;
         const Error error = error_of([&] { Buffer<uint>(device, count); });
-        EXPECT_EQ(error.code(), ExitCode::out_of_memory);
+        EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
         EXPECT_TRUE(mentions(error, device.name()));
         EXPECT_TRUE(mentions(error, "MiB"));
     });
@@ -81,9 +81,9 @@ TEST_F(BufferTest, MoreThanTheDeviceAllowsIsOutOfMemory) {
 TEST_F(BufferTest, CountsWhoseBytesOverflowAreOutOfMemoryToo) {
     on_each_device([](Device& device) {
         const std::size_t count = std::numeric_limits<std::size_t>::max() / sizeof(uint) + 2;
-        EXPECT_EQ(error_of([&] { Buffer<uint>(device, count); }).code(), ExitCode::out_of_memory);
+        EXPECT_EQ(error_of([&] { Buffer<uint>(device, count); }).kind(), ErrorKind::out_of_memory);
     });
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -15,7 +15,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -132,7 +132,7 @@ TEST_F(CompileWorkerTest, BuildErrorsAreThoseOfThisProcess) {
     };
     const Error here = error_with(std::make_shared<ProgramCompiler>());
     const Error worker = error_with(std::make_shared<ProgramCompiler>(std::move(early_workers)));
-    EXPECT_EQ(worker.code(), ExitCode::kernel_build);
+    EXPECT_EQ(worker.kind(), ErrorKind::kernel_build);
     EXPECT_STREQ(worker.what(), here.what());
     EXPECT_TRUE(test::mentions(worker, "no_such_name"));
 }
@@ -157,4 +157,4 @@ TEST_F(CompileWorkerTest, AProgramNobodyWaitsForDoesNotDelayTheEnd) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -67,17 +67,17 @@ TEST_F(ChooseDevices, AListGivesEachOnceInItsOrder) {
 
 TEST_F(ChooseDevices, AListWithAnUnknownOrEmptyItemIsRefused) {
     for (const char* choice : {"0,17", ",", "0,,2"}) {
-        EXPECT_EQ(error_of([&] { chosen(choice); }).code(), ExitCode::no_device) << choice;
+        EXPECT_EQ(error_of([&] { chosen(choice); }).kind(), ErrorKind::no_device) << choice;
     }
 }
 
 TEST_F(ChooseDevices, WhatCannotBeSplitSaysSo) {
     const Error error = error_of([] { chosen("0/2"); });
-    EXPECT_EQ(error.code(), ExitCode::no_device);
+    EXPECT_EQ(error.kind(), ErrorKind::no_device);
     EXPECT_TRUE(mentions(error, "pthread-Common CPU"));
     EXPECT_TRUE(mentions(error, "1 to 1 parts"));
-    EXPECT_EQ(error_of([] { chosen("0/0"); }).code(), ExitCode::no_device);
-    EXPECT_EQ(error_of([] { chosen("0/x"); }).code(), ExitCode::no_device) << "is no name either";
+    EXPECT_EQ(error_of([] { chosen("0/0"); }).kind(), ErrorKind::no_device);
+    EXPECT_EQ(error_of([] { chosen("0/x"); }).kind(), ErrorKind::no_device) << "is no name either";
 }
 
 TEST_F(ChooseDevices, PartsOfARealDevice) {
@@ -101,8 +101,8 @@ TEST_F(ChooseDevices, PartsOfARealDevice) {
         EXPECT_EQ(second[0].part, halves[1].part);
         EXPECT_TRUE(mentions(error_of([&] { choose_devices(list, index + "/2.2"); }), "0 to 1"));
         const std::string too_many = std::to_string(whole.max_parts + 1);
-        EXPECT_EQ(error_of([&] { choose_devices(list, index + "/" + too_many); }).code(),
-                  ExitCode::no_device);
+        EXPECT_EQ(error_of([&] { choose_devices(list, index + "/" + too_many); }).kind(),
+                  ErrorKind::no_device);
     }
 }
 
@@ -125,7 +125,7 @@ TEST_F(ChooseDevices, TheEnvironmentChoosesWhereNothingElseDoes) {
 TEST_F(ChooseDevices, NoMatchListsWhatThereIs) {
     for (const char* choice : {"riva tnt", "17"}) {
         const Error error = error_of([&] { chosen(choice); });
-        EXPECT_EQ(error.code(), ExitCode::no_device);
+        EXPECT_EQ(error.kind(), ErrorKind::no_device);
         EXPECT_TRUE(mentions(error, choice));
         EXPECT_TRUE(mentions(error, "0 = pthread-Common CPU"));
         EXPECT_TRUE(mentions(error, "2 = Fast GPU"));
@@ -134,7 +134,7 @@ TEST_F(ChooseDevices, NoMatchListsWhatThereIs) {
 
 TEST_F(ChooseDevices, ADeviceThatCannotBeUsedSaysWhy) {
     const Error error = error_of([] { chosen("1"); });
-    EXPECT_EQ(error.code(), ExitCode::no_device);
+    EXPECT_EQ(error.kind(), ErrorKind::no_device);
     EXPECT_TRUE(mentions(error, "Broken GPU"));
     EXPECT_TRUE(mentions(error, "its driver has no compiler"));
 }
@@ -142,7 +142,7 @@ TEST_F(ChooseDevices, ADeviceThatCannotBeUsedSaysWhy) {
 TEST_F(ChooseDevices, NoDeviceAtAllSaysWhatToInstall) {
     for (const char* choice : {"", "all", "gpu"}) {
         const Error error = error_of([&] { choose_devices({}, choice); });
-        EXPECT_EQ(error.code(), ExitCode::no_device);
+        EXPECT_EQ(error.kind(), ErrorKind::no_device);
         EXPECT_TRUE(mentions(error, "pocl-opencl-icd"));
     }
     const DeviceList broken{.devices = {}, .problems = {"platform 'X' is broken"}};
@@ -163,4 +163,4 @@ TEST(DeviceList, EntriesAreNumberedInOrderAndDescribed) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

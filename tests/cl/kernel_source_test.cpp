@@ -9,7 +9,7 @@
 #include "tests/image/temporary_folder.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -90,15 +90,15 @@ TEST(KernelSource, MissingFilesAreNamedWithTheirIncluder) {
     const TemporaryFolder folder;
     write(folder / "a.cl", "#include \"lib/lost.cl\"\n");
     const Error included = error_of([&] { expand_kernel_source("a.cl", folder.path()); });
-    EXPECT_EQ(included.code(), ExitCode::kernel_build);
+    EXPECT_EQ(included.kind(), ErrorKind::kernel_build);
     EXPECT_TRUE(mentions(included, "lib/lost.cl"));
     EXPECT_TRUE(mentions(included, "included by a.cl"));
     EXPECT_TRUE(mentions(included, folder.path().string()));
 
     const Error embedded = error_of([] { expand_kernel_source("no_such_stage.cl"); });
-    EXPECT_EQ(embedded.code(), ExitCode::kernel_build);
+    EXPECT_EQ(embedded.kind(), ErrorKind::kernel_build);
     EXPECT_TRUE(mentions(embedded, "no_such_stage.cl"));
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "host/cl/shared_layout.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class LayoutTest : public test::DeviceTest {};
@@ -27,4 +27,4 @@ TEST_F(LayoutTest, DeviceAgreesWithHostOnEveryFact) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 const std::vector<unsigned char> kBinary{0, 1, 2, 0, 255, '\n', 7};
@@ -81,4 +81,4 @@ TEST(ProgramCache, AFolderThatCannotBeMadeIsNoError) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -145,7 +145,7 @@ TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
     write_kernel("broken.cl", "kernel void broken(global uint* out) {\n    out[0] = no_such_name;\n}\n");
     on_each_own_device([](Device& device) {
         const Error error = error_of([&] { wait_for(Program(device, "broken.cl"), "broken"); });
-        EXPECT_EQ(error.code(), ExitCode::kernel_build);
+        EXPECT_EQ(error.kind(), ErrorKind::kernel_build);
         EXPECT_TRUE(mentions(error, "kernels/broken.cl"));
         EXPECT_TRUE(mentions(error, device.name()));
         EXPECT_TRUE(mentions(error, device.entry().driver));
@@ -233,4 +233,4 @@ TEST_F(ProgramTest, ProfilerCountsLaunchesByKernel) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

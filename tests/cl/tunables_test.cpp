@@ -6,10 +6,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 DeviceEntry make_entry() {
@@ -118,4 +118,4 @@ TEST(Tunables, DamagedFilesAreRefusedWithAWarning) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 const std::string kCamera =
@@ -214,4 +214,4 @@ TEST_F(BadInputOnDevice, InterruptSavesWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 const std::string kSmall = "--size 24x16 --vpls 5 --repeats 1 ";
@@ -161,4 +161,4 @@ TEST(Bench, NamesItsParts) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -66,4 +66,4 @@ TEST(GatherBenchText, EndsWithTheRatios) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -6,7 +6,7 @@
 #include "host/cli/command.h"
 #include "tests/cli/run_program.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -82,4 +82,4 @@ TEST(Size, TwoNumbersWithinBounds) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

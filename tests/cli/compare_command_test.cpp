@@ -10,7 +10,7 @@
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class Compare : public testing::Test {
@@ -137,4 +137,4 @@ TEST_F(Compare, BadFilesAreFoundBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

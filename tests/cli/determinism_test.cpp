@@ -11,7 +11,7 @@
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// image_hash of a render with so many threads of PoCL; other drivers take no notice.
@@ -38,4 +38,4 @@ TEST(ThreadCount, DoesNotChangeABit) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

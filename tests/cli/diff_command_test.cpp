@@ -6,7 +6,7 @@
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Image constant_image(int width, int height, const std::vector<std::string>& channels, float value) {
@@ -109,4 +109,4 @@ TEST_F(Diff, OldMapSurvivesFailure) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

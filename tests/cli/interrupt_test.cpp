@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 // Each in a process of its own: signals are the process's.
@@ -35,4 +35,4 @@ TEST(InterruptDeathTest, SecondSignalEndsTheProcess) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

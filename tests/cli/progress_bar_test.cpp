@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(ProgressBar, LineTellsLabelPartAndTimeLeft) {
@@ -119,4 +119,4 @@ TEST(ProgressBar, OffTheTerminalNothingAppears) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

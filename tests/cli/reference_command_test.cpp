@@ -9,7 +9,7 @@
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Seen from above, as good as a single point.
@@ -163,4 +163,4 @@ TEST_F(Reference, CtrlCSavesWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

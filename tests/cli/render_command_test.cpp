@@ -9,7 +9,7 @@
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class Render : public testing::Test {
@@ -124,4 +124,4 @@ TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct ProgramResult {
     int exit_code = -1;
@@ -56,4 +56,4 @@ inline std::string quoted(const std::filesystem::path& path) {
     return std::string("'").append(path.string()).append("'");
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

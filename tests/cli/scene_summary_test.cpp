@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Scene one_lamp() {
@@ -76,4 +76,4 @@ TEST(SceneSummary, EmptySceneIsNoProblem) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

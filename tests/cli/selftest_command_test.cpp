@@ -7,7 +7,7 @@
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
@@ -69,4 +69,4 @@ TEST(Selftest, AnUnknownDeviceIsNoDevice) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

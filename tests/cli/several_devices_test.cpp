@@ -11,7 +11,7 @@
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class DeviceOption : public ::testing::Test {
@@ -81,4 +81,4 @@ TEST_F(DeviceOption, PartsOfADevice) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

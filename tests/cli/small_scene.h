@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 struct SmallView {
     int max_depth;
@@ -46,4 +46,4 @@ inline std::string floor_and_wall(const std::string& more = {}) {
   )" + more);
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

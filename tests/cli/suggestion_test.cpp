@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(Suggestion, EditDistance) {
@@ -27,4 +27,4 @@ TEST(Suggestion, NearestWord) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class Tune : public testing::Test {
@@ -67,4 +67,4 @@ TEST_F(Tune, WantsAFolderToKeepThingsIn) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

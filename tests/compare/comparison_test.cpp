@@ -9,19 +9,18 @@
 #include "host/base/hash.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
+#include "tests/compare/methods.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
 using test::error_of;
 using test::mentions;
-
-const Method kWalks{SamplerKind::instant_radiosity, std::nullopt};
 
 /// A floor and two walls with a point light between them.
 Scene corner() {
@@ -178,7 +177,7 @@ TEST_F(ComparisonTest, TakesAReferenceThatFitsAndRefusesOthers) {
         EXPECT_EQ(comparison->scenes[0].reference.file, file.string());
         const auto refused = [&](const std::string& because) {
             const Error error = error_of([&] { run(device, scene, given); });
-            EXPECT_EQ(error.code(), ExitCode::file);
+            EXPECT_EQ(error.kind(), ErrorKind::file);
             EXPECT_TRUE(mentions(error, because));
         };
         given.clamp_radius = 0.2f;
@@ -221,4 +220,4 @@ TEST(SceneNames, AreFitForFilesAndUnique) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

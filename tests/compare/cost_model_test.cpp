@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/cost_model.h"
+#include "tests/compare/methods.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 const Method kClose = default_method();
-const Method kWalks{SamplerKind::instant_radiosity, std::nullopt};
 
 TEST(CostModel, KnowsNothingAtFirst) {
     EXPECT_FALSE(CostModel().seconds(std::vector{CellId{kClose, 100, 0}}));
@@ -42,4 +42,4 @@ TEST(CellOrder, IsSeedBySeedThenCountByCount) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

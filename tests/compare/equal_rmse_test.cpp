@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// RMSE = scale / √VPLs, seconds = a thousandth a VPL, times `slowness`.
@@ -109,4 +109,4 @@ TEST(EqualRmse, AnErrorOfZeroIsNoTarget) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

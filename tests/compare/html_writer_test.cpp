@@ -7,7 +7,7 @@
 
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(HtmlWriter, EncodesTheVectorsOfRfc4648) {
@@ -45,4 +45,4 @@ TEST(HtmlWriter, EmbedsFiles) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "host/compare/picture_error.h"
 #include "host/image/metrics.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Image random_picture(int width, int height, std::uint64_t seed) {
@@ -138,4 +138,4 @@ TEST(PictureError, PixelsThatAreNoNumbersAreCountedAndLeftOut) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

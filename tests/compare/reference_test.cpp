@@ -12,7 +12,7 @@
 #include "tests/image/temporary_folder.h"
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -158,7 +158,7 @@ class ReferenceFile : public testing::Test {
     }
     void expect_refused(const std::string& because) {
         const Error error = error_of([&] { load_reference(file_, small_spec()); });
-        EXPECT_EQ(error.code(), ExitCode::file);
+        EXPECT_EQ(error.kind(), ErrorKind::file);
         EXPECT_TRUE(mentions(error, because));
         EXPECT_TRUE(mentions(error, file_.string()));
     }
@@ -194,9 +194,9 @@ TEST_F(ReferenceFile, OfAnotherDepthIsRefused) {
 TEST_F(ReferenceFile, OfUnknownOriginIsRefused) {
     write_image(file_, make_picture(2, 1));
     expect_refused("nearlight:sceneHash");
-    EXPECT_EQ(error_of([&] { load_reference(folder_ / "nowhere.exr", small_spec()); }).code(),
-              ExitCode::file);
+    EXPECT_EQ(error_of([&] { load_reference(folder_ / "nowhere.exr", small_spec()); }).kind(),
+              ErrorKind::file);
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

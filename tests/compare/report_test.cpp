@@ -14,13 +14,13 @@
 #include "host/compare/pictures.h"
 #include "host/compare/report_csv.h"
 #include "host/image/image_io.h"
+#include "tests/compare/methods.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-const Method kWalks{SamplerKind::instant_radiosity, std::nullopt};
 
 std::string decoded(const std::string& text) {
     const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -285,4 +285,4 @@ TEST(PlotScript, HoldsItsOwnData) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -29,7 +29,7 @@ TEST(CompareMethods, AllOfThemAreFoundByTheirNames) {
 TEST(CompareMethods, AnUnknownNameListsTheKnownOnes) {
     for (const char* name : {"metro", "", "close-range:", "instant-radiosity:paper"}) {
         const Error error = error_of([&] { parse_methods(name); });
-        EXPECT_EQ(error.code(), ExitCode::usage) << name;
+        EXPECT_EQ(error.kind(), ErrorKind::invalid_argument) << name;
         EXPECT_TRUE(mentions(error, "instant-radiosity")) << name;
         EXPECT_TRUE(mentions(error, "close-range:paper")) << name;
     }
@@ -41,7 +41,7 @@ TEST(CompareMethods, NoneIsNamedTwiceUnderWhateverName) {
     for (const std::string& list :
          {std::string("instant-radiosity,close-range,instant-radiosity"), "close-range," + default_name}) {
         const Error error = error_of([&] { parse_methods(list); });
-        EXPECT_EQ(error.code(), ExitCode::usage);
+        EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
         EXPECT_TRUE(mentions(error, "twice"));
     }
 }
@@ -54,7 +54,7 @@ TEST(CompareLists, WrongCountsAreNamed) {
     for (const char* list :
          {"0,abc", "abc", "", "100,", ",100", "100,,200", "-5", "1.5", "99999999999", "60000000", "1e3"}) {
         const Error error = error_of([&] { parse_vpl_counts(list); });
-        EXPECT_EQ(error.code(), ExitCode::usage) << list;
+        EXPECT_EQ(error.kind(), ErrorKind::invalid_argument) << list;
         EXPECT_TRUE(mentions(error, "--vpls")) << list;
     }
     EXPECT_TRUE(mentions(error_of([] { parse_vpl_counts("10,20,10"); }), "twice"));
@@ -63,7 +63,7 @@ TEST(CompareLists, WrongCountsAreNamed) {
 TEST(CompareLists, CropsAreFourNumbers) {
     EXPECT_EQ(parse_crop("1,2,30,40"), (Crop{1, 2, 30, 40}));
     for (const char* text : {"", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,5,5", "0,0,0,5", "0,0,5,0"}) {
-        EXPECT_EQ(error_of([&] { parse_crop(text); }).code(), ExitCode::usage) << text;
+        EXPECT_EQ(error_of([&] { parse_crop(text); }).kind(), ErrorKind::invalid_argument) << text;
     }
 }
 
@@ -73,7 +73,7 @@ std::string complaint(Change&& change) {
     CompareSettings settings;
     change(settings);
     const Error error = error_of([&] { check_settings(settings); });
-    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
     return error.what();
 }
 
@@ -107,4 +107,4 @@ TEST(CompareSettingsCheck, WhatDoesNotGoTogetherIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 TEST(Statistics, QuantilesOfStudentAreThoseOfTheTables) {
@@ -90,4 +90,4 @@ TEST(Statistics, AFitNeedsTwoDifferentPointsWithLogarithms) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

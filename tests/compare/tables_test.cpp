@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/tables.h"
+#include "tests/compare/methods.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
-
-const Method kWalks{SamplerKind::instant_radiosity, std::nullopt};
 
 Cell cell(const Method& method, uint vpls, uint seed, double squared_error, double mean_ratio = 1.0) {
     Cell result{
@@ -101,4 +100,4 @@ TEST(NoiseRemark, SpeaksUpFromAThirdOfTheSmallestRmseOn) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

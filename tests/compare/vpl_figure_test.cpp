@@ -9,7 +9,7 @@
 #include "host/compare/pictures.h"
 #include "host/scene/pinhole_camera.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 SceneCamera camera() {
@@ -65,4 +65,4 @@ TEST(VplFigure, CountsAndDrawsWhatIsInThePicture) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

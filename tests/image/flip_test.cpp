@@ -10,7 +10,7 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using Pixels = std::vector<Vec3>;
@@ -135,4 +135,4 @@ TEST(Flip, TinyPicturesAndBrightOnesAreFine) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,12 +8,12 @@
 #include <csignal>
 #include <fstream>
 
-#include "host/base/error.h"
 #include "host/base/random.h"
 #include "host/image/color.h"
+#include "nearlight/error.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,11 +40,11 @@ void write_text(const fs::path& file, const std::string& text) {
 
 /// The message of the Error that `action` throws with code `code`.
 template <typename Action>
-std::string error_of(ExitCode code, Action action) {
+std::string error_of(ErrorKind code, Action action) {
     try {
         action();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), code) << error.what();
+        EXPECT_EQ(error.kind(), code) << error.what();
         return error.what();
     }
     ADD_FAILURE() << "no error";
@@ -124,7 +124,7 @@ TEST(ImageIo, ExrKeepsMetadata) {
         EXPECT_EQ(read.at(name), options.metadata.at(name)) << name;
     }
     EXPECT_FALSE(read.contains("worldToCamera"));
-    error_of(ExitCode::file, [&] { read_metadata(folder / "b.exr"); });
+    error_of(ErrorKind::file, [&] { read_metadata(folder / "b.exr"); });
 }
 
 TEST(ImageIo, PngIsExposedAndSrgbEncoded) {
@@ -192,7 +192,7 @@ TEST_P(Readable, WholeFileIsReadAndTruncatedOneIsAnError) {
     const std::string text = read_text(file);
     for (const double part : {0.0, 0.01, 0.3, 0.6, 0.9}) {
         write_text(file, text.substr(0, static_cast<std::size_t>(static_cast<double>(text.size()) * part)));
-        const std::string message = error_of(ExitCode::file, [&] { read_image(file); });
+        const std::string message = error_of(ErrorKind::file, [&] { read_image(file); });
         EXPECT_NE(message.find(file.string()), std::string::npos) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
@@ -212,26 +212,27 @@ TEST(ImageIo, PfmIsReadTopRowFirst) {
     EXPECT_EQ(image.height, 2);
     EXPECT_EQ(image.values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
     write_text(folder / "a.pfm", text.substr(0, text.size() - 3));
-    error_of(ExitCode::file, [&] { read_image(folder / "a.pfm"); });
+    error_of(ErrorKind::file, [&] { read_image(folder / "a.pfm"); });
 }
 
 TEST(ImageIo, ReadingNamesTheFileAndTheReason) {
     const TemporaryFolder folder;
     EXPECT_NE(
-        error_of(ExitCode::file, [&] { read_image(folder / "none.exr"); }).find("none.exr': no such file"),
+        error_of(ErrorKind::file, [&] { read_image(folder / "none.exr"); }).find("none.exr': no such file"),
         std::string::npos);
-    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder.path()); }).find("folder"), std::string::npos);
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder.path()); }).find("folder"),
+              std::string::npos);
     write_text(folder / "text.exr", "this is no picture");
-    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder / "text.exr"); }).find("text.exr"),
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "text.exr"); }).find("text.exr"),
               std::string::npos);
     write_text(folder / "what.ever", "this is no picture");
-    error_of(ExitCode::file, [&] { read_image(folder / "what.ever"); });
+    error_of(ErrorKind::file, [&] { read_image(folder / "what.ever"); });
 }
 
 TEST(ImageIo, HeadersThatPromiseTooMuchAreErrors) {
     const TemporaryFolder folder;
     write_text(folder / "a.ppm", "P6 60000 60000 255\nabc");
-    EXPECT_NE(error_of(ExitCode::file, [&] { read_image(folder / "a.ppm"); }).find("promises more"),
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "a.ppm"); }).find("promises more"),
               std::string::npos);
 }
 
@@ -253,7 +254,7 @@ TEST(ImageIo, BrokenBytesNeverBreakTheReader) {
                                                    static_cast<std::size_t>(image.height) *
                                                    image.channel_count());
             } catch (const Error& error) {
-                EXPECT_EQ(error.code(), ExitCode::file) << error.what();
+                EXPECT_EQ(error.kind(), ErrorKind::file) << error.what();
             }
         }
     }
@@ -290,8 +291,8 @@ TEST(ImageIo, PartialOrTooManyRowsAreRefused) {
     const TemporaryFolder folder;
     ImageWriter writer(folder / "a.exr", 2, 2, {"R", "G", "B"});
     const std::vector<float> values(2 * 3 * 3);
-    error_of(ExitCode::runtime, [&] { writer.write_rows(std::span(values).first(7)); });
-    error_of(ExitCode::runtime, [&] { writer.write_rows(values); });
+    error_of(ErrorKind::failure, [&] { writer.write_rows(std::span(values).first(7)); });
+    error_of(ErrorKind::failure, [&] { writer.write_rows(values); });
 }
 
 TEST(ImageIo, OldFileSurvivesUntilCommit) {
@@ -326,16 +327,16 @@ TEST(ImageIo, UnwritablePlacesAreErrors) {
     const TemporaryFolder folder;
     const Image image = noise(2, 2, {"R", "G", "B"});
     EXPECT_NE(
-        error_of(ExitCode::file, [&] { write_image(folder / "none/a.exr", image); }).find("No such file"),
+        error_of(ErrorKind::file, [&] { write_image(folder / "none/a.exr", image); }).find("No such file"),
         std::string::npos);
     write_text(folder / "file", "");
-    error_of(ExitCode::file, [&] { write_image(folder / "file/a.exr", image); });
+    error_of(ErrorKind::file, [&] { write_image(folder / "file/a.exr", image); });
     fs::create_directory(folder / "folder.exr");
-    error_of(ExitCode::file, [&] { write_image(folder / "folder.exr", image); });
+    error_of(ErrorKind::file, [&] { write_image(folder / "folder.exr", image); });
     EXPECT_EQ(folder.file_count(), 2u);
-    error_of(ExitCode::usage, [&] { write_image(folder / "a.gif", image); });
-    error_of(ExitCode::usage, [&] { write_image(folder / "a", image); });
-    error_of(ExitCode::file, [&] { write_image(folder / "a.png", noise(2, 2, {"Y"})); });
+    error_of(ErrorKind::invalid_argument, [&] { write_image(folder / "a.gif", image); });
+    error_of(ErrorKind::invalid_argument, [&] { write_image(folder / "a", image); });
+    error_of(ErrorKind::file, [&] { write_image(folder / "a.png", noise(2, 2, {"Y"})); });
     EXPECT_EQ(folder.file_count(), 2u);
 }
 
@@ -369,7 +370,7 @@ TEST(ImageIo, FullDiskIsAnErrorAtWhateverByteItFills) {
         const std::string old_text = read_text(folder / name);
         for (const auto limit : {std::uintmax_t{0}, std::uintmax_t{100}, size / 2, size - 1}) {
             const SmallDisk disk(limit);
-            error_of(ExitCode::file, [&] { write_image(folder / name, image); });
+            error_of(ErrorKind::file, [&] { write_image(folder / name, image); });
         }
         EXPECT_EQ(read_text(folder / name), old_text);
     }
@@ -403,4 +404,4 @@ TEST(ImageIo, StreamingKeepsMemoryLow) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/error.h"
 #include "host/base/random.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -84,7 +84,7 @@ TEST(Metrics, SizesMustAgree) {
         compare_images(make_image(2, 3, {"R", "G", "B"}), make_image(3, 2, {"R", "G", "B"}));
         FAIL() << "no error";
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::file);
+        EXPECT_EQ(error.kind(), ErrorKind::file);
     }
 }
 
@@ -106,4 +106,4 @@ TEST(Metrics, FlipMapIsDarkWhereNothingDiffers) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "host/base/random.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::string random_bytes(std::size_t count) {
@@ -64,4 +64,4 @@ TEST_F(Pnm, OthersAreLeftToOpenImageIo) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

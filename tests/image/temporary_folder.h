@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// Made empty, removed with everything in it at the end.
 class TemporaryFolder {
@@ -40,4 +40,4 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace nearlight
+}  // namespace nearlight::core

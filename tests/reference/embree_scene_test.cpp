@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/embree_scene.h"
+#include "host/base/math.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +11,11 @@
 #include "host/reference/brute_force.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 struct TestRay {
@@ -244,4 +244,4 @@ TEST(EmbreeScene, AnEmptySceneHasNoHits) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

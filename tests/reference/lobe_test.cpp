@@ -6,7 +6,7 @@
 #include "host/base/random.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Surface flat_surface(const Material& material) {
@@ -120,4 +120,4 @@ TEST(Lobe, CoatTakesItsFresnelShareFromTheBase) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

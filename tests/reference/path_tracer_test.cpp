@@ -6,11 +6,11 @@
 #include <set>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/base/random.h"
+#include "nearlight/error.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -397,4 +397,4 @@ TEST(PathTracer, SenselessSettingsAreRefused) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

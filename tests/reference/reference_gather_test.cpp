@@ -7,7 +7,7 @@
 #include "host/reference/path_tracer.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -149,4 +149,4 @@ TEST(ReferenceGather, ManyVplsAreTheClampedPathTracer) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

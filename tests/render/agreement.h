@@ -12,7 +12,7 @@
 #include "tests/render/convergence.h"
 #include "tests/render/rendering.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// Pictures are square, so many pixels wide.
 inline constexpr int kAgreementSize = 32;
@@ -45,4 +45,4 @@ inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sam
     }
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

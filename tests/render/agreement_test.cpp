@@ -7,7 +7,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -101,4 +101,4 @@ TEST_F(Agreement, LocalWithoutClamp) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 
 #include "tests/support/error_matchers.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::error_of;
@@ -40,7 +40,7 @@ BandWorker failing_after(const std::string& name, uint good) {
     return {name, [good] {
                 return [left = good](uint index, const BandProgress&) mutable -> std::optional<FinishedBand> {
                     if (left-- == 0) {
-                        throw Error(ExitCode::runtime, "the device was unplugged");
+                        throw Error(ErrorKind::failure, "the device was unplugged");
                     }
                     return numbered(index);
                 };
@@ -163,7 +163,7 @@ TEST(BandSharing, OneThatFailsWhenAllElseIsDoneIsReplacedToo) {
                                     EXPECT_EQ(index, 0u);
                                     taken.count_down();
                                     std::this_thread::sleep_for(60ms);
-                                    throw Error(ExitCode::runtime, "lost the first band");
+                                    throw Error(ErrorKind::failure, "lost the first band");
                                 };
                             }};
     const BandWorker sound{"sound", [&] {
@@ -181,7 +181,8 @@ TEST(BandSharing, OneThatFailsWhenAllElseIsDoneIsReplacedToo) {
 }
 
 TEST(BandSharing, AWorkerThatDoesNotStartIsLeftOut) {
-    const BandWorker broken{"broken", []() -> BandMaker { throw Error(ExitCode::out_of_memory, "no room"); }};
+    const BandWorker broken{"broken",
+                            []() -> BandMaker { throw Error(ErrorKind::out_of_memory, "no room"); }};
     const Result result = share({broken, steady("sound")});
     EXPECT_EQ(result.order, from_first_to_last());
     EXPECT_TRUE(result.outcome.shares[0].failed);
@@ -189,7 +190,7 @@ TEST(BandSharing, AWorkerThatDoesNotStartIsLeftOut) {
 
 TEST(BandSharing, WhenAllFailTheLastErrorIsThrown) {
     const Error error = error_of([] { share({failing_after("one", 2), failing_after("two", 3)}); });
-    EXPECT_EQ(error.code(), ExitCode::runtime);
+    EXPECT_EQ(error.kind(), ErrorKind::failure);
     EXPECT_TRUE(mentions(error, "unplugged"));
 }
 
@@ -215,10 +216,10 @@ TEST(BandSharing, WhatTheSinkThrowsEndsTheWork) {
     const std::vector<BandWorker> workers{steady("one", 1ms), steady("two", 1ms)};
     const Error error = error_of([&] {
         share_bands(
-            kBands, kBands, workers, [](FinishedBand&) { throw Error(ExitCode::file, "the disk is full"); },
+            kBands, kBands, workers, [](FinishedBand&) { throw Error(ErrorKind::file, "the disk is full"); },
             [](double) { return true; });
     });
-    EXPECT_EQ(error.code(), ExitCode::file);
+    EXPECT_EQ(error.kind(), ErrorKind::file);
 }
 
 TEST(AddShares, KeepsDevicesOfOneNameApart) {
@@ -243,4 +244,4 @@ TEST(AddShares, DevicesThatAreGoneKeepWhatTheyDid) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

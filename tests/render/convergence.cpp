@@ -9,7 +9,7 @@
 
 #include "host/reference/path_tracer.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 constexpr std::array<const char*, 3> kColors{".R", ".G", ".B"};
@@ -245,4 +245,4 @@ Verdict judge_convergence(std::span<const Image> renders, const Image& truth, co
     return verdict;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -26,7 +26,7 @@
 
 #include "host/image/image.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 inline constexpr double kFalseAlarm = 1e-4;
 
@@ -46,4 +46,4 @@ Verdict judge_convergence(std::span<const Image> renders, const Image& truth, co
 double student_tail(double t, double freedom);
 double student_quantile(double probability, double freedom);
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

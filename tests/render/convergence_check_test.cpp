@@ -13,7 +13,7 @@
 #include "tests/render/rendering.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::judge_convergence;
@@ -168,4 +168,4 @@ TEST_F(ConvergenceMistakes, AreFound) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

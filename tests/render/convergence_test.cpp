@@ -16,7 +16,7 @@
 #include "tests/support/real_scenes.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -147,4 +147,4 @@ TEST_F(Convergence, VeachBidir) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -88,4 +88,4 @@ TEST_F(Determinism, PlansAreReallyCut) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

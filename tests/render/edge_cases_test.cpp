@@ -8,7 +8,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -115,4 +115,4 @@ TEST_F(EdgeCases, ALightThatShinesPastTheSceneGivesNone) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

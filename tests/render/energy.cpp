@@ -7,7 +7,7 @@
 
 #include "host/reference/path_tracer.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 constexpr int kTruthSpp = 256;
@@ -181,4 +181,4 @@ Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photogr
     return verdict;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

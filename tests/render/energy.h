@@ -17,7 +17,7 @@
 #include "host/scene/scene.h"
 #include "tests/render/convergence.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct EnergyClass {
     std::size_t camera = 0;
@@ -70,4 +70,4 @@ bool in_region(const CloseRange& region, Vec3 p);
 Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photographs,
                        const std::map<EnergyClass, Expected>& truth);
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

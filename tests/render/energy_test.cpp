@@ -16,7 +16,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -24,7 +24,7 @@ using test::EnergyClass;
 using test::Verdict;
 
 constexpr uint kDepths = 4;
-constexpr uint kSeeds = 24;
+constexpr uint kEnergySeeds = 24;
 
 /// A closed room with a block in it, under a point light.
 Scene room_with_block() {
@@ -78,7 +78,7 @@ class Energy : public test::DeviceTest {
                                                                  uint vpl_count, const Change& change = {},
                                                                  uint depths = kDepths) {
         std::vector<std::map<EnergyClass, double>> photographs;
-        for (uint seed = 0; seed < kSeeds; ++seed) {
+        for (uint seed = 0; seed < kEnergySeeds; ++seed) {
             VplSet set = sample_vpls(bench.stages, {.scene = bench.on_device.buffers,
                                                     .view = bench.view.pilot,
                                                     .sampler = variant.sampler,
@@ -209,4 +209,4 @@ TEST_F(Energy, DividingByWhatWasAcceptedIsFound) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

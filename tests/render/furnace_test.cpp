@@ -12,7 +12,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -24,7 +24,7 @@ constexpr float kAlbedo = 0.6f;
 /// nearer to the light than the corners are.
 constexpr double kFacets = 0.01;
 
-Scene furnace() {
+Scene unit_furnace() {
     Scene scene;
     add_inward_sphere(scene, 1.0f, 3, add_material(scene, lambertian({kAlbedo, kAlbedo, kAlbedo})));
     add_point_light(scene, {0, 0, 0}, {kIntensity, kIntensity, kIntensity});
@@ -48,7 +48,7 @@ RenderSettings furnace_settings(SamplerKind sampler, Policy policy, uint max_dep
 
 /// Direct and indirect radiance in the mean over the picture.
 std::pair<double, double> render_furnace(Device& device, const RenderSettings& settings) {
-    const Image image = render_image(device, furnace(), settings).image;
+    const Image image = render_image(device, unit_furnace(), settings).image;
     return {channel_mean(image, "direct.G"), channel_mean(image, "indirect.G")};
 }
 
@@ -63,7 +63,7 @@ double albedo_sum(uint first, uint last) {
 
 /// Share of the sphere's area that triangles reaching into the view have.
 double share_in_view() {
-    const Scene scene = furnace();
+    const Scene scene = unit_furnace();
     const CloseRange region = make_close_range(make_pinhole_camera(scene.camera, 24, 24), 10.0f);
     double inside = 0;
     double all = 0;
@@ -116,4 +116,4 @@ TEST_F(Furnace, PolicyPaperLosesExactlyMultiBounceLightInTheCloseRange) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -174,4 +174,4 @@ TEST(PassAverage, SendsNoRowThatNoPassReached) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class PlanTest : public test::DeviceTest {};
@@ -52,4 +52,4 @@ TEST_F(PlanTest, FirstBandIsShort) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

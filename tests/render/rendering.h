@@ -8,7 +8,7 @@
 #include "host/render/renderer.h"
 #include "host/stages/film.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct Rendering {
     Image image;
@@ -54,4 +54,4 @@ inline std::vector<Image> render_seeds(Renderer& renderer, RenderSettings settin
     return images;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -13,7 +13,7 @@
 #include "tests/support/error_matchers.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -153,8 +153,8 @@ TEST_F(SeveralDevices, WhenAllFailItIsAnError) {
     Device& tiny_too = open(entry);
     EXPECT_EQ(test::error_of([&] {
                   render_on({&tiny, &tiny_too}, test::few_vpls());
-              }).code(),
-              ExitCode::out_of_memory);
+              }).kind(),
+              ErrorKind::out_of_memory);
 }
 
 TEST_F(SeveralDevices, StopWhenTheCallerWantsNoMore) {
@@ -170,4 +170,4 @@ TEST_F(SeveralDevices, StopWhenTheCallerWantsNoMore) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,7 +6,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -59,4 +59,4 @@ TEST_F(TunablesTest, NoneChangesABitOfThePicture) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

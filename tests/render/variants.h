@@ -7,7 +7,7 @@
 
 #include "host/samplers/sampler.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct Variant {
     SamplerKind sampler;
@@ -28,4 +28,4 @@ inline std::vector<Variant> all_variants() {
     return variants;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

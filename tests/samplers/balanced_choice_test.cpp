@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// Candidates along a line, the third number of each without rhyme or reason; weights as complete's are, in
@@ -175,4 +175,4 @@ TEST(BalancedChoice, WhatIsCertainIsDrawnAndWhatHasNoProbabilityIsNot) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

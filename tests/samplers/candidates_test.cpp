@@ -8,7 +8,7 @@
 #include "tests/samplers/divided_room.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::divided_room;
@@ -61,4 +61,4 @@ TEST_F(CandidatesTest, RowsThatWereNotKeptAreFoundAgain) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -9,7 +9,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 inline constexpr float kRoomAlbedo = 0.6f;
 inline constexpr float kLightFlux = 4 * kPi;  ///< W, of each colour
@@ -88,4 +88,4 @@ inline double power_at_depth(const VplSet& set, uint depth) {
     return sum;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -10,7 +10,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/spread.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -166,4 +166,4 @@ TEST_P(ImportanceSamplerTest, WithoutLightThereAreNoVpls) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

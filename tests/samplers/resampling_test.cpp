@@ -8,7 +8,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::vector<float> random_weights(std::size_t count) {
@@ -99,4 +99,4 @@ TEST(Resampling, ScalesThePowerOfTheChosen) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 std::vector<double> steps(const std::vector<float>& cdf) {
@@ -73,4 +73,4 @@ TEST(Distribution, NothingButZerosIsUniform) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

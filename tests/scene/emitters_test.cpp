@@ -7,7 +7,7 @@
 
 #include "host/scene/distribution.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -186,4 +186,4 @@ TEST(EnvironmentTable, WithoutEnvironmentThereIsOneBlackPixel) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "host/scene/emitters.h"
 #include "tests/scene/scene_files.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using nlohmann::json;
@@ -117,7 +117,7 @@ class GltfLoader : public testing::Test {
     GltfText gltf_;
 };
 
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
+void expect_close(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
     EXPECT_LT(length(a - b), tolerance)
         << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
 }
@@ -132,9 +132,9 @@ TEST_F(GltfLoader, ReadsTrianglesAsTextAndAsBinary) {
         const Scene scene = load_scene(binary ? files_.write("scene.glb", gltf_.binary())
                                               : files_.write("scene.gltf", gltf_.text()));
         ASSERT_EQ(scene.triangles.size(), 2u);
-        expect_near(corner(scene, 0, 1), {1, 0, 0});
-        expect_near(corner(scene, 1, 2), {0, 1, 0});
-        expect_near(scene.vertices[0].normal, {0, 0, 1});
+        expect_close(corner(scene, 0, 1), {1, 0, 0});
+        expect_close(corner(scene, 1, 2), {0, 1, 0});
+        expect_close(scene.vertices[0].normal, {0, 0, 1});
         EXPECT_EQ(scene.vertices[0].v, 0.0f) << "the lower left corner shows the last row of a texture";
         EXPECT_EQ(scene.vertices[2].v, 1.0f);
     }
@@ -147,9 +147,9 @@ TEST_F(GltfLoader, PlacesNodesBelowOneAnother) {
         {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}}};
     const Scene scene = load();
     ASSERT_EQ(scene.triangles.size(), 4u);
-    expect_near(corner(scene, 0, 1), {10, 2, 0});
-    expect_near(corner(scene, 0, 2), {8, 2, 0});
-    expect_near(corner(scene, 2, 1), {11, 0, 5});
+    expect_close(corner(scene, 0, 1), {10, 2, 0});
+    expect_close(corner(scene, 0, 2), {8, 2, 0});
+    expect_close(corner(scene, 2, 1), {11, 0, 5});
 }
 
 TEST_F(GltfLoader, StripsFansAndVerticesInTurn) {
@@ -163,7 +163,7 @@ TEST_F(GltfLoader, StripsFansAndVerticesInTurn) {
         if (mode == 5) {
             const Vec3 normal =
                 cross(corner(scene, 1, 1) - corner(scene, 1, 0), corner(scene, 1, 2) - corner(scene, 1, 0));
-            expect_near(normal, {0, 0, 1});
+            expect_close(normal, {0, 0, 1});
         }
     }
     gltf_.primitive()["mode"] = 1;  // lines
@@ -182,8 +182,8 @@ TEST_F(GltfLoader, NumbersOfAllTypes) {
         std::vector<std::int8_t>{0, 0, 127, 0, 0, 127, 0, 0, 127, 0, 0, -127}, 5120, "VEC3", 3, true);
     const Scene scene = load();
     EXPECT_FLOAT_EQ(scene.vertices[3].v, 0.8f);
-    expect_near(scene.vertices[0].normal, {0, 0, 1});
-    expect_near(scene.vertices[3].normal, {0, 0, -1});
+    expect_close(scene.vertices[0].normal, {0, 0, 1});
+    expect_close(scene.vertices[3].normal, {0, 0, -1});
 }
 
 TEST_F(GltfLoader, SparseAccessors) {
@@ -194,15 +194,15 @@ TEST_F(GltfLoader, SparseAccessors) {
                            {"indices", {{"bufferView", places}, {"componentType", 5123}, {"byteOffset", 0}}},
                            {"values", {{"bufferView", values}, {"byteOffset", 0}}}};
     const Scene scene = load();
-    expect_near(corner(scene, 0, 2), {7, 8, 9});
-    expect_near(corner(scene, 0, 1), {1, 0, 0});
+    expect_close(corner(scene, 0, 2), {7, 8, 9});
+    expect_close(corner(scene, 0, 1), {1, 0, 0});
 }
 
 TEST_F(GltfLoader, Materials) {
     json& pbr = gltf_.material()["pbrMetallicRoughness"];
     pbr = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}};
     EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_NONE);
-    expect_near(only_material().base, {0.2f, 0.4f, 0.6f});
+    expect_close(only_material().base, {0.2f, 0.4f, 0.6f});
     EXPECT_NE(only_material().flags & NEARLIGHT_MATERIAL_TWO_SIDED, 0u);
 
     pbr["roughnessFactor"] = 0.3;
@@ -214,7 +214,7 @@ TEST_F(GltfLoader, Materials) {
 
     pbr["metallicFactor"] = 1;
     EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_CONDUCTOR);
-    expect_near(only_material().specular, {0.2f, 0.4f, 0.6f});
+    expect_close(only_material().specular, {0.2f, 0.4f, 0.6f});
 
     gltf_.material()["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
     EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_THIN_DIELECTRIC);
@@ -224,9 +224,9 @@ TEST_F(GltfLoader, Materials) {
 
 TEST_F(GltfLoader, EmissionIsARadiance) {
     gltf_.material()["emissiveFactor"] = {1, 0.5, 0};
-    expect_near(only_material().emission, {1, 0.5f, 0});
+    expect_close(only_material().emission, {1, 0.5f, 0});
     gltf_.material()["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
-    expect_near(only_material().emission, {8, 4, 0});
+    expect_close(only_material().emission, {8, 4, 0});
 }
 
 /// Two rows, red above blue.
@@ -250,7 +250,7 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
         ASSERT_EQ(scene.images.size(), 1u) << to_string(scene.notes.back());
         EXPECT_EQ(scene.images[0].texels, (std::vector<std::uint32_t>{0xff0000ffu, 0xffff0000u}));
         EXPECT_EQ(scene.materials.at(0).base_texture, 0);
-        expect_near(scene.materials.at(0).base, {1, 1, 1});
+        expect_close(scene.materials.at(0).base, {1, 1, 1});
     }
     gltf_.root["bufferViews"].back()["byteLength"] = 1'000'000;
     for (const auto& [image, part] :
@@ -258,7 +258,7 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
         gltf_.root["images"] = {image};
         const Scene grey = load();
         EXPECT_EQ(grey.materials.at(0).base_texture, -1);
-        expect_near(grey.materials.at(0).base, {0.5f, 0.5f, 0.5f});
+        expect_close(grey.materials.at(0).base, {0.5f, 0.5f, 0.5f});
         EXPECT_THAT(grey.notes.at(0).text, HasSubstr(part));
     }
 }
@@ -304,11 +304,11 @@ TEST_F(GltfLoader, Lights) {
     }
     const Scene scene = load();
     ASSERT_EQ(scene.delta_emitters.size(), 3u);
-    expect_near(scene.delta_emitters[0].position, {0, 0, 1});
-    expect_near(scene.delta_emitters[0].radiance, {1, 0.5f, 0});
+    expect_close(scene.delta_emitters[0].position, {0, 0, 1});
+    expect_close(scene.delta_emitters[0].radiance, {1, 0.5f, 0});
     EXPECT_EQ(scene.delta_emitters[1].type, NEARLIGHT_EMITTER_SPOT);
-    expect_near(scene.delta_emitters[1].direction, {0, 0, -1});
-    expect_near(scene.delta_emitters[1].radiance, {2, 2, 2});
+    expect_close(scene.delta_emitters[1].direction, {0, 0, -1});
+    expect_close(scene.delta_emitters[1].radiance, {2, 2, 2});
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].beam_angle, 0.2f);
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].cutoff_angle, 0.4f);
     // At the middle of the scene, W/m².
@@ -331,10 +331,10 @@ TEST_F(GltfLoader, CamerasLookAlongMinusZ) {
         {{"camera", 0}, {"name", "front"}, {"translation", {0, 0, 3}}, {"scale", {2, 2, 2}}},
         {{"camera", 1}}};
     const SceneCamera front = load().camera;
-    expect_near(transform_vector(front.to_world, {0, 0, 1}), {0, 0, -1});
-    expect_near(transform_vector(front.to_world, {0, 1, 0}), {0, 1, 0});
-    expect_near(transform_vector(front.to_world, {1, 0, 0}), {-1, 0, 0});
-    expect_near(transform_point(front.to_world, {0, 0, 0}), {0, 0, 3});
+    expect_close(transform_vector(front.to_world, {0, 0, 1}), {0, 0, -1});
+    expect_close(transform_vector(front.to_world, {0, 1, 0}), {0, 1, 0});
+    expect_close(transform_vector(front.to_world, {1, 0, 0}), {-1, 0, 0});
+    expect_close(transform_point(front.to_world, {0, 0, 0}), {0, 0, 3});
     EXPECT_EQ(front.width, 640);
     EXPECT_EQ(front.height, 480);
     EXPECT_NEAR(std::tan(front.fov_x_degrees * std::numbers::pi / 360), std::tan(0.4) * 4 / 3, 1e-6);
@@ -348,7 +348,7 @@ TEST_F(GltfLoader, CamerasLookAlongMinusZ) {
             load({.parameters = {{name, value}}});
             ADD_FAILURE() << "no error";
         } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ExitCode::usage);
+            EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
         }
     }
 }
@@ -419,4 +419,4 @@ TEST_F(GltfLoader, WhatIsCutShortOrNoGltfIsRefused) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

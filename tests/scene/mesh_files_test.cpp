@@ -7,7 +7,7 @@
 #include "host/scene/ply_loader.h"
 #include "tests/scene/scene_files.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace test;
@@ -175,4 +175,4 @@ TEST(Mesh, SmoothNormalsAreWeightedByAngle) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

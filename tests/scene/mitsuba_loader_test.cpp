@@ -6,7 +6,7 @@
 #include "host/scene/texture.h"
 #include "tests/scene/scene_files.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace test;
@@ -424,4 +424,4 @@ TEST(MitsubaXml, AnEmptySceneIsASceneWithNotes) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

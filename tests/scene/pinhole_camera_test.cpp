@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 Vec3 direction(const PinholeCamera& camera, float x, float y) {
@@ -68,4 +68,4 @@ TEST(PinholeCamera, RefusesWhatHasNoPicture) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -3,7 +3,7 @@
 #include "host/scene/ply_loader.h"
 #include "tests/scene/scene_files.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace test;
@@ -74,4 +74,4 @@ TEST(RealScenes, TeapotPlyFiles) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

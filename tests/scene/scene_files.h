@@ -9,10 +9,10 @@
 #include <fstream>
 #include <string>
 
-#include "host/base/error.h"
 #include "host/scene/scene_loader.h"
+#include "nearlight/error.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 class SceneFiles {
   public:
@@ -49,7 +49,7 @@ std::string file_error(Load load) {
     try {
         load();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::file);
+        EXPECT_EQ(error.kind(), ErrorKind::file);
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         return error.what();
     }
@@ -76,4 +76,4 @@ inline void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 void expect_color(Vec3 a, Vec3 b) {
@@ -158,4 +158,4 @@ TEST(Scene, AlbedoIsTexturedAndTinted) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

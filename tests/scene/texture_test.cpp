@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 constexpr std::uint32_t kBlack = 0xff000000u;
@@ -14,7 +14,7 @@ constexpr std::uint32_t kWhite = 0xffffffffu;
 constexpr std::uint32_t kRed = 0xff0000ffu;
 constexpr std::uint32_t kBlue = 0xffff0000u;
 
-void expect_color(Vec3 a, Vec3 b, float tolerance = 1e-6f) {
+void expect_texel(Vec3 a, Vec3 b, float tolerance = 1e-6f) {
     EXPECT_NEAR(a.x, b.x, tolerance);
     EXPECT_NEAR(a.y, b.y, tolerance);
     EXPECT_NEAR(a.z, b.z, tolerance);
@@ -43,35 +43,35 @@ TEST(Texture, SrgbDecodingMatchesTheStandard) {
     EXPECT_EQ(table[255], 1.0f);
     EXPECT_NEAR(table[10], 10.0 / 255 / 12.92, 1e-9);
     EXPECT_NEAR(table[188], 0.5028865, 1e-6);  // the code of half the light
-    expect_color(decode_texel(0x00ff8000u), {0, table[128], 1});
+    expect_texel(decode_texel(0x00ff8000u), {0, table[128], 1});
 }
 
 TEST(Texture, TexelCentresGiveTheTexelAndVZeroIsTheBottom) {
-    expect_color(four_texels_at(0.25f, 0.25f), {1, 0, 0});
-    expect_color(four_texels_at(0.75f, 0.25f), {0, 0, 1});
-    expect_color(four_texels_at(0.25f, 0.75f), {0, 0, 0});
-    expect_color(four_texels_at(0.75f, 0.75f), {1, 1, 1});
+    expect_texel(four_texels_at(0.25f, 0.25f), {1, 0, 0});
+    expect_texel(four_texels_at(0.75f, 0.25f), {0, 0, 1});
+    expect_texel(four_texels_at(0.25f, 0.75f), {0, 0, 0});
+    expect_texel(four_texels_at(0.75f, 0.75f), {1, 1, 1});
 }
 
 TEST(Texture, BetweenCentresIsLinearInDecodedLight) {
-    expect_color(four_texels_at(0.5f, 0.75f), {0.5f, 0.5f, 0.5f});
-    expect_color(four_texels_at(0.375f, 0.25f), {0.75f, 0, 0.25f});
-    expect_color(four_texels_at(0.25f, 0.5f), {0.5f, 0, 0});
-    expect_color(four_texels_at(0.5f, 0.5f), {0.5f, 0.25f, 0.5f});
+    expect_texel(four_texels_at(0.5f, 0.75f), {0.5f, 0.5f, 0.5f});
+    expect_texel(four_texels_at(0.375f, 0.25f), {0.75f, 0, 0.25f});
+    expect_texel(four_texels_at(0.25f, 0.5f), {0.5f, 0, 0});
+    expect_texel(four_texels_at(0.5f, 0.5f), {0.5f, 0.25f, 0.5f});
 }
 
 TEST(Texture, EdgesMixWithTheOppositeEdge) {
     for (const float edge : {0.0f, 1.0f, -3.0f, 7.0f}) {
-        expect_color(four_texels_at(edge, 0.75f), {0.5f, 0.5f, 0.5f});
-        expect_color(four_texels_at(0.75f, edge), {0.5f, 0.5f, 1});
+        expect_texel(four_texels_at(edge, 0.75f), {0.5f, 0.5f, 0.5f});
+        expect_texel(four_texels_at(0.75f, edge), {0.5f, 0.5f, 1});
     }
-    expect_color(four_texels_at(-1e-9f, 0.75f), {0.5f, 0.5f, 0.5f});
+    expect_texel(four_texels_at(-1e-9f, 0.75f), {0.5f, 0.5f, 0.5f});
 }
 
 TEST(Texture, RepeatsInBothDirections) {
     for (const float shift : {-5.0f, -1.0f, 1.0f, 40.0f}) {
-        expect_color(four_texels_at(0.375f + shift, 0.25f), {0.75f, 0, 0.25f});
-        expect_color(four_texels_at(0.25f, 0.25f + shift), {1, 0, 0});
+        expect_texel(four_texels_at(0.375f + shift, 0.25f), {0.75f, 0, 0.25f});
+        expect_texel(four_texels_at(0.25f, 0.25f + shift), {1, 0, 0});
     }
 }
 
@@ -81,7 +81,7 @@ TEST(Texture, HugeAndUnknownCoordinatesAreSafe) {
         EXPECT_TRUE(is_finite(color));
         EXPECT_GE(std::min({color.x, color.y, color.z}), 0.0f);
     }
-    expect_color(four_texels_at(std::nanf(""), 0.25f), four_texels_at(0.0f, 0.0f));  // 0·nan spoils t too
+    expect_texel(four_texels_at(std::nanf(""), 0.25f), four_texels_at(0.0f, 0.0f));  // 0·nan spoils t too
 }
 
 TEST(Texture, PlacementIsAffine) {
@@ -95,7 +95,7 @@ TEST(Texture, PlacementIsAffine) {
     p.v_offset = 0.375f;
     const float u = 0.3f;
     const float v = 0.9f;
-    expect_color(texture_color(scene, scene.textures[0], u, v),
+    expect_texel(texture_color(scene, scene.textures[0], u, v),
                  four_texels_at(0.5f * u + 0.25f * v + 0.125f, -u + 2.0f * v + 0.375f));
 }
 
@@ -104,10 +104,10 @@ TEST(Texture, OddSizes) {
     scene.images[0] = {"column", 1, 3, {kWhite, kBlack, kRed}};
     const auto at = [&](float u, float v) { return texture_color(scene, scene.textures[0], u, v); };
     for (const float u : {0.0f, 0.2f, 0.5f, 0.99f}) {
-        expect_color(at(u, 0.5f / 3), {1, 0, 0});
-        expect_color(at(u, 1.5f / 3), {0, 0, 0});
-        expect_color(at(u, 2.5f / 3), {1, 1, 1});
-        expect_color(at(u, 0.0f), {1, 0.5f, 0.5f});
+        expect_texel(at(u, 0.5f / 3), {1, 0, 0});
+        expect_texel(at(u, 1.5f / 3), {0, 0, 0});
+        expect_texel(at(u, 2.5f / 3), {1, 1, 1});
+        expect_texel(at(u, 0.0f), {1, 0.5f, 0.5f});
     }
 }
 
@@ -119,15 +119,15 @@ TEST(Texture, CheckerboardColoursEqualHalvesAlike) {
     texture.parameters.color0 = {1, 0, 0};
     texture.parameters.color1 = {0, 1, 0};
     const auto at = [&](float u, float v) { return texture_color(scene, texture, u, v); };
-    expect_color(at(0.2f, 0.3f), {1, 0, 0});
-    expect_color(at(0.7f, 0.6f), {1, 0, 0});
-    expect_color(at(0.7f, 0.3f), {0, 1, 0});
-    expect_color(at(0.2f, 0.5f), {0, 1, 0});
-    expect_color(at(-0.2f, 3.2f), {0, 1, 0});
-    expect_color(at(-0.2f, -7.3f), {1, 0, 0});
+    expect_texel(at(0.2f, 0.3f), {1, 0, 0});
+    expect_texel(at(0.7f, 0.6f), {1, 0, 0});
+    expect_texel(at(0.7f, 0.3f), {0, 1, 0});
+    expect_texel(at(0.2f, 0.5f), {0, 1, 0});
+    expect_texel(at(-0.2f, 3.2f), {0, 1, 0});
+    expect_texel(at(-0.2f, -7.3f), {1, 0, 0});
     texture.parameters.u_scale = 2.0f;
-    expect_color(at(0.3f, 0.3f), {0, 1, 0});
+    expect_texel(at(0.3f, 0.3f), {0, 1, 0});
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "host/reference/sampling.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -91,4 +91,4 @@ TEST(HardViews, NextRoomHasItsLightFromNextDoor) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

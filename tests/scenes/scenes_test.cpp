@@ -15,8 +15,8 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace nearlight::scenes;
-using nearlight::Vec3;
+using namespace nearlight::core::scenes;
+using nearlight::core::Vec3;
 
 constexpr const char* kNames[] = {"cornell-box", "desk", "showcase", "stone-and-tea"};
 

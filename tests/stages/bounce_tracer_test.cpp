@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/bounce_tracer.h"
-
-#include <limits>
+#include "host/base/math.h"
 
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
@@ -9,7 +8,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -18,7 +17,6 @@ using test::SceneOnDevice;
 class BounceTracerTest : public test::DeviceTest {};
 
 constexpr float kAlbedo = 0.5f;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A floor under a point light, between a wall and a ceiling.
 Scene corner() {
@@ -134,4 +132,4 @@ TEST_F(BounceTracerTest, AddsNothingWhereThereIsNothingToTrace) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -14,7 +14,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -330,4 +330,4 @@ TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

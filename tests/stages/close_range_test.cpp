@@ -11,7 +11,7 @@
 #include "host/base/random.h"
 #include "host/scene/pinhole_camera.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 bool contains(const CloseRange& region, Vec3 p) {
@@ -97,4 +97,4 @@ TEST(CloseRange, PlanesAreUnitAndGoThroughTheCamera) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/sizes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::GuardedBuffer;
@@ -97,4 +97,4 @@ TEST_F(CompactionTest, ScratchIsWhatIsAllocated) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

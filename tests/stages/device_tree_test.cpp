@@ -12,7 +12,7 @@
 #include "tests/support/small_scenes.h"
 #include "tests/support/uploaded_gather.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 class DeviceTreeTest : public DeviceTest {
@@ -84,4 +84,4 @@ TEST_F(DeviceTreeTest, KernelsRefuseOneOfTheOtherShape) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

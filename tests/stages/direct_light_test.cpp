@@ -12,7 +12,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -310,4 +310,4 @@ TEST_F(DirectLightTest, WithoutLightsItIsDark) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,7 +4,7 @@
 #include "host/selftest/film_oracle.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 const FilmLayout kLayout;
@@ -76,4 +76,4 @@ TEST_F(FilmTest, BatchesOfSamplesGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

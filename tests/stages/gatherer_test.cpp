@@ -17,7 +17,7 @@
 #include "tests/support/gather_scenes.h"
 #include "tests/support/uploaded_gather.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 struct Variant {
@@ -427,4 +427,4 @@ TEST_F(GathererTest, RefusesAnOddPacketWidth) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

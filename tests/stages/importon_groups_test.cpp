@@ -8,7 +8,7 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 /// On two walls of a room 4 m wide that face each other, and named by their depth.
@@ -63,4 +63,4 @@ TEST(ImportonGroups, NoneIsEmpty) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -12,7 +12,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::KernelProbe;
@@ -164,4 +164,4 @@ TEST_F(KernelLibraryTest, AlignedRunsOfSamplesAreNets) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

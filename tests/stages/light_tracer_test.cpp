@@ -11,7 +11,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -268,4 +268,4 @@ TEST_F(LightTracerTest, NothingToDoGivesNothing) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

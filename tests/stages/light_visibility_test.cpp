@@ -7,7 +7,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -86,4 +86,4 @@ TEST_F(LightVisibilityTest, WithoutLightsNothingIsSelected) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,7 +10,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -24,7 +24,7 @@ constexpr Vec3 kLamp{0.3f, 0.9f, 0.2f};
 constexpr Vec3 kIntensity{3, 2, 1};
 
 /// The inside of a corner: floor, two walls of other albedos, and a square on legs of air that casts shadows.
-Scene corner() {
+Scene lit_corner() {
     Scene scene;
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.8f, 0.7f, 0.6f})));
     add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.5f, 0.2f, 0.1f})));
@@ -106,7 +106,7 @@ LocalLightPlan plan_of(uint bounce_count) {
 
 TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
     on_each_device([](Device& device) {
-        const SceneOnDevice on_device(device, corner());
+        const SceneOnDevice on_device(device, lit_corner());
         const Bvh& bvh = on_device.bvhs.opaque;
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
@@ -136,7 +136,7 @@ TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
 
 TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
     on_each_device([](Device& device) {
-        const SceneOnDevice on_device(device, corner());
+        const SceneOnDevice on_device(device, lit_corner());
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
         const std::size_t count = LocalLights(device).make(
@@ -302,7 +302,7 @@ TEST_F(LocalLightsTest, VplsAreGroupedByTheLightWhereTheyLie) {
 
 TEST_F(LocalLightsTest, NothingRemainsWhereBothRadiiAreTheSame) {
     on_each_device([](Device& device) {
-        const SceneOnDevice on_device(device, corner());
+        const SceneOnDevice on_device(device, lit_corner());
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         for (const Vec3 e : mean_addition(device, on_device, receivers, kRadius, plan_of(2), 2)) {
             EXPECT_NEAR(max_component(e), 0.0f, 1e-6f);
@@ -312,7 +312,7 @@ TEST_F(LocalLightsTest, NothingRemainsWhereBothRadiiAreTheSame) {
 
 TEST_F(LocalLightsTest, AbsentReceiversGetNothingAndOthersSomething) {
     on_each_device([](Device& device) {
-        const SceneOnDevice on_device(device, corner());
+        const SceneOnDevice on_device(device, lit_corner());
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         const std::vector<Vec3> found = mean_addition(device, on_device, receivers, 0.01f, plan_of(2), 1);
         int lit = 0;
@@ -326,4 +326,4 @@ TEST_F(LocalLightsTest, AbsentReceiversGetNothingAndOthersSomething) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -10,12 +10,12 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
 
-constexpr float kAlbedo = 0.5f;
+constexpr float kRoomAlbedo = 0.5f;
 constexpr float kFlux = 4 * kPi;
 constexpr uint kDepths = 4;
 constexpr uint kStates = 20'000;
@@ -33,7 +33,8 @@ struct Furnace {
     }
     static Scene make_scene() {
         Scene scene;
-        add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({kAlbedo, kAlbedo, kAlbedo})));
+        add_inward_sphere(scene, 1.0f, 2,
+                          add_material(scene, lambertian({kRoomAlbedo, kRoomAlbedo, kRoomAlbedo})));
         add_point_light(scene, {0.2f, 0.1f, -0.3f}, {1, 1, 1});
         return scene;
     }
@@ -97,7 +98,7 @@ TEST_F(MetropolisChainsTest, SeedsCarryTheLightOfEachDepth) {
             ASSERT_NEAR(length(vpl.position), 0.98f, 0.02f);
         }
         for (uint depth = 1; depth <= kDepths; ++depth) {
-            const double expected = kFlux * std::pow(kAlbedo, depth);
+            const double expected = kFlux * std::pow(kRoomAlbedo, depth);
             EXPECT_NEAR(power.at(depth - 1), expected, 0.01 * expected) << "depth " << depth;
         }
         const auto shares = depth_shares(furnace.states);
@@ -118,7 +119,7 @@ TEST_F(MetropolisChainsTest, ChainsFollowTheirTarget) {
         }
         const auto shares = depth_shares(furnace.states);
         for (uint i = 0; i < kDepths; ++i) {
-            const double expected = geometric_shares(kAlbedo).at(i);
+            const double expected = geometric_shares(kRoomAlbedo).at(i);
             EXPECT_NEAR(shares.at(i), expected, 4.5 * std::sqrt(expected / kStates)) << "depth " << i + 1;
         }
     });
@@ -176,4 +177,4 @@ TEST_F(MetropolisChainsTest, TargetsAreContributionsOfTheirOwnStates) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/sizes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::GuardedBuffer;
@@ -186,4 +186,4 @@ TEST_F(MortonSortTest, OrderOfCoincidentPointsIsTheirOwn) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

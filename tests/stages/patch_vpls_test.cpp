@@ -9,7 +9,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -116,4 +116,4 @@ TEST_F(PatchVplsTest, PowerIsAlbedoTimesArea) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

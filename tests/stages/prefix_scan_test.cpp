@@ -7,7 +7,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/sizes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using test::GuardedBuffer;
@@ -94,4 +94,4 @@ TEST_F(PrefixScanTest, ScratchIsWhatIsAllocated) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

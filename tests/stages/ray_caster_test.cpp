@@ -2,6 +2,7 @@
 // The kernels' traversal against a loop over all triangles in double precision, the host's traversal and
 // Embree.
 #include "host/stages/ray_caster.h"
+#include "host/base/math.h"
 
 #include <cmath>
 #include <iostream>
@@ -13,10 +14,9 @@
 #include "host/selftest/test_rays.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kTriangles = 600;
 constexpr std::size_t kRays = 3000;
@@ -240,4 +240,4 @@ TEST(RayComparison, WrongAnswersAreNoTies) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -8,7 +8,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
@@ -168,4 +168,4 @@ TEST_F(ReverseVplsTest, NoPointsMakeNoVpls) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

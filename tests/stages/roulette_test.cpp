@@ -12,7 +12,7 @@
 #include "tests/support/spread.h"
 #include "tests/support/uploaded_gather.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 constexpr float kThreshold = 2.0f;
@@ -268,4 +268,4 @@ TEST_F(RouletteTest, NothingToChooseFrom) {
 }
 
 }  // namespace
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -8,7 +8,7 @@
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class TriangleClassifierTest : public test::DeviceTest {};
@@ -156,4 +156,4 @@ TEST_F(TriangleClassifierTest, CentroidsOfSelectedTriangles) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

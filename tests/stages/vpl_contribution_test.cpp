@@ -8,7 +8,7 @@
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class VplContributionTest : public test::DeviceTest {};
@@ -162,4 +162,4 @@ TEST_F(VplContributionTest, WithoutImportonsNothingIsBrought) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

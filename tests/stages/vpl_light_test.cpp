@@ -7,7 +7,7 @@
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class VplLightTest : public test::DeviceTest {};
@@ -85,4 +85,4 @@ TEST_F(VplLightTest, IrradianceAddsUp) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -7,7 +7,7 @@
 #include "host/base/random.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class VplOrderTest : public test::DeviceTest {};
@@ -51,4 +51,4 @@ TEST_F(VplOrderTest, IsAPermutationAlongTheMortonCurve) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

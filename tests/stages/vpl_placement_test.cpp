@@ -8,7 +8,7 @@
 #include "host/base/random.h"
 #include "tests/support/device_fixture.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace {
 
 class VplPlacementTest : public test::DeviceTest {};
@@ -298,4 +298,4 @@ TEST(AreaUnits, ArePowersOfTwoThatFit) {
 }
 
 }  // namespace
-}  // namespace nearlight
+}  // namespace nearlight::core

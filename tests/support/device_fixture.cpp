@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 std::string environment(const char* name) {
@@ -36,4 +36,4 @@ void DeviceTest::SetUp() {
     }
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

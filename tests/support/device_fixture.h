@@ -12,7 +12,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/device.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// Opens every usable device, or those that NEARLIGHT_TEST_DEVICES names (an index, part of a name, cpu, gpu,
 /// all). Where there is none the test is skipped; with NEARLIGHT_REQUIRE_DEVICE=1 it fails.
@@ -77,4 +77,4 @@ class GuardedBuffer {
     Buffer<T> buffer_;
 };
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -10,7 +10,7 @@
 
 #include "host/cl/device_list.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 inline bool has_device() {
     const DeviceList list = list_devices();
@@ -24,12 +24,12 @@ inline bool device_is_required() {
     return required != nullptr && std::string_view(required) == "1";
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test
 
 /// Ends the test where no device is usable: skipped, or failed where one is required.
 #define NEARLIGHT_NEEDS_DEVICE()                                             \
-    if (!nearlight::test::has_device()) {                                    \
-        if (nearlight::test::device_is_required()) {                         \
+    if (!nearlight::core::test::has_device()) {                              \
+        if (nearlight::core::test::device_is_required()) {                   \
             FAIL() << "no OpenCL device, and NEARLIGHT_REQUIRE_DEVICE is 1"; \
         }                                                                    \
         GTEST_SKIP() << "no OpenCL device";                                  \

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
-/// The Error that `action` throws; fails the test (and returns ExitCode::done) if it throws none.
+/// The Error that `action` throws; fails the test (and returns ErrorKind::failure) if it throws none.
 template <typename Action>
 Error error_of(Action&& action) {
     try {
@@ -20,7 +20,7 @@ Error error_of(Action&& action) {
         return error;
     }
     ADD_FAILURE() << "nothing was thrown";
-    return {ExitCode::done, ""};
+    return {ErrorKind::failure, ""};
 }
 
 inline ::testing::AssertionResult mentions(const Error& error, const std::string& text) {
@@ -30,4 +30,4 @@ inline ::testing::AssertionResult mentions(const Error& error, const std::string
     return ::testing::AssertionFailure() << "'" << text << "' is not in: " << error.what();
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -9,7 +9,7 @@
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 namespace {
 
 using MakePoint = std::function<ReceiverPoint()>;
@@ -193,4 +193,4 @@ PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_ra
     return term;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

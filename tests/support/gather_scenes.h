@@ -9,7 +9,7 @@
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct GatherCase {
     std::string name;
@@ -37,4 +37,4 @@ struct PairTerm {
 };
 PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_radius);
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

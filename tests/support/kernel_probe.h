@@ -9,7 +9,7 @@
 #include "host/cl/kernel.h"
 #include "tests/image/temporary_folder.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// Compiles `source` with the kernel library beside it; its entry point is `probe`.
 class KernelProbe {
@@ -35,4 +35,4 @@ class KernelProbe {
     Kernel kernel_;
 };
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// Below NEARLIGHT_TEST_SCENES, or else beside the checkout; empty where the scene is not on this machine.
 inline std::filesystem::path real_scene(const std::string& name) {
@@ -16,4 +16,4 @@ inline std::filesystem::path real_scene(const std::string& name) {
     return std::filesystem::exists(root / name) ? root / name : std::filesystem::path();
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -8,7 +8,7 @@
 #include "host/base/receivers.h"
 #include "host/stages/device_scene.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct SceneOnDevice {
     SceneOnDevice(Device& device, Scene a_scene)
@@ -30,4 +30,4 @@ inline std::vector<ReceiverPacket> pack_receivers(const std::vector<ReceiverPoin
     return packets;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

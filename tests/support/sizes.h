@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// 0, 1, around work-group sizes, around the lengths at which arrays are split, and one large one.
 inline std::vector<std::size_t> awkward_sizes() {
@@ -17,4 +17,4 @@ inline std::vector<std::size_t> awkward_sizes() {
     return sizes;
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

@@ -12,7 +12,7 @@
 #include "host/scene/scene.h"
 #include "host/scene/scene_loader.h"
 
-namespace nearlight::small_scenes {
+namespace nearlight::core::small_scenes {
 
 inline Material lambertian(Vec3 albedo) {
     Material material{};
@@ -183,4 +183,4 @@ inline double standard_error(const Image& image) {
     return std::sqrt(channel_mean(image, "variance.R") / (double(image.width) * image.height));
 }
 
-}  // namespace nearlight::small_scenes
+}  // namespace nearlight::core::small_scenes

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 struct Spread {
     double mean = 0;
@@ -27,4 +27,4 @@ inline Spread spread_of(const std::vector<double>& values) {
     return {mean, std::sqrt(squares / (n * (n - 1)))};
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

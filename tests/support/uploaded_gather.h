@@ -12,7 +12,7 @@
 #include "host/stages/gatherer.h"
 #include "tests/support/gather_scenes.h"
 
-namespace nearlight::test {
+namespace nearlight::core::test {
 
 /// The data of a case, on a device.
 class Uploaded {
@@ -56,4 +56,4 @@ inline bool same_bits(const std::vector<IrradiancePacket>& a, const std::vector<
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(IrradiancePacket)) == 0);
 }
 
-}  // namespace nearlight::test
+}  // namespace nearlight::core::test

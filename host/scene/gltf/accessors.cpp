@@ -7,7 +7,7 @@
 
 #include "host/scene/gltf/gltf_file.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 namespace {
 
 /// Numbers in a buffer, checked to lie within it.
@@ -168,4 +168,4 @@ std::vector<uint> read_indices(const GltfFile& file, int accessor_index) {
     return indices;
 }
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

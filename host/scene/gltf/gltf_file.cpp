@@ -6,10 +6,10 @@
 #include <limits>
 #include <string_view>
 
-#include "host/base/error.h"
 #include "host/scene/file_text.h"
+#include "nearlight/error.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 namespace {
 
 /// That a file may call required: read here, or safe to look past with a note.
@@ -43,7 +43,7 @@ const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const ch
 }  // namespace
 
 void GltfFile::fail(const std::string& what) const {
-    throw Error(ExitCode::file, path.string() + ": " + what);
+    throw Error(ErrorKind::file, path.string() + ": " + what);
 }
 
 GltfFile read_gltf(const std::filesystem::path& path) {
@@ -92,4 +92,4 @@ Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, c
     return {channel(0), channel(1), channel(2)};
 }
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

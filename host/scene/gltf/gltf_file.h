@@ -12,13 +12,13 @@
 #include "host/base/math.h"
 #include "host/scene/note_sink.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 
 struct GltfFile {
     std::filesystem::path path;
     tinygltf::Model model;  ///< Image::image holds the encoded bytes of images from data URIs
 
-    /// Throws Error(ExitCode::file): "FILE: what".
+    /// Throws Error(ErrorKind::file): "FILE: what".
     [[noreturn]] void fail(const std::string& what) const;
     /// The element that `owner` refers to, or an error that says so: tinygltf checks no references.
     template <typename T>
@@ -53,4 +53,4 @@ int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, co
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
               Vec3 fallback);
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <set>
 
-#include "host/base/error.h"
 #include "host/scene/default_view.h"
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/materials.h"
 #include "host/scene/gltf/meshes.h"
+#include "nearlight/error.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace gltf {
 namespace {
 
@@ -76,8 +76,8 @@ void visit_scene(const GltfFile& file, const Visit& visit) {
 void check_parameters(const GltfFile& file, const LoadOptions& options) {
     for (const auto& [name, value] : options.parameters) {
         if (name != "camera") {
-            throw Error(ExitCode::usage, file.path.string() + ": has no parameter '" + name +
-                                             "'; of glTF files only the camera can be chosen");
+            throw Error(ErrorKind::invalid_argument, file.path.string() + ": has no parameter '" + name +
+                                                         "'; of glTF files only the camera can be chosen");
         }
     }
 }
@@ -112,4 +112,4 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -6,12 +6,12 @@
 
 #include "host/scene/scene_loader.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 /// The file's default scene, its first one where it names none. Parameter `camera` chooses a camera by its
 /// node's or its own name; else the first is taken, and where there is none one is made up, as light is where
 /// nothing emits. Units: metres; lights in candela and lux count 1/683 of that in W, emission is a radiance.
-/// Throws Error(ExitCode::file), or Error(ExitCode::usage) for a parameter that there is not.
+/// Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for a parameter that there is not.
 Scene load_gltf_scene(const std::filesystem::path& file, const LoadOptions& options);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

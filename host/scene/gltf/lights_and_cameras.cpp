@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 namespace {
 
 /// Lumens a watt of green light: what exporters take for the ratio of photometric and radiometric units.
@@ -148,8 +148,8 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
         }
         names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
     }
-    throw Error(ExitCode::usage, file.path.string() + ": has no camera '" + name + "'; " +
-                                     (names.empty() ? "it has none" : "there are " + names));
+    throw Error(ErrorKind::invalid_argument, file.path.string() + ": has no camera '" + name + "'; " +
+                                                 (names.empty() ? "it has none" : "there are " + names));
 }
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

@@ -8,7 +8,7 @@
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/scene.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 
 /// Each as it stands in the scene; it looks along the −Z of its node.
 struct PlacedLight {
@@ -33,9 +33,9 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 /// Points, spots, and directional lights, which become spots far away; once all surfaces are in the scene.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);
 
-/// The first, or the one whose node or camera has the name. Throws Error(ExitCode::usage) for a name that
-/// there is not.
+/// The first, or the one whose node or camera has the name. Throws Error(ErrorKind::invalid_argument) for a
+/// name that there is not.
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
                           const std::string& name);
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

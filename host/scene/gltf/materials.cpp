@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/image/color.h"
 #include "host/image/image_io.h"
 #include "host/scene/material_model.h"
+#include "nearlight/error.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 namespace {
 
 /// GGX's α. Beyond it coats and metals are matt: what they reflect is a blur, and costs a ray each way with
@@ -311,4 +311,4 @@ PlacedMaterial MaterialMaker::material(int index) {
     return entry->second;
 }
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

@@ -9,7 +9,7 @@
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/texture_loader.h"
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 
 /// A material of the scene, and which set of texture coordinates it wants.
 struct PlacedMaterial {
@@ -51,4 +51,4 @@ class MaterialMaker {
     std::map<const tinygltf::Image*, std::optional<Vec3>> means_;  ///< of the file's numbers
 };
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

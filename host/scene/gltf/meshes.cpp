@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-namespace nearlight::gltf {
+namespace nearlight::core::gltf {
 namespace {
 
 std::vector<Vec3> read_vectors(const GltfFile& file, int accessor) {
@@ -104,4 +104,4 @@ void add_mesh(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_w
     }
 }
 
-}  // namespace nearlight::gltf
+}  // namespace nearlight::core::gltf

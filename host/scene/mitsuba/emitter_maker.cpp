@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/emitter_maker.h"
 
-#include "host/base/error.h"
 #include "host/scene/file_text.h"
+#include "nearlight/error.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 Vec3 emitted(const Object& emitter, const char* name, TextureMaker& textures) {
@@ -77,7 +77,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures)
         try {
             light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)));
         } catch (const Error& error) {
-            throw Error(error.code(), to_string(Note{*emitter.where.file, emitter.where.line, error.what()}));
+            throw Error(error.kind(), to_string(Note{*emitter.where.file, emitter.where.line, error.what()}));
         }
     }
     light.to_world = rotation_of(emitter.transform("to_world"), emitter.where);
@@ -109,4 +109,4 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
     emitter.report_unused(notes);
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -4,9 +4,9 @@
 
 #include "host/scene/mitsuba/texture_maker.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 /// Adds a point, spot, constant or envmap light to the scene.
 void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -4,7 +4,7 @@
 #include "host/scene/material_model.h"
 #include "host/scene/mitsuba/optics_tables.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr int kMaxDepth = 32;  // of BSDFs in BSDFs; only a cycle of references goes deeper
@@ -232,4 +232,4 @@ Material MaterialMaker::make_principled(const Object& bsdf) {
     return material;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

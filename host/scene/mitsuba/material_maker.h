@@ -6,7 +6,7 @@
 
 #include "host/scene/mitsuba/texture_maker.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 class MaterialMaker {
   public:
@@ -38,4 +38,4 @@ class MaterialMaker {
     std::map<std::pair<const Object*, std::array<float, 3>>, uint> indices_;
 };
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 #include "host/scene/mitsuba/shape_maker.h"
 #include "host/scene/mitsuba/xml_reader.h"
 
-namespace nearlight {
+namespace nearlight::core {
 namespace mitsuba {
 namespace {
 
@@ -73,4 +73,4 @@ Scene load_mitsuba_scene(const std::filesystem::path& file, const LoadOptions& o
     return scene;
 }
 
-}  // namespace nearlight
+}  // namespace nearlight::core

@@ -4,8 +4,8 @@
 
 #include "host/scene/scene_loader.h"
 
-namespace nearlight {
+namespace nearlight::core {
 
 Scene load_mitsuba_scene(const std::filesystem::path& file, const LoadOptions& options);
 
-}  // namespace nearlight
+}  // namespace nearlight::core

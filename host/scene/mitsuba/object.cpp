@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/object.h"
 
-#include "host/base/error.h"
+#include "nearlight/error.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 template <typename T>
@@ -19,7 +19,7 @@ const T& get(const Property& property, const std::string& name, const char* kind
 }  // namespace
 
 void fail(const Location& where, const std::string& what) {
-    throw Error(ExitCode::file, to_string(Note{*where.file, where.line, what}));
+    throw Error(ErrorKind::file, to_string(Note{*where.file, where.line, what}));
 }
 
 void fail_unknown_type(const Object& object, const std::string& known) {
@@ -125,4 +125,4 @@ void Object::report_unused(NoteSink& notes) const {
     }
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

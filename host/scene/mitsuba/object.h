@@ -15,13 +15,13 @@
 #include "host/base/math.h"
 #include "host/scene/note_sink.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 struct Location {
     std::shared_ptr<const std::filesystem::path> file;
     int line = 0;
 };
-/// Throws Error(ExitCode::file) with "file:line: what".
+/// Throws Error(ErrorKind::file) with "file:line: what".
 [[noreturn]] void fail(const Location& where, const std::string& what);
 
 /// A colour; `<spectrum>` differs as a reflectance (white is 1, 1, 1) and as a light (equal energy is
@@ -95,4 +95,4 @@ struct Document {
 /// Approximation notes that name the place of `where`.
 void note(NoteSink& notes, const Location& where, const std::string& text);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

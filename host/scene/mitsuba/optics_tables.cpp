@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 // Measured spectra seen by the sRGB primaries, as Mitsuba 3 reduces them.
@@ -95,4 +95,4 @@ std::optional<double> find_index_of_refraction(const std::string& name) {
     return std::nullopt;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 
 #include "kernels/shared/types.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 struct Metal {
     Vec3 eta, k;  ///< in linear sRGB
@@ -17,4 +17,4 @@ std::optional<Metal> find_metal(const std::string& name);
 /// "bk7", "water", "air", …
 std::optional<double> find_index_of_refraction(const std::string& name);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -5,7 +5,7 @@
 
 #include "host/scene/mitsuba/values.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;
@@ -113,4 +113,4 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
     sensor.report_unused(notes);
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -4,7 +4,7 @@
 
 #include "host/scene/mitsuba/object.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 /// Sets the camera, the picture's size and the samples per pixel of the scene.
 void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes);
@@ -13,4 +13,4 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes);
 /// fail() for another axis.
 double horizontal_fov(double fov_degrees, const std::string& axis, double aspect, const Location& where);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/shape_maker.h"
 
-#include "host/base/error.h"
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/ply_loader.h"
+#include "nearlight/error.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 void flip_v(Mesh& mesh) {
@@ -139,7 +139,7 @@ Mesh ShapeMaker::load_file(const Object& shape) {
         }
         return mesh;
     } catch (const Error& error) {
-        throw Error(error.code(), to_string(Note{*shape.where.file, shape.where.line, error.what()}));
+        throw Error(error.kind(), to_string(Note{*shape.where.file, shape.where.line, error.what()}));
     }
 }
 
@@ -164,4 +164,4 @@ Vec3 ShapeMaker::emission(const Object& shape) {
     return radiance;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 #include "host/scene/mesh.h"
 #include "host/scene/mitsuba/material_maker.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 class ShapeMaker {
   public:
@@ -31,4 +31,4 @@ class ShapeMaker {
     std::map<const Object*, Mesh> group_meshes_;
 };
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -149,4 +149,4 @@ Mesh cylinder_mesh() {
     return mesh;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -6,7 +6,7 @@
 
 #include "host/scene/mesh.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 /// XY square [−1, 1]², normal +Z.
 Mesh rectangle_mesh();
@@ -19,4 +19,4 @@ Mesh sphere_mesh();
 /// Around +Z from z = 0 to 1, radius 1, open, normals outwards.
 Mesh cylinder_mesh();
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

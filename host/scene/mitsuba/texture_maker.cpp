@@ -3,7 +3,7 @@
 
 #include "host/scene/file_text.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr Vec3 kMissing{0.5f, 0.5f, 0.5f};
@@ -146,4 +146,4 @@ int TextureMaker::make_checkerboard(const Object& texture) {
     return static_cast<int>(scene_.textures.size()) - 1;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 #include "host/scene/mitsuba/object.h"
 #include "host/scene/texture_loader.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 /// Mitsuba counts v from the top row of a bitmap, nearlight from the bottom; shapes and textures both
 /// convert.
@@ -40,4 +40,4 @@ class TextureMaker {
     std::map<const Object*, int> made_;
 };
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -5,11 +5,11 @@
 #include <charconv>
 #include <sstream>
 
-#include "host/base/error.h"
 #include "host/scene/file_text.h"
 #include "host/scene/texture.h"
+#include "nearlight/error.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr const char* kSeparators = ", \t\r\n";
@@ -178,4 +178,4 @@ Color read_spectrum(const std::filesystem::path& file, const Location& where, No
     return spectrum_color(samples);
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -8,7 +8,7 @@
 
 #include "host/scene/mitsuba/object.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 /// "toWorld" → "to_world", "intIOR" → "int_ior".
 std::string snake_case(const std::string& name);
@@ -32,4 +32,4 @@ Color parse_spectrum(const std::string& text, const Location& where, NoteSink& n
 /// Lines of "wavelength value"; '#' begins a comment.
 Color read_spectrum(const std::filesystem::path& file, const Location& where, NoteSink& notes);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

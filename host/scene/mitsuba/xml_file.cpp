@@ -7,7 +7,7 @@
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/values.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 XmlFile::XmlFile(const std::filesystem::path& file)
     : file_(std::make_shared<const std::filesystem::path>(file)), line_starts_{0} {
@@ -152,4 +152,4 @@ Mat4 read_transform(const XmlFile& file, const Element& element) {
     return transform;
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -11,11 +11,11 @@
 
 #include "host/scene/mitsuba/object.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
 class XmlFile {
   public:
-    /// Throws Error(ExitCode::file) where the file is missing or not well-formed.
+    /// Throws Error(ErrorKind::file) where the file is missing or not well-formed.
     explicit XmlFile(const std::filesystem::path& file);
 
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
@@ -53,4 +53,4 @@ struct Element {
 /// A <transform>: its operations in order of appearance, each after (left of) those before it.
 Mat4 read_transform(const XmlFile& file, const Element& element);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 #include "host/scene/mitsuba/values.h"
 #include "host/scene/mitsuba/xml_file.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 namespace {
 
 // Deeper nesting than any real scene has; keeps hostile files off the stack.
@@ -185,4 +185,4 @@ Document read_xml(const std::filesystem::path& file, const std::map<std::string,
     return Reader(parameters, notes).read_scene(file);
 }
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

@@ -9,11 +9,11 @@
 
 #include "host/scene/mitsuba/object.h"
 
-namespace nearlight::mitsuba {
+namespace nearlight::core::mitsuba {
 
-/// The scene as objects, with `parameters` for $names winning over <default>. Throws Error(ExitCode::file)
+/// The scene as objects, with `parameters` for $names winning over <default>. Throws Error(ErrorKind::file)
 /// with file and line for anything missing, broken or unknown.
 Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
                   NoteSink& notes);
 
-}  // namespace nearlight::mitsuba
+}  // namespace nearlight::core::mitsuba

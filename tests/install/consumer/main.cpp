@@ -4,6 +4,6 @@
 #include <iostream>
 
 int main(int, char** argv) {
-    const nearlight::Image image = nearlight::read_image(argv[1]);
+    const nearlight::core::Image image = nearlight::core::read_image(argv[1]);
     std::cout << image.width << "x" << image.height << " " << image.at(2, 1, 2) << "\n";
 }
