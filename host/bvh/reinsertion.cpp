@@ -14,7 +14,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Of a tree's inner nodes so many move about: more gain little (bench/RESULTS.md).
+/// Of a tree's inner nodes so many move about: more gain little (bench/log/trees.md).
 constexpr std::size_t kLeastNodes = 64;
 constexpr std::size_t kMostNodes = 4096;
 constexpr std::size_t kInnerNodesPerNode = 32;

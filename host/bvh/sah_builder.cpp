@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Of few references, more bins than these cost time and gain nothing (bench/RESULTS.md).
+/// Of few references, more bins than these cost time and gain nothing (bench/log/trees.md).
 constexpr std::size_t kReferencesPerBin = 8;
 constexpr int kLeastBinsAskedFor = 8;
 constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by one thread
@@ -20,7 +20,7 @@ constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by o
 /// Spatial splits are looked for where the boxes of the best two sets of whole references overlap by more
 /// than these shares of the root's and the node's area, and taken where they lower the cost to this share.
 /// Segments between surfaces, unlike the endless lines of the heuristic, gain nothing from tighter boxes of
-/// walls: with 1.0 in place of 0.85 they take more steps, not fewer (bench/RESULTS.md).
+/// walls: with 1.0 in place of 0.85 they take more steps, not fewer (bench/log/trees.md).
 constexpr float kLeastOverlapOfRoot = 1e-5f;
 constexpr float kLeastOverlapOfNode = 0.2f;
 constexpr float kSpatialGain = 0.85f;

@@ -199,7 +199,7 @@ std::string to_string(DeviceKind kind) {
 
 void set_driver_defaults() {
     // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the group
-    // size of a launch. The second is no faster (bench/RESULTS.md), and users would wait for it.
+    // size of a launch. The second is no faster (bench/log/compile.md), and users would wait for it.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
 }
 

@@ -43,7 +43,7 @@ struct TunablesRow {
     DeviceKind kind;
     Tunables values;
 };
-/// A row a kind. CPUs with vectors of 4, 8 and 16 floats want the same (bench/RESULTS.md, "Tunables").
+/// A row a kind. CPUs with vectors of 4, 8 and 16 floats want the same (bench/log/tunables.md).
 std::span<const TunablesRow> tunables_table();
 const TunablesRow& tunables_row(DeviceKind kind);
 

@@ -44,7 +44,7 @@
 namespace nearlight::core {
 namespace {
 
-// bench/RESULTS.md has what was tried, and on which views.
+// bench/log/generation.md has what was tried, and on which views.
 constexpr uint kPointsPerVpl = 2;  ///< candidates on the close range; each has two sides
 constexpr uint kDepositsPerVpl = 256;
 constexpr uint kScreenedPerVpl = 10;  ///< candidates that remain of them

@@ -15,8 +15,8 @@
 // - All states of all chains are kept, and of them every so many along the Morton curve become VPLs, with a
 //   random shift, so that any state has the same chance. Repeats that are chosen become one VPL.
 // - One try a step instead of several: a try costs as much as a step, and every step is a state to choose.
-// Two
-//   tries were built and measured, and gained nothing at equal cost or at twice the cost (bench/RESULTS.md).
+//   Two tries were built and measured, and gained nothing at equal cost or at twice the cost
+//   (bench/log/samplers.md).
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -13,7 +13,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kPixelCount = 1024;
-/// They only steer a choice, and are asked by many candidates (bench/RESULTS.md).
+/// They only steer a choice, and are asked by many candidates (bench/log/generation.md).
 constexpr std::size_t kFewSquaredImportons = 32;
 constexpr std::size_t kGroupedImportons = 1024;
 constexpr std::size_t kImportonGroups = 64;
