@@ -6,7 +6,7 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/nearlight")
 
 # Those that this build has; the program's own commands (host/cli) are no library for others.
 set(installed_libraries "")
-foreach(library base kernels image scene bvh cl stages samplers render reference)
+foreach(library base kernels image scene bvh cl stages samplers session reference)
   if(TARGET nearlight_${library})
     list(APPEND installed_libraries nearlight_${library})
   endif()

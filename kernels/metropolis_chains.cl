@@ -24,8 +24,8 @@
 #define LARGE_STEPS 0.3f
 #define NEW_DEPTHS 0.25f
 /// Smallest and largest small step of a number.
-#define LEAST_STEP (1.0f / 1024.0f)
-#define MOST_STEP (1.0f / 16.0f)
+#define MIN_STEP (1.0f / 1024.0f)
+#define MAX_STEP (1.0f / 16.0f)
 
 kernel void metropolis_seeds(const global uint* restrict indices, uint count, uint pair_count, uint seed,
                              global float2* restrict numbers) {
@@ -76,7 +76,7 @@ kernel void metropolis_targets(const global Vpl* restrict vpls, const global uin
 
 /// A number moved by a random step on the unit circle, the same distribution there and back.
 inline float small_step(float u, uint bits) {
-    const float size = MOST_STEP * exp(-log(MOST_STEP / LEAST_STEP) * to_unit_float(bits));
+    const float size = MAX_STEP * exp(-log(MAX_STEP / MIN_STEP) * to_unit_float(bits));
     const float moved = bits & 1u ? u + size : u - size;
     return clamp(moved - floor(moved), 0.0f, 0x1.fffffep-1f);
 }

@@ -13,7 +13,7 @@
 #include "lib/random.cl"
 
 // Least probability of anything that could bring light; only keeps 1/p finite.
-#define LEAST_PROBABILITY 1e-6f
+#define MIN_PROBABILITY 1e-6f
 
 inline float sum_of_lanes(float16 v) {
     const float8 a = v.lo + v.hi;
@@ -104,7 +104,7 @@ kernel void roulette_choose(const global float* bounds, uint vpl_count,
     for (uint i = 0; i < vpl_count; ++i) {
         const float bound = bounds[first + i];
         const bool certain = bound >= limit;
-        const float p = certain ? 1.0f : fmax(bound / limit, LEAST_PROBABILITY);
+        const float p = certain ? 1.0f : fmax(bound / limit, MIN_PROBABILITY);
         sum += bound > 0.0f && !certain ? p : 0.0f;
         const bool lucky = sum >= 1.0f;
         sum -= lucky ? 1.0f : 0.0f;

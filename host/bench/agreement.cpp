@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kEdgeShare = 1e-5;        // of the scene's extent
 constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign
-constexpr double kMostShare = 1e-5;        // of all rays
-constexpr std::uint64_t kMostItems = 100;  // of a tracer: each costs a look at every edge
+constexpr double kMaxShare = 1e-5;         // of all rays
+constexpr std::uint64_t kMaxItems = 100;   // of a tracer: each costs a look at every edge
 
 double cosine(Vec3 normal, Vec3 direction) {
     return std::abs(double{normal.x} * direction.x + double{normal.y} * direction.y +
@@ -54,7 +54,7 @@ AgreementVerdict Agreement::compare(const std::string& tracer, const TracerAnswe
             const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
             const bool is_culling = ((culls >> lane) & 1u) != 0;
             const PairMask& says = is_culling ? answer.rays : answer.occluded;
-            if (verdict.differences++ >= kMostItems) {
+            if (verdict.differences++ >= kMaxItems) {
                 verdict.is_good = false;
                 continue;
             }
@@ -69,8 +69,7 @@ AgreementVerdict Agreement::compare(const std::string& tracer, const TracerAnswe
         }
     }
     const auto rays = static_cast<double>(count_bits(segments_->rays));
-    verdict.is_rare =
-        verdict.differences <= 1 || static_cast<double>(verdict.differences) < kMostShare * rays;
+    verdict.is_rare = verdict.differences <= 1 || static_cast<double>(verdict.differences) < kMaxShare * rays;
     verdict.is_good = verdict.is_good && verdict.is_rare;
     return verdict;
 }

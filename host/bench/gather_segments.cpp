@@ -7,7 +7,7 @@
 
 #include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
-#include "host/render/renderer.h"
+#include "host/session/renderer.h"
 
 namespace nearlight::core {
 namespace {

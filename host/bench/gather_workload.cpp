@@ -139,7 +139,7 @@ bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, R
 
 /// The same for at most so many walks from the lamps; nothing where there are none.
 template <typename Visit>
-void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t most_walks, Pcg32& random,
+void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t max_walks, Pcg32& random,
                   const Visit& visit) {
     const std::vector<Emitter> emitters = lamps(build_emitter_table(scene));
     if (emitters.empty()) {
@@ -151,7 +151,7 @@ void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t most_walks, Pc
         weights.push_back(emitter.probability);
     }
     const std::vector<float> cdf = cumulative_distribution(weights);
-    for (std::size_t walk = 0; walk < most_walks; ++walk) {
+    for (std::size_t walk = 0; walk < max_walks; ++walk) {
         const Emitter& emitter = emitters[select(cdf, random.uniform())];
         if (!follow_walk(scene, bvh, points, start_walk(scene, points, emitter, random), random, visit)) {
             return;

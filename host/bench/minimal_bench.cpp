@@ -17,7 +17,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
-#include "host/render/renderer.h"
+#include "host/session/renderer.h"
 #include "host/stages/gatherer.h"
 #include "nearlight/error.h"
 
@@ -28,7 +28,7 @@ constexpr float kClampRadius = 0.05f;
 constexpr int kRepeats = 5;
 constexpr std::size_t kCheckedVpls = 16;
 /// Rays that graze an edge may go either way; more than this share of all rays is an error of a kernel.
-constexpr double kMostDisagreements = 1e-5;
+constexpr double kMaxDisagreements = 1e-5;
 
 struct Options {
     std::size_t triangles = 100'000;
@@ -108,7 +108,7 @@ bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
         disagreements += expected != (pairs[i] == GatherPair::occluded) ? 1 : 0;
     }
     const bool good =
-        rays > 0 && static_cast<double>(disagreements) <= kMostDisagreements * static_cast<double>(rays);
+        rays > 0 && static_cast<double>(disagreements) <= kMaxDisagreements * static_cast<double>(rays);
     std::printf("  %s: %zu rays, %zu blocked, %zu differ from the host's traversal\n",
                 good ? "agrees" : "DISAGREES", rays, blocked, disagreements);
     return good;

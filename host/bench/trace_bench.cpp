@@ -20,7 +20,7 @@ namespace {
 /// Distances apart that count as the same hit, of the distance.
 constexpr float kSameHit = 1e-4f;
 /// Rays that graze an edge may go either way; more than this share of all rays is an error.
-constexpr double kMostDiffering = 1e-5;
+constexpr double kMaxDiffering = 1e-5;
 
 /// One way to trace the rays of a set: fills in their distances, and says how long the tracing took.
 struct Contestant {
@@ -116,7 +116,7 @@ RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::stri
     result.ratio = ratio(runs[best], runs[0], &Seconds::wall).median;
     result.ratio_processor =
         own.device->is_cpu() ? ratio(runs[best], runs[0], &Seconds::processor).median : 0.0;
-    const auto most = std::max(1.0, kMostDiffering * static_cast<double>(rays.size()));
+    const auto most = std::max(1.0, kMaxDiffering * static_cast<double>(rays.size()));
     result.agrees = static_cast<double>(result.tracers[0].differing) <= most;
     return result;
 }

@@ -10,7 +10,7 @@
 #include "host/base/random.h"
 #include "host/bench/gather_segments.h"
 #include "host/bench/synthetic_scene.h"
-#include "host/render/view.h"
+#include "host/session/view.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"

@@ -179,7 +179,7 @@ void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
 }
 
 /// Removes trees, those first that were not used for longest, until the rest fits.
-void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
+void shrink(const fs::path& folder, std::uintmax_t max_bytes) {
     struct File {
         fs::path path;
         fs::file_time_type used;
@@ -195,7 +195,7 @@ void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
         }
     }
     std::ranges::sort(files, {}, &File::used);
-    for (auto file = files.begin(); file != files.end() && sum > most_bytes; ++file) {
+    for (auto file = files.begin(); file != files.end() && sum > max_bytes; ++file) {
         fs::remove(file->path, ignored);
         sum -= file->bytes;
     }
@@ -205,7 +205,7 @@ void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
 
 SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
                                      const BvhCacheConfig& cache) {
-    if (cache.folder.empty() || cache.folder == "none" || scene.triangles.size() < cache.least_triangles) {
+    if (cache.folder.empty() || cache.folder == "none" || scene.triangles.size() < cache.min_triangles) {
         return build_scene_trees(scene, config, shapes);
     }
     const Key key = key_of(scene, config, shapes);
@@ -218,7 +218,7 @@ SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config
     }
     SceneTrees trees = build_scene_trees(scene, config, shapes);
     write(path, key, trees);
-    shrink(cache.folder, cache.most_bytes);
+    shrink(cache.folder, cache.max_bytes);
     return trees;
 }
 

@@ -10,9 +10,9 @@
 namespace nearlight::core {
 
 struct BvhCacheConfig {
-    std::filesystem::path folder;           ///< "" and "none" keep nothing
-    std::size_t least_triangles = 20'000;   ///< smaller scenes are built faster than they are looked up
-    std::uintmax_t most_bytes = 1u << 30u;  ///< of all trees; those that were not used for longest go
+    std::filesystem::path folder;          ///< "" and "none" keep nothing
+    std::size_t min_triangles = 20'000;    ///< smaller scenes are built faster than they are looked up
+    std::uintmax_t max_bytes = 1u << 30u;  ///< of all trees; those that were not used for longest go
 };
 
 /// What build_scene_trees() gives, bit by bit: from the cache if it has the trees of the same vertices,

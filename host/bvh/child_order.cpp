@@ -15,8 +15,8 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kMostSegments = 4000;
-constexpr std::size_t kLeastSegments = 500;
+constexpr std::size_t kMaxSegments = 4000;
+constexpr std::size_t kMinSegments = 500;
 constexpr std::size_t kTrianglesPerSegment = 16;  // in small scenes, where time is short
 constexpr std::size_t kTriesPerSegment = 4;       // pairs of points, of which many face away from each other
 constexpr std::uint64_t kSeed = 7;
@@ -166,7 +166,7 @@ std::vector<TestRay> make_segments(const Surfaces& surfaces, std::size_t count) 
 /// In a few parts, each with records of its own.
 std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
     const std::vector<TestRay> segments = make_segments(
-        Surfaces(scene, ids), std::clamp(ids.size() / kTrianglesPerSegment, kLeastSegments, kMostSegments));
+        Surfaces(scene, ids), std::clamp(ids.size() / kTrianglesPerSegment, kMinSegments, kMaxSegments));
     std::vector<Survey> parts(kSurveyParts);
     parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {

@@ -54,8 +54,8 @@ void CollapsePlan::plan(uint node_index, float half_area, int level) {
 }
 
 void CollapsePlan::divide(Plan& plan, const BvhNode& node, float half_area) const {
-    std::array<float, kMost + 1> divided{};
-    for (std::size_t most = 2; most <= kMost; ++most) {
+    std::array<float, kMax + 1> divided{};
+    for (std::size_t most = 2; most <= kMax; ++most) {
         divided[most] = std::numeric_limits<float>::infinity();
         for (std::size_t left = 1; left < most; ++left) {
             const float both = cost(left_child(node), left) + cost(right_child(node), most - left);
@@ -65,9 +65,9 @@ void CollapsePlan::divide(Plan& plan, const BvhNode& node, float half_area) cons
             }
         }
     }
-    plan.left_of_all = plan.left[kMost];
-    plan.cost[1] = half_area + divided[kMost];
-    for (std::size_t most = 2; most <= kMost; ++most) {
+    plan.left_of_all = plan.left[kMax];
+    plan.cost[1] = half_area + divided[kMax];
+    for (std::size_t most = 2; most <= kMax; ++most) {
         plan.cost[most] = std::min(plan.cost[1], divided[most]);
         plan.left[most] = divided[most] < plan.cost[1] ? plan.left[most] : std::uint8_t{0};
     }
@@ -98,7 +98,7 @@ WideChildren CollapsePlan::children(uint node_index) const {
     // A root that holds no more than a block divides all the same.
     const std::size_t left = std::max<std::size_t>(1, plans_[node_index].left_of_all);
     take(left_child(node), left, result);
-    take(right_child(node), kMost - left, result);
+    take(right_child(node), kMax - left, result);
     const auto end = result.children.begin() + static_cast<std::ptrdiff_t>(result.count);
     std::stable_sort(result.children.begin(), end, [](const WideChild& a, const WideChild& b) {
         return a.box.half_area() < b.box.half_area();

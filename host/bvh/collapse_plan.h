@@ -39,13 +39,13 @@ class CollapsePlan {
     [[nodiscard]] const Bvh& bvh() const { return *bvh_; }
 
   private:
-    static constexpr std::size_t kMost = NEARLIGHT_WIDE_CHILDREN;
+    static constexpr std::size_t kMax = NEARLIGHT_WIDE_CHILDREN;
 
     struct Plan {
         /// Surface of all wide nodes from here on, if up to i children stand for this binary node.
-        std::array<float, kMost + 1> cost{};
+        std::array<float, kMax + 1> cost{};
         /// Of i children, how many are on the left side; 0: a single one stands for the node.
-        std::array<std::uint8_t, kMost + 1> left{};
+        std::array<std::uint8_t, kMax + 1> left{};
         std::uint8_t left_of_all = 0;  ///< the same for all children of the node itself
         bool is_leaf = false;
         uint triangles = 0;

@@ -15,8 +15,8 @@ namespace nearlight::core {
 namespace {
 
 /// Of a tree's inner nodes so many move about: more gain little (bench/log/trees.md).
-constexpr std::size_t kLeastNodes = 64;
-constexpr std::size_t kMostNodes = 4096;
+constexpr std::size_t kMinNodes = 64;
+constexpr std::size_t kMaxNodes = 4096;
 constexpr std::size_t kInnerNodesPerNode = 32;
 constexpr int kPasses = 3;
 constexpr float kLargestArea = 1e30f;
@@ -195,7 +195,7 @@ void reinsert_largest(SahTree& tree) {
     if (is_leaf(tree.root) || !(area > 0.0f && area < kLargestArea)) {
         return;
     }
-    TopTree top(tree, std::clamp(tree.inner_count / kInnerNodesPerNode, kLeastNodes, kMostNodes));
+    TopTree top(tree, std::clamp(tree.inner_count / kInnerNodesPerNode, kMinNodes, kMaxNodes));
     for (int pass = 0; pass < kPasses && top.reinsert_all(); ++pass) {}
     const int depth = tree.depth + top.levels_added();
     if (depth <= NEARLIGHT_MAX_BVH_DEPTH) {

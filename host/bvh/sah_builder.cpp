@@ -14,15 +14,15 @@ namespace {
 
 /// Of few references, more bins than these cost time and gain nothing (bench/log/trees.md).
 constexpr std::size_t kReferencesPerBin = 8;
-constexpr int kLeastBinsAskedFor = 8;
+constexpr int kMinBinsAskedFor = 8;
 constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by one thread
 
 /// Spatial splits are looked for where the boxes of the best two sets of whole references overlap by more
 /// than these shares of the root's and the node's area, and taken where they lower the cost to this share.
 /// Segments between surfaces, unlike the endless lines of the heuristic, gain nothing from tighter boxes of
 /// walls: with 1.0 in place of 0.85 they take more steps, not fewer (bench/log/trees.md).
-constexpr float kLeastOverlapOfRoot = 1e-5f;
-constexpr float kLeastOverlapOfNode = 0.2f;
+constexpr float kMinOverlapOfRoot = 1e-5f;
+constexpr float kMinOverlapOfNode = 0.2f;
 constexpr float kSpatialGain = 0.85f;
 
 /// Levels below a node of `count` triangles that is halved until its parts fit into leaves.
@@ -105,10 +105,10 @@ class SahBuilder {
     /// Partitions the range at the cheapest plane; no left part where a leaf is cheaper or no plane parts it.
     [[nodiscard]] SpatialSplitter::Parts split_by_cost(const Room& room, const RangeBounds& bounds) const {
         const auto range = references_.subspan(room.first, room.count);
-        const std::size_t most_bins =
-            static_cast<std::size_t>(std::clamp(config_.bin_count, kLeastBinsAskedFor, kMaxBins));
+        const std::size_t max_bins =
+            static_cast<std::size_t>(std::clamp(config_.bin_count, kMinBinsAskedFor, kMaxBins));
         const int bin_count =
-            static_cast<int>(std::min(kMinBins + range.size() / kReferencesPerBin, most_bins));
+            static_cast<int>(std::min(kMinBins + range.size() / kReferencesPerBin, max_bins));
         const BinMapping mapping(bounds.centers, bin_count);
         const ObjectSplit object = find_object_split(range, mapping);
         const float area = bounds.box.half_area();
@@ -144,8 +144,8 @@ class SahBuilder {
         }
         const float overlap =
             object.found() ? overlap_area(object.left, object.right) : bounds.box.half_area();
-        return overlap > kLeastOverlapOfRoot * splitter_->root_area() &&
-               overlap > kLeastOverlapOfNode * bounds.box.half_area();
+        return overlap > kMinOverlapOfRoot * splitter_->root_area() &&
+               overlap > kMinOverlapOfNode * bounds.box.half_area();
     }
 
     /// Of `spare` places, those for the left part: in proportion to what is to be gained there.

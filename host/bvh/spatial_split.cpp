@@ -197,14 +197,14 @@ uint SpatialSplitter::weight(const Reference& reference) const {
 }
 
 SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMapping& mapping,
-                                   float most_cost) const {
+                                   float max_cost) const {
     const std::size_t stride = range.size() / kSample;
     if (stride > 1) {
         Slabs sample(mapping.count());
         for (std::size_t i = 0; i < range.size(); i += stride) {
             sample.add(range[i], scene_, mapping);
         }
-        if (sample.best().cost * static_cast<float>(stride) > most_cost) {
+        if (sample.best().cost * static_cast<float>(stride) > max_cost) {
             return {};
         }
     }
@@ -215,7 +215,7 @@ SpatialSplit SpatialSplitter::find(std::span<const Reference> range, const BinMa
         }
     });
     const SpatialSplit best = slabs.best();
-    return best.cost <= most_cost ? best : SpatialSplit{};
+    return best.cost <= max_cost ? best : SpatialSplit{};
 }
 
 SpatialSplitter::Cut SpatialSplitter::cut(const Reference& reference, int axis, float position) const {

@@ -40,11 +40,11 @@ class SpatialSplitter {
     /// area that its box has beyond the least box of a triangle of such projections.
     [[nodiscard]] uint weight(const Reference& reference) const;
 
-    /// The cheapest plane between bins; none (axis −1) where it costs more than `most_cost`, or where a
+    /// The cheapest plane between bins; none (axis −1) where it costs more than `max_cost`, or where a
     /// sample of the references says so. `mapping` is of the range's box, its count in [kMinSlabs,
     /// kMaxSlabs].
     [[nodiscard]] SpatialSplit find(std::span<const Reference> range, const BinMapping& mapping,
-                                    float most_cost) const;
+                                    float max_cost) const;
 
     struct Parts {
         std::size_t left_count;

@@ -33,7 +33,7 @@ class Buffer {
                             std::to_string(limit >> 20) + " MiB); use a smaller --size, --spp or scene");
         }
         handle_ = with_opencl_errors(std::to_string(bytes() >> 20) + " MiB on device " + device.name(), [&] {
-            const bool huge = device.is_cpu() && bytes() >= kLeastHugeBytes;
+            const bool huge = device.is_cpu() && bytes() >= kMinHugeBytes;
             const cl::Buffer buffer = huge ? make_huge_buffer(device.context(), bytes()) : cl::Buffer();
             return buffer() != nullptr ? buffer : cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes());
         });

@@ -25,7 +25,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kMostWorkers = 4;
+constexpr std::size_t kMaxWorkers = 4;
 /// Contexts hold the driver's libraries; a worker without work for so long gives them up.
 constexpr int kIdleMilliseconds = 500;
 
@@ -180,7 +180,7 @@ void leave_terminal() {
 
 std::size_t default_compile_worker_count() {
     const std::size_t processors = std::thread::hardware_concurrency();
-    return processors < 2 ? 0 : std::min(processors, kMostWorkers);
+    return processors < 2 ? 0 : std::min(processors, kMaxWorkers);
 }
 
 CompileWorkers start_compile_workers(std::size_t count) {

@@ -8,7 +8,7 @@
 namespace nearlight::core {
 
 /// Below this size a buffer is left to the driver.
-inline constexpr std::size_t kLeastHugeBytes = std::size_t{4} << 20;
+inline constexpr std::size_t kMinHugeBytes = std::size_t{4} << 20;
 
 /// A buffer of the context in memory for which the system was asked for huge pages; a null handle where it
 /// has none to give, so that the caller asks the driver. The memory lives as long as OpenCL needs it. Throws

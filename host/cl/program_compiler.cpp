@@ -8,7 +8,7 @@ namespace {
 
 /// Without workers: PoCL parses in as many contexts as there are, but generates code for one kernel at a time
 /// in the whole process.
-constexpr std::size_t kFewestThreads = 2;
+constexpr std::size_t kMinThreads = 2;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
     const auto place =
         std::ranges::find_if(jobs_, [&](const Waiting& other) { return other.length < length; });
     jobs_.insert(place, {length, std::move(job)});
-    if (const std::size_t index = threads_.size(); index < std::max(kFewestThreads, workers_.size())) {
+    if (const std::size_t index = threads_.size(); index < std::max(kMinThreads, workers_.size())) {
         CompileWorker* const worker = index < workers_.size() ? workers_[index].get() : nullptr;
         threads_.emplace_back([this, worker] { work(worker); });
     }

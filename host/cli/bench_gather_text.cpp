@@ -6,7 +6,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::uint64_t kMostLines = 10;  // of a tracer
+constexpr std::uint64_t kMaxLines = 10;  // of a tracer
 
 std::string line_of(const Disagreement& item) {
     const std::string says =
@@ -44,7 +44,7 @@ std::string differences_of(const TracerFigures& tracer, const GatherBenchResult&
     std::string text;
     std::uint64_t lines = 0;
     for (const Disagreement& item : result.disagreements) {
-        if (item.tracer == tracer.name && lines < kMostLines) {
+        if (item.tracer == tracer.name && lines < kMaxLines) {
             text += line_of(item);
             ++lines;
         }

@@ -17,7 +17,7 @@
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
 #include "host/cli/scene_options.h"
-#include "host/render/renderer.h"
+#include "host/session/renderer.h"
 
 namespace nearlight::core {
 namespace {
@@ -39,7 +39,7 @@ const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
 /// A picture of 2^30 pixels with all layers is a file of up to 64 GiB; more is a slip of the finger.
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 
 /// The option takes one of the names only, and says so.
 template <typename Choice>
@@ -97,11 +97,11 @@ RenderSettings settled(const RenderOptions& options) {
 void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.width.value_or(scene.camera.width);
     const int height = settings.height.value_or(scene.camera.height);
-    if (std::int64_t{width} * height > kMostPixels) {
+    if (std::int64_t{width} * height > kMaxPixels) {
         throw Error(
             ErrorKind::out_of_memory,
             fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
-                        width, height, kMostPixels >> 20));
+                        width, height, kMaxPixels >> 20));
     }
     if (settings.vpl_count == 0) {
         spdlog::warn("--vpls 0: the picture has no indirect light");

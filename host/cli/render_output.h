@@ -10,7 +10,7 @@
 #include "host/base/stopwatch.h"
 #include "host/cl/device.h"
 #include "host/image/image_io.h"
-#include "host/render/renderer.h"
+#include "host/session/renderer.h"
 
 namespace nearlight::core {
 

@@ -50,7 +50,7 @@ std::vector<std::string> differences(const Metadata& stored, const Metadata& wan
     return found;
 }
 
-int fewest_samples(const Image& image, const std::filesystem::path& file) {
+int min_samples(const Image& image, const std::filesystem::path& file) {
     const int channel = image.find_channel("count.X");
     if (channel < 0) {
         refuse(file, "it has no channel count.X");
@@ -95,7 +95,7 @@ std::optional<StoredReference> read_stored_reference(const std::filesystem::path
         refuse(file, fmt::format("it has {}x{} pixels, not {}x{}", image.width, image.height, wanted.width,
                                  wanted.height));
     }
-    reference.samples = fewest_samples(image, file);
+    reference.samples = min_samples(image, file);
     return reference;
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/render/settings.h"
+#include "host/session/settings.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {

@@ -103,8 +103,8 @@ Image cropped(const Image& picture, const Crop& crop) {
     return part;
 }
 
-Image shrunk(const Image& picture, int most_width) {
-    const int factor = std::min((picture.width + most_width - 1) / most_width, picture.height);
+Image shrunk(const Image& picture, int max_width) {
+    const int factor = std::min((picture.width + max_width - 1) / max_width, picture.height);
     Image small = make_picture(picture.width / factor, picture.height / factor);
     for (int y = 0; y < small.height * factor; ++y) {
         for (int x = 0; x < small.width * factor; ++x) {

@@ -22,7 +22,7 @@ std::vector<Vec3> pixels_of(const Image& picture);
 Image scaled(Image picture, float factor);
 Image cropped(const Image& picture, const Crop& crop);
 /// Halved, thirded, … until it is at most so wide; a pixel is the mean of those it stands for.
-Image shrunk(const Image& picture, int most_width);
+Image shrunk(const Image& picture, int max_width);
 /// Each pixel becomes a square of so many.
 Image enlarged(const Image& picture, int factor);
 

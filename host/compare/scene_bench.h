@@ -10,7 +10,7 @@
 
 #include "host/compare/reference.h"
 #include "host/compare/settings.h"
-#include "host/render/renderer.h"
+#include "host/session/renderer.h"
 
 namespace nearlight::core {
 

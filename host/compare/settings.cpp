@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kMostVpls = 50'000'000;
+constexpr uint kMaxVpls = 50'000'000;
 
 std::vector<std::string> split(const std::string& list) {
     std::vector<std::string> items(1);
@@ -33,10 +33,10 @@ std::optional<Number> whole_number(const std::string& text) {
 
 uint parse_vpl_count(const std::string& text) {
     const std::optional<uint> count = whole_number<uint>(text);
-    if (!count || *count < 1 || *count > kMostVpls) {
+    if (!count || *count < 1 || *count > kMaxVpls) {
         throw Error(ErrorKind::invalid_argument,
                     "--vpls: '" + text + "' is no count of VPLs; give whole numbers from 1 to " +
-                        std::to_string(kMostVpls) + " with commas between, as in 1000,2000");
+                        std::to_string(kMaxVpls) + " with commas between, as in 1000,2000");
     }
     return *count;
 }
@@ -74,10 +74,10 @@ void check_baseline(const CompareSettings& settings) {
                                                  " is not among the samplers to compare: " + names);
 }
 
-std::size_t fewest_reference_vpls(const CompareSettings& settings) {
+std::size_t min_reference_vpls(const CompareSettings& settings) {
     if (!settings.reference_sampler ||
         settings.reference_sampler->sampler == SamplerKind::instant_radiosity) {
-        return kFewestReferenceVpls;
+        return kMinReferenceVpls;
     }
     return kReferenceExcess * std::ranges::max(settings.vpl_counts);
 }
@@ -98,11 +98,11 @@ void check_reference(const CompareSettings& settings) {
     if (settings.reference_sampler) {
         check_reference_sampler(settings);
     }
-    if (settings.reference_vpls > 0 && settings.reference_vpls < fewest_reference_vpls(settings)) {
+    if (settings.reference_vpls > 0 && settings.reference_vpls < min_reference_vpls(settings)) {
         throw Error(ErrorKind::invalid_argument, "--reference-vpls " +
                                                      std::to_string(settings.reference_vpls) +
                                                      " are too few for a reference; take at least " +
-                                                     std::to_string(fewest_reference_vpls(settings)));
+                                                     std::to_string(min_reference_vpls(settings)));
     }
     if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
         throw Error(ErrorKind::invalid_argument,

@@ -54,7 +54,7 @@ struct CompareSettings {
 
 inline constexpr float kDefaultClampFraction = 0.025f;
 /// The paper calls its references "densely sampled: number of VPLs above 200k".
-inline constexpr std::size_t kFewestReferenceVpls = 200'000;
+inline constexpr std::size_t kMinReferenceVpls = 200'000;
 /// Other samplers' VPLs: times the largest number that is compared, so that a reference has a third of the
 /// noise.
 inline constexpr std::size_t kReferenceExcess = 10;

@@ -27,14 +27,14 @@ std::optional<std::size_t> next_number(std::istream& stream) {
 
 /// Leaves the stream at the first pixel.
 std::optional<Header> read_header(std::istream& stream) {
-    constexpr std::size_t kLongestSide = 65536;
+    constexpr std::size_t kMaxSide = 65536;
     std::array<char, 2> magic{};
     stream.read(magic.data(), magic.size());
     if (!stream || magic[0] != 'P' || (magic[1] != '5' && magic[1] != '6')) {
         return std::nullopt;
     }
     const auto width = next_number(stream), height = next_number(stream), most = next_number(stream);
-    if (!width || !height || most != 255 || *width - 1 >= kLongestSide || *height - 1 >= kLongestSide) {
+    if (!width || !height || most != 255 || *width - 1 >= kMaxSide || *height - 1 >= kMaxSide) {
         return std::nullopt;
     }
     stream.get();  // one white space

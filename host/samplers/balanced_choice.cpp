@@ -15,9 +15,9 @@ constexpr double kSettled = 1e-9;
 /// After so many changes, or where a column's square is so many times the mean of before, the inverse is
 /// begun again.
 constexpr std::size_t kExclusions = 64;
-constexpr double kMostGrowth = 16.0;
+constexpr double kMaxGrowth = 16.0;
 /// Sums of squares of greater numbers might not be finite.
-constexpr float kMostNumber = 1e15f;
+constexpr float kMaxNumber = 1e15f;
 
 /// Row and column `from` become `to`; nothing is left of them there.
 template <typename Matrix>
@@ -34,9 +34,9 @@ void move_slot(Matrix& matrix, std::size_t from, std::size_t to) {
 
 BalancedChoice::BalancedChoice(std::size_t row_length, double usual_length, Pcg32 random)
     : row_length_(row_length),
-      count_weight_(static_cast<float>(std::min<double>(usual_length, kMostNumber))),
+      count_weight_(static_cast<float>(std::min<double>(usual_length, kMaxNumber))),
       random_(random),
-      columns_((row_length + 1) * kMostOpen) {}
+      columns_((row_length + 1) * kMaxOpen) {}
 
 void BalancedChoice::offer(uint index, double probability, std::span<const float> row) {
     if (!(probability > 0)) {
@@ -51,16 +51,16 @@ void BalancedChoice::offer(uint index, double probability, std::span<const float
     const auto factor = static_cast<float>(open_.back().factor);
     for (std::size_t k = 0; k < row_length_; ++k) {
         const float number = row[k] * factor;
-        columns_[k * kMostOpen + slot] = std::abs(number) < kMostNumber ? number : 0.0f;
+        columns_[k * kMaxOpen + slot] = std::abs(number) < kMaxNumber ? number : 0.0f;
     }
-    columns_[row_length_ * kMostOpen + slot] = count_weight_;
+    columns_[row_length_ * kMaxOpen + slot] = count_weight_;
     add_products(slot);
-    if (exclusions_ >= kExclusions || products_[slot][slot] > kMostGrowth * usual_square_) {
+    if (exclusions_ >= kExclusions || products_[slot][slot] > kMaxGrowth * usual_square_) {
         invert_again();
     } else {
         include(slot);
     }
-    while (open_.size() == kMostOpen) {
+    while (open_.size() == kMaxOpen) {
         settle_one();
     }
 }
@@ -81,11 +81,11 @@ Choice BalancedChoice::finish() {
 
 /// Of the column in `slot` with all, itself among them; all slots at once, which makes vector code.
 void BalancedChoice::add_products(std::size_t slot) {
-    std::array<float, kMostOpen> sums{};
+    std::array<float, kMaxOpen> sums{};
     for (std::size_t k = 0; k <= row_length_; ++k) {
-        const float* numbers = columns_.data() + k * kMostOpen;
+        const float* numbers = columns_.data() + k * kMaxOpen;
         const float own = numbers[slot];
-        for (std::size_t other = 0; other < kMostOpen; ++other) {
+        for (std::size_t other = 0; other < kMaxOpen; ++other) {
             sums[other] += own * numbers[other];
         }
     }
@@ -111,20 +111,20 @@ double BalancedChoice::mean_square() const {
 void BalancedChoice::include(std::size_t slot) {
     Direction solution{};
     double projected = 0;
-    for (std::size_t i = 0; i < kMostOpen; ++i) {
+    for (std::size_t i = 0; i < kMaxOpen; ++i) {
         const double product = i == slot ? 0.0 : products_[slot][i];
-        for (std::size_t k = 0; k < kMostOpen; ++k) {
+        for (std::size_t k = 0; k < kMaxOpen; ++k) {
             solution[k] += product * inverse_[i][k];
         }
     }
-    for (std::size_t i = 0; i < kMostOpen; ++i) {
+    for (std::size_t i = 0; i < kMaxOpen; ++i) {
         projected += i == slot ? 0.0 : products_[slot][i] * solution[i];
     }
     // Rounding (products are sums of floats) must not make a pivot of what is not above 0.
     const double pivot = std::max(products_[slot][slot] + ridge_ - projected, 0.1 * ridge_);
     solution[slot] = -1.0;
-    for (std::size_t i = 0; i < kMostOpen; ++i) {
-        for (std::size_t k = 0; k < kMostOpen; ++k) {
+    for (std::size_t i = 0; i < kMaxOpen; ++i) {
+        for (std::size_t k = 0; k < kMaxOpen; ++k) {
             inverse_[i][k] += solution[i] / pivot * solution[k];
         }
     }
@@ -133,8 +133,8 @@ void BalancedChoice::include(std::size_t slot) {
 /// Takes a slot out of the inverse.
 void BalancedChoice::exclude(std::size_t slot) {
     const Direction row = inverse_[slot];
-    for (std::size_t i = 0; i < kMostOpen; ++i) {
-        for (std::size_t k = 0; k < kMostOpen; ++k) {
+    for (std::size_t i = 0; i < kMaxOpen; ++i) {
+        for (std::size_t k = 0; k < kMaxOpen; ++k) {
             inverse_[i][k] -= row[i] / row[slot] * row[k];
         }
     }
@@ -202,7 +202,7 @@ void BalancedChoice::settle(std::size_t slot, bool drawn) {
     if (slot != last) {
         open_[slot] = open_[last];
         for (std::size_t k = 0; k <= row_length_; ++k) {
-            columns_[k * kMostOpen + slot] = columns_[k * kMostOpen + last];
+            columns_[k * kMaxOpen + slot] = columns_[k * kMaxOpen + last];
         }
         move_slot(products_, last, slot);
         move_slot(inverse_, last, slot);

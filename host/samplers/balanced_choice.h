@@ -38,9 +38,9 @@ class BalancedChoice {
     Choice finish();
 
   private:
-    static constexpr std::size_t kMostOpen = 32;
-    using Direction = std::array<double, kMostOpen>;  ///< by slot; 0 in those that are not open
-    using Matrix = std::array<Direction, kMostOpen>;
+    static constexpr std::size_t kMaxOpen = 32;
+    using Direction = std::array<double, kMaxOpen>;  ///< by slot; 0 in those that are not open
+    using Matrix = std::array<Direction, kMaxOpen>;
     struct Open {
         uint index = 0;
         double probability = 0;  ///< of being drawn, as things stand
@@ -70,7 +70,7 @@ class BalancedChoice {
     std::size_t arrivals_ = 0;
     std::vector<Open> open_;
     std::vector<float>
-        columns_;              ///< c_i/p_i and the count of each open candidate: number-major, kMostOpen wide
+        columns_;              ///< c_i/p_i and the count of each open candidate: number-major, kMaxOpen wide
     Matrix products_{};        ///< of columns with each other
     double usual_square_ = 0;  ///< of columns, when `inverse_` was begun
     double ridge_ = 1;

@@ -28,13 +28,13 @@ namespace {
 
 /// ExaminedVpls of each kind, as a multiple of the budget, and at least.
 constexpr double kCandidatesPerVpl = 4;
-constexpr uint kFewestCandidates = 256;
-constexpr std::size_t kMostCameraPoints = 512;
+constexpr uint kMinCandidates = 256;
+constexpr std::size_t kMaxCameraPoints = 512;
 /// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
 constexpr uint kReverseSparseVpls = 512;
 constexpr IncidentQuality kRoughQuality{.direct_samples = 4, .paths = 2};
 /// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
-constexpr float kLeastLight = 0.1f;
+constexpr float kMinLight = 0.1f;
 constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;
@@ -50,7 +50,7 @@ uint multiple_of_budget(double factor, const SamplingTask& task) {
 CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& task, uint wanted_rays) {
     const std::vector<Vpl> importons = task.view.importons.vpls.download();
     const std::size_t count =
-        std::min({task.view.importons.count, kMostCameraPoints, std::size_t{wanted_rays}});
+        std::min({task.view.importons.count, kMaxCameraPoints, std::size_t{wanted_rays}});
     const double step = static_cast<double>(task.view.importons.count) / static_cast<double>(count);
     const double shift = Pcg32(task.seed, kPointStream).uniform();
     std::vector<Vpl> points;
@@ -126,7 +126,7 @@ std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
         sum += e;
     }
     const float mean = luminance(sum) / static_cast<float>(std::max<std::size_t>(rough_light.size(), 1));
-    const float least = mean > 0.0f ? kLeastLight * mean : 1.0f;
+    const float least = mean > 0.0f ? kMinLight * mean : 1.0f;
     std::vector<Vec3> light(rough_light.begin(), rough_light.end());
     for (Vec3& e : light) {
         e += Vec3{least, least, least};
@@ -140,7 +140,7 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     if (task.view.importons.count == 0) {
         return sample_instant_radiosity(stages, task);  // nothing to go backwards from
     }
-    const uint wanted = std::max(kFewestCandidates, multiple_of_budget(kCandidatesPerVpl, task));
+    const uint wanted = std::max(kMinCandidates, multiple_of_budget(kCandidatesPerVpl, task));
     const Deposits deposits =
         trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, wanted);
     const Balance balance{

@@ -13,11 +13,11 @@ namespace {
 /// Of the choice, that follows power alone.
 constexpr double kBlindPart = 0.1;
 /// Candidates on the device at a time, so that device memory stays small.
-constexpr std::size_t kMostInChunk = std::size_t{1} << 18u;
+constexpr std::size_t kMaxInChunk = std::size_t{1} << 18u;
 /// The same where rows of numbers are asked for.
-constexpr std::size_t kMostRowsInChunk = std::size_t{1} << 15u;
+constexpr std::size_t kMaxRowsInChunk = std::size_t{1} << 15u;
 /// Candidates of which rows are kept: 96 MiB, for some 10 000 VPLs.
-constexpr std::size_t kMostRowsKept = std::size_t{1} << 17u;
+constexpr std::size_t kMaxRowsKept = std::size_t{1} << 17u;
 
 std::size_t divide_rounding_up(std::size_t count, std::size_t by) {
     return (count + by - 1) / by;
@@ -35,7 +35,7 @@ template <typename Visit>
 void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
                            const Visit& visit) {
     const std::size_t packet_bytes = (1 + task.view.importon_groups.group_count) * sizeof(IrradiancePacket);
-    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMostRowsInChunk,
+    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMaxRowsInChunk,
                                          divide_rounding_up(packet_bytes, NEARLIGHT_PACKET_SIZE));
     for (std::size_t first = 0; first < candidates.size(); first += chunk) {
         const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
@@ -66,7 +66,7 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
                                   std::span<const Vpl> candidates, ContributionNorm norm) {
     std::vector<float> weights;
     weights.reserve(candidates.size());
-    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMostInChunk, sizeof(Vpl));
+    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMaxInChunk, sizeof(Vpl));
     for (std::size_t first = 0; first < candidates.size(); first += chunk) {
         const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
         const Buffer<Vpl> vpls(stages.device, part);
@@ -81,7 +81,7 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
 
 JudgedCandidates judge(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates) {
     JudgedCandidates judged;
-    const bool keep = candidates.size() <= kMostRowsKept;
+    const bool keep = candidates.size() <= kMaxRowsKept;
     judged.weights.reserve(candidates.size());
     judged.rows.reserve(keep ? candidates.size() * 3 * task.view.importon_groups.group_count : 0);
     for_each_contribution(stages, task, candidates, [&](std::size_t, const GroupContribution& part) {

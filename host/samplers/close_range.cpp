@@ -20,7 +20,7 @@ constexpr uint kDirectSamplesPerPatch = 64;
 /// Points that are placed to learn which share of them becomes VPLs.
 constexpr uint kPilotPoints = 4096;
 /// Where hardly a point of the selected triangles is lit or in view, more would take for ever.
-constexpr double kMostPointsPerVpl = 64;
+constexpr double kMaxPointsPerVpl = 64;
 constexpr uint kCloseRangePilotSeed = 0x717e5u;
 
 /// Step 6: VPLs on `point_count` points, with the direct light there; those in the dark are left out.
@@ -51,8 +51,7 @@ std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, Cl
     }
     const std::size_t pilot =
         lit_patches(stages, task, surface, kPilotPoints, task.seed ^ kCloseRangePilotSeed).size();
-    const double vpls_per_point =
-        std::max(static_cast<double>(pilot) / kPilotPoints, 1.0 / kMostPointsPerVpl);
+    const double vpls_per_point = std::max(static_cast<double>(pilot) / kPilotPoints, 1.0 / kMaxPointsPerVpl);
     const auto points = static_cast<std::size_t>(std::clamp(std::round(wanted / vpls_per_point), 1.0, 1e8));
     return lit_patches(stages, task, surface, points, task.seed);
 }

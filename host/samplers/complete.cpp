@@ -49,7 +49,7 @@ constexpr uint kPointsPerVpl = 2;  ///< candidates on the close range; each has 
 constexpr uint kDepositsPerVpl = 256;
 constexpr uint kScreenedPerVpl = 10;  ///< candidates that remain of them
 /// Deposits; where more VPLs are wanted, there is less choice.
-constexpr uint kMostDeposits = 1u << 22u;
+constexpr uint kMaxDeposits = 1u << 22u;
 constexpr uint kRoughSparseVpls = 128;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
@@ -98,7 +98,7 @@ void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit
 
 /// That are traced: bounded, but never fewer than VPLs.
 uint deposit_count(const SamplingTask& task) {
-    const uint ample = std::min(kMostDeposits / kDepositsPerVpl, task.vpl_count) * kDepositsPerVpl;
+    const uint ample = std::min(kMaxDeposits / kDepositsPerVpl, task.vpl_count) * kDepositsPerVpl;
     return std::max(task.vpl_count, ample);
 }
 

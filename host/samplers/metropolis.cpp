@@ -39,9 +39,9 @@ constexpr uint kStepsPerChain = 4;
 constexpr double kMetropolisBlindShare = 0.1;
 
 constexpr uint kPilotSeeds = 2048;
-constexpr uint kLeastSeeds = 2048;
-constexpr uint kMostSeeds = 1u << 21u;
-constexpr uint kMostPairs = 1u << 22u;  ///< of numbers in one buffer, 32 MiB
+constexpr uint kMinSeeds = 2048;
+constexpr uint kMaxSeeds = 1u << 21u;
+constexpr uint kMaxPairs = 1u << 22u;  ///< of numbers in one buffer, 32 MiB
 constexpr uint kMetropolisPilotSeed = 0x3e7f0u;
 constexpr std::uint64_t kStarts = 0x57a7;
 constexpr std::uint64_t kThinning = 0x7415;
@@ -52,13 +52,13 @@ struct Seeds {
     double mean_target = 0;
 };
 
-uint most_in_step(uint bounce_count) {
-    return std::max(kMostPairs / (bounce_count + 2), 64u);
+uint max_in_step(uint bounce_count) {
+    return std::max(kMaxPairs / (bounce_count + 2), 64u);
 }
 
 Seeds make_seeds(SamplerStages& stages, const PathSpace& space, uint count) {
     Seeds seeds{.vpls = Buffer<Vpl>(stages.device, count), .targets = std::vector<float>(count)};
-    const uint batch = std::min(count, most_in_step(space.bounce_count));
+    const uint batch = std::min(count, max_in_step(space.bounce_count));
     for (uint first = 0; first < count; first += batch) {
         PathStates states(stages.device, std::min(batch, count - first), space.bounce_count);
         std::vector<uint> indices(states.count);
@@ -147,13 +147,13 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
                     .depth_cdf = make_depth_cdf(stages.device, task.bounce_count, task.scene.mean_albedo)};
     space.blind_target = choose_blind_target(stages, space);
     space.seed = task.seed;
-    const double seed_count = std::clamp<double>(kSeedsPerVpl * task.vpl_count, kLeastSeeds, kMostSeeds);
+    const double seed_count = std::clamp<double>(kSeedsPerVpl * task.vpl_count, kMinSeeds, kMaxSeeds);
     const Seeds seeds = make_seeds(stages, space, static_cast<uint>(seed_count));
     if (!(seeds.mean_target > 0.0)) {
         return {};
     }
     const auto chain_count = static_cast<std::size_t>(
-        std::min<double>(kChainsPerVpl * task.vpl_count, most_in_step(task.bounce_count)));
+        std::min<double>(kChainsPerVpl * task.vpl_count, max_in_step(task.bounce_count)));
     const std::vector<uint> starts =
         choose_starts(stages, seeds, chain_count, Pcg32(task.seed, kStarts).uniform());
     const double steps_needed = std::ceil(2.0 * task.vpl_count / static_cast<double>(chain_count));

@@ -34,13 +34,13 @@ namespace {
 // from 0.02 to 0.2 were equal within the noise.
 constexpr double kWantedToMean = 16;
 /// Bounds the work where few candidates bring anything: then Φv is lowered.
-constexpr double kMostCandidatesPerVpl = 32;
+constexpr double kMaxCandidatesPerVpl = 32;
 /// At least this share of the VPLs is accepted by ε alone. It bounds the power of VPLs that the estimate
 /// misses.
 constexpr double kRejectionBlindShare = 0.1;
 
 constexpr uint kFirstPilotWalks = 2048;
-constexpr uint kMostPilotWalks = 32768;
+constexpr uint kMaxPilotWalks = 32768;
 constexpr std::ptrdiff_t kEnoughContributors = 512;
 constexpr uint kRejectionPilotSeed = 0x4e1ec7u;
 constexpr std::uint64_t kDecisions = 0xacce97;
@@ -83,7 +83,7 @@ struct Pilot {
 Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     Pilot pilot;
     const auto contributes = [](float contribution) { return contribution > 0.0f; };
-    for (uint round = 0; pilot.walk_count < kMostPilotWalks; ++round) {
+    for (uint round = 0; pilot.walk_count < kMaxPilotWalks; ++round) {
         const LightWalks walks =
             light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
         stages.light_tracer.run(
@@ -129,16 +129,16 @@ std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributi
         return std::nullopt;
     }
     const auto count = static_cast<double>(contributions.size());
-    constexpr double kLeast = 1 / kMostCandidatesPerVpl;
+    constexpr double kMin = 1 / kMaxCandidatesPerVpl;
     Acceptance acceptance{.wanted = kWantedToMean * total / count};
     // Below the least contribution all that bring anything are accepted, and a lower Φv would change nothing.
-    while (acceptance.expected(contributions) / count < (1 - kRejectionBlindShare) * kLeast &&
+    while (acceptance.expected(contributions) / count < (1 - kRejectionBlindShare) * kMin &&
            acceptance.wanted > least) {
         acceptance.wanted *= 0.9;
     }
     const double accepted = acceptance.expected(contributions) / count;
     acceptance.floor =
-        std::max(kRejectionBlindShare / (1 - kRejectionBlindShare) * accepted, kLeast - accepted);
+        std::max(kRejectionBlindShare / (1 - kRejectionBlindShare) * accepted, kMin - accepted);
     return acceptance;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint kPilotWalks = 512;
 /// Where hardly a walk lands (a light outside that shines past the scene), more would take for ever.
-constexpr uint kMostWalksPerVpl = 256;
+constexpr uint kMaxWalksPerVpl = 256;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
 }  // namespace
@@ -34,7 +34,7 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
                      .seed = task.seed ^ kWalkCountPilotSeed};
     const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
     const double deposits_per_walk = static_cast<double>(pilot_deposits) / kPilotWalks;
-    const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMostWalksPerVpl);
+    const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMaxWalksPerVpl);
     walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, 1e8));
     walks.seed = task.seed;
     return {stages.light_tracer.run(task.scene, region, keep, walks), walks.walk_count};

@@ -88,16 +88,16 @@ Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
 /// The first halving of the widest radius that is small enough for the light there, or nearly so.
 bool radius_fits(float radius, Vec3 irradiance) {
     const float wanted = kPlan.radius_at_unit_light / std::sqrt(luminance(irradiance));
-    float least_wanted = kPlan.widest_radius;
-    for (int level = 1; level < 4 && least_wanted > wanted * 1.001f; ++level) {
-        least_wanted *= 0.5f;
+    float min_wanted = kPlan.widest_radius;
+    for (int level = 1; level < 4 && min_wanted > wanted * 1.001f; ++level) {
+        min_wanted *= 0.5f;
     }
-    float most_wanted = kPlan.widest_radius;
-    for (int level = 1; level < 4 && most_wanted > wanted * 0.999f; ++level) {
-        most_wanted *= 0.5f;
+    float max_wanted = kPlan.widest_radius;
+    for (int level = 1; level < 4 && max_wanted > wanted * 0.999f; ++level) {
+        max_wanted *= 0.5f;
     }
-    return radius == std::max(least_wanted, kPlan.clamp_radius) ||
-           radius == std::max(most_wanted, kPlan.clamp_radius);
+    return radius == std::max(min_wanted, kPlan.clamp_radius) ||
+           radius == std::max(max_wanted, kPlan.clamp_radius);
 }
 
 /// The lights of all packets, what they are made of, and what they are good for.

@@ -17,7 +17,7 @@ constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
 constexpr uint kRunPackets = 5;  // of 20: bundles of 4 and of 1
 /// Standard errors that chance does not reach in thousands of cases.
-constexpr double kMostErrors = 5.5;
+constexpr double kMaxDeviations = 5.5;
 
 struct RouletteCase {
     std::vector<Vpl> vpls;
@@ -88,7 +88,7 @@ void check_choices(Device& device, const RouletteCase& data, CheckResult& result
             const double count = chosen[bundle * data.vpls.size() + vpl];
             const double weight = chosen_weights[bundle * data.vpls.size() + vpl];
             // A bound that is almost 0 or almost the limit may be on either side of it for rounding.
-            const double chance = kMostErrors * std::sqrt(kSeeds * p * (1 - p)) + (p > 0 && p < 1 ? 2 : 0);
+            const double chance = kMaxDeviations * std::sqrt(kSeeds * p * (1 - p)) + (p > 0 && p < 1 ? 2 : 0);
             result.expect(std::abs(count - p * kSeeds) <= chance &&
                           (count == 0 || std::abs(weight * p - 1) <= 1e-3));
         }
@@ -122,7 +122,7 @@ void check_expectation(Device& device, const RouletteCase& data, CheckResult& re
     for (std::size_t packet = 0; packet < full.size(); ++packet) {
         const double mean = deviation[packet] / kSeeds;
         const double error = std::sqrt((squares[packet] / kSeeds - mean * mean) / (kSeeds - 1));
-        result.expect(std::abs(mean) <= kMostErrors * error + 1e-6 * full[packet]);
+        result.expect(std::abs(mean) <= kMaxDeviations * error + 1e-6 * full[packet]);
     }
 }
 

@@ -22,7 +22,7 @@ std::size_t chunk_of(const GatherInput& input) {
 constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 
 /// Pairs of a launch at most, however fast the device is.
-constexpr double kMostLaunchPairs = 0x1p40;
+constexpr double kMaxLaunchPairs = 0x1p40;
 
 GatherConfig resolved(GatherConfig config, const Device& device) {
     config.kernel = choose_kernel(config.kernel, device);
@@ -68,7 +68,7 @@ struct Gatherer::Course {
 Gatherer::Gatherer(Device& device, const GatherConfig& config)
     : device_(&device),
       config_(resolved(config, device)),
-      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMostLaunchPairs)),
+      launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMaxLaunchPairs)),
       next_packet_(device, 1),
       no_least_(device, 0) {
     kernel_of(false, false);
@@ -158,7 +158,7 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::siz
         const std::uint64_t pairs = part.pairs(input.bundles());
         const double fitting =
             static_cast<double>(pairs) * config_.launch_seconds / std::max(1e-6, watch.seconds());
-        course.budget = std::clamp(fitting, 1.0, std::min(course.budget * 4.0, kMostLaunchPairs));
+        course.budget = std::clamp(fitting, 1.0, std::min(course.budget * 4.0, kMaxLaunchPairs));
         course.done += pairs;
         if (course.progress && !course.progress(course.done, course.total)) {
             return false;
@@ -193,7 +193,7 @@ bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work
                             .clamp_radius = input.clamp_radius,
                             .threshold = input.roulette,
                             .seed = input.seed};
-    const std::size_t most = Roulette::most_bundles(input.vpl_count);
+    const std::size_t most = Roulette::max_bundles(input.vpl_count);
     for (std::size_t first = 0; first < bundle_count; first += most) {
         const std::size_t end = std::min(bundle_count, first + most);
         const RouletteLists& lists = roulette_->choose(task, first, end);

@@ -18,7 +18,7 @@ Roulette::Roulette(Device& device)
       bounds_kernel_(program_, "roulette_bounds"),
       choose_kernel_(program_, "roulette_choose") {}
 
-std::size_t Roulette::most_bundles(std::size_t vpl_count) {
+std::size_t Roulette::max_bundles(std::size_t vpl_count) {
     return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
 }
 

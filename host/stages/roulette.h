@@ -39,9 +39,9 @@ class Roulette {
     explicit Roulette(Device& device);
 
     /// Bundles whose lists fit into memory together, for so many VPLs; at least 1.
-    [[nodiscard]] static std::size_t most_bundles(std::size_t vpl_count);
+    [[nodiscard]] static std::size_t max_bundles(std::size_t vpl_count);
 
-    /// The lists of bundles [first_bundle, end_bundle), at most most_bundles() of them; valid until the next
+    /// The lists of bundles [first_bundle, end_bundle), at most max_bundles() of them; valid until the next
     /// call.
     const RouletteLists& choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle);
 

@@ -24,8 +24,7 @@ class BvhCache : public testing::Test {
     }
     SceneTrees get(const BvhConfig& config = {}) const {
         return find_or_build_scene_trees(
-            scene_, config, shapes_,
-            {.folder = folder_.path(), .least_triangles = 1, .most_bytes = most_bytes_});
+            scene_, config, shapes_, {.folder = folder_.path(), .min_triangles = 1, .max_bytes = max_bytes_});
     }
     void expect_right(const SceneTrees& trees, const BvhConfig& config = {}) const {
         const SceneBvhs built = build_scene_bvhs(scene_, config);
@@ -52,7 +51,7 @@ class BvhCache : public testing::Test {
     TemporaryFolder folder_;
     Scene scene_ = test::random_soup(600, 0.3f, 5);
     TreeShapes shapes_{.binary = true, .wide = true};
-    std::uintmax_t most_bytes_ = 1u << 30u;
+    std::uintmax_t max_bytes_ = 1u << 30u;
 };
 
 TEST_F(BvhCache, GivesWhatWouldBeBuilt) {
@@ -122,7 +121,7 @@ TEST_F(BvhCache, ForgetsWhatWasNotUsedForLongest) {
     get();
     const std::filesystem::path first = only_file();
     std::filesystem::last_write_time(first, std::filesystem::last_write_time(first) - std::chrono::hours(1));
-    most_bytes_ = std::filesystem::file_size(first) * 3 / 2;
+    max_bytes_ = std::filesystem::file_size(first) * 3 / 2;
     get({.quality = BvhQuality::quality});
     EXPECT_EQ(folder_.file_count(), 1u);
     EXPECT_FALSE(std::filesystem::exists(first));
@@ -130,8 +129,7 @@ TEST_F(BvhCache, ForgetsWhatWasNotUsedForLongest) {
 
 TEST_F(BvhCache, KeepsNothingWhereThereIsNoFolderOrLittleToBuild) {
     for (const char* folder : {"", "none"}) {
-        expect_right(
-            find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder, .least_triangles = 1}));
+        expect_right(find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder, .min_triangles = 1}));
     }
     expect_right(find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder_.path()}));
     EXPECT_EQ(folder_.file_count(), 0u);

@@ -40,12 +40,12 @@ inline ProgramResult run_program(const std::string& arguments, const std::string
 /// as long, because how soon it begins depends on how busy the machine is.
 template <typename Begun>
 ProgramResult run_interrupted(const std::string& arguments, double seconds, const Begun& begun) {
-    constexpr double kLongest = 128;
+    constexpr double kMax = 128;
     for (;; seconds *= 2) {
         // In the foreground, for else `timeout` interrupts its whole group too, and a second interrupt kills.
         ProgramResult result = run_program(
             arguments, "timeout --foreground --preserve-status --signal=INT " + std::to_string(seconds));
-        if (begun(result) || result.exit_code != 130 || seconds > kLongest) {
+        if (begun(result) || result.exit_code != 130 || seconds > kMax) {
             return result;
         }
     }

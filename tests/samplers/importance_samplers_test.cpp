@@ -33,7 +33,7 @@ double total(const std::vector<float>& values) {
 
 /// Mean power at each depth over many seeds is the flux that is known to be there.
 void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count, uint seeds,
-                      double most_error) {
+                      double max_error) {
     std::vector<std::vector<double>> power(kDepths);
     for (uint seed = 0; seed < seeds; ++seed) {
         const VplSet set = bench.sample(sampler, vpl_count, 50 + seed, kDepths);
@@ -47,7 +47,7 @@ void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count,
         // Walks are well spread, so that their number's rounding may be all the error there is.
         EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.003 * expected)
             << vpl_count << " VPLs, depth " << depth;
-        EXPECT_LT(found.error, most_error * expected)
+        EXPECT_LT(found.error, max_error * expected)
             << vpl_count << " VPLs, depth " << depth << ": too noisy to tell";
     }
 }

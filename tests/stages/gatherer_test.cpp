@@ -50,7 +50,7 @@ Differences compare(const GatherCase& data, const std::vector<GatherPair>& pairs
             data.receivers[i / NEARLIGHT_PACKET_SIZE / data.vpls.size()], i % NEARLIGHT_PACKET_SIZE);
         const PairTerm term = pair_term(vpl, receiver, data.clamp_radius);
         if ((term.value > 0.0) != (pairs[i] != GatherPair::culled)) {
-            result.culling += term.least_cosine > 1e-6 ? 1 : 0;
+            result.culling += term.min_cosine > 1e-6 ? 1 : 0;
             continue;
         }
         if (pairs[i] == GatherPair::culled) {

@@ -18,7 +18,7 @@ namespace {
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 200;
 /// Standard errors that chance does not reach in hundreds of comparisons (two-sided 1e-6 each).
-constexpr double kMostErrors = 4.9;
+constexpr double kMaxErrors = 4.9;
 
 GatherCase room() {
     return room_of_boxes(40, 300, 6, 21);
@@ -34,7 +34,7 @@ std::vector<double> packet_sums(const std::vector<IrradiancePacket>& irradiance)
 }
 
 /// Largest distance, in standard errors, of the mean over runs from what is expected, over all packets.
-double most_errors(const std::vector<std::vector<double>>& runs, const std::vector<double>& expected) {
+double max_errors(const std::vector<std::vector<double>>& runs, const std::vector<double>& expected) {
     double most = 0.0;
     for (std::size_t packet = 0; packet < expected.size(); ++packet) {
         std::vector<double> values;
@@ -109,7 +109,7 @@ TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
                     continue;
                 }
                 ++by_chance;
-                EXPECT_LE(std::abs(count - p * kSeeds), kMostErrors * std::sqrt(kSeeds * p * (1.0 - p)) + 2.0)
+                EXPECT_LE(std::abs(count - p * kSeeds), kMaxErrors * std::sqrt(kSeeds * p * (1.0 - p)) + 2.0)
                     << "bundle " << bundle << " VPL " << vpl << ", probability " << p;
                 if (count > 0) {
                     EXPECT_NEAR(choices.weights[bundle * probabilities.size() + vpl] * p, 1.0, 1e-3);
@@ -138,10 +138,10 @@ TEST_F(RouletteTest, MeanOverSeedsIsTheFullGather) {
                     sum *= 0.99;
                 }
             }
-            EXPECT_LT(most_errors(runs, full), kMostErrors);
+            EXPECT_LT(max_errors(runs, full), kMaxErrors);
             EXPECT_NE(runs[0], runs[1]);
             // The test would see weights that are wrong by one part in a hundred.
-            EXPECT_GT(most_errors(wrong, full), kMostErrors);
+            EXPECT_GT(max_errors(wrong, full), kMaxErrors);
         }
     });
 }

@@ -186,7 +186,7 @@ PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_ra
     const double cos_vpl = dot64(vpl.normal, segment) / std::sqrt(r2);
     const double cos_receiver = -dot64(receiver.normal, segment) / std::sqrt(r2);
     PairTerm term;
-    term.least_cosine = std::min(std::abs(cos_vpl), std::abs(cos_receiver));
+    term.min_cosine = std::min(std::abs(cos_vpl), std::abs(cos_receiver));
     if (cos_vpl > 0.0 && cos_receiver > 0.0) {
         term.value = cos_vpl * cos_receiver / std::max(r2, static_cast<double>(clamp_radius) * clamp_radius);
     }

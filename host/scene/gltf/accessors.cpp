@@ -75,12 +75,12 @@ double number(const Elements& elements, std::size_t element, std::size_t index) 
 }
 
 /// Of an accessor that has no bytes which would bound it; more vertices no tree could hold.
-constexpr std::size_t kMostZeros = std::size_t{1} << 27u;
+constexpr std::size_t kMaxZeros = std::size_t{1} << 27u;
 
 /// Of the accessor without what is sparse. It may have no view, and then is zero.
 Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components) {
     if (accessor.bufferView < 0) {
-        if (accessor.count > kMostZeros) {
+        if (accessor.count > kMaxZeros) {
             file.fail("an accessor has " + std::to_string(accessor.count) + " elements, and no buffer view");
         }
         return {nullptr, 0, accessor.componentType, false};

@@ -7,7 +7,7 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr int kMaxDepth = 32;  // of BSDFs in BSDFs; only a cycle of references goes deeper
+constexpr int kMaxBsdfDepth = 32;  // of BSDFs in BSDFs; only a cycle of references goes deeper
 
 constexpr const char* kKnown =
     "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, thindielectric, "
@@ -35,7 +35,7 @@ Material MaterialMaker::make(const Object& bsdf, int depth) {
     if (const auto found = made_.find(&bsdf); found != made_.end()) {
         return found->second;
     }
-    if (depth > kMaxDepth) {
+    if (depth > kMaxBsdfDepth) {
         fail(bsdf.where, "bsdf '" + bsdf.type + "' contains itself");
     }
     const std::string& type = bsdf.type;

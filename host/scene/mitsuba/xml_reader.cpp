@@ -11,7 +11,7 @@ namespace nearlight::core::mitsuba {
 namespace {
 
 // Deeper nesting than any real scene has; keeps hostile files off the stack.
-constexpr int kMaxDepth = 64;
+constexpr int kMaxXmlDepth = 64;
 
 constexpr const char* kObjectTags[] = {"scene",  "shape",  "bsdf",    "texture",   "emitter",
                                        "sensor", "film",   "sampler", "rfilter",   "integrator",
@@ -51,7 +51,7 @@ class Reader {
   private:
     const Object* read_object(const XmlFile& file, const pugi::xml_node& node, int depth) {
         const Element element{node, file.location(node), parameters_};
-        if (depth > kMaxDepth) {
+        if (depth > kMaxXmlDepth) {
             fail(element.where, "elements are nested too deeply");
         }
         Object* object = document_.objects.emplace_back(std::make_unique<Object>()).get();
@@ -98,7 +98,7 @@ class Reader {
     }
 
     void include(const std::filesystem::path& path, const Element& element, Object& parent, int depth) {
-        if (depth > kMaxDepth) {
+        if (depth > kMaxXmlDepth) {
             fail(element.where, "files include each other without end");
         }
         std::error_code ignored;

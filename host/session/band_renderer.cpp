@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/band_renderer.h"
+
+#include <algorithm>
+
+namespace nearlight::core {
+namespace {
+
+uint direct_samples_per_sample(const RenderSettings& settings) {
+    return std::max(1u, (settings.direct_samples_per_pixel + settings.samples_per_pixel - 1) /
+                            settings.samples_per_pixel);
+}
+
+std::size_t pixels_per_band(const Picture& picture) {
+    return static_cast<std::size_t>(picture.view.camera.width) * picture.plan.tile_rows_per_band * 8;
+}
+
+}  // namespace
+
+BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, std::size_t pixels)
+    : receivers(device, packets),
+      vertices(device, packets * NEARLIGHT_PACKET_SIZE),
+      direct(device, packets),
+      indirect(device, packets),
+      sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
+      layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
+
+BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture)
+    : stages_(stages),
+      scene_(scene),
+      picture_(picture),
+      camera_(stages.device, std::span(&picture.view.camera, 1)),
+      close_range_(stages.device, std::span(&picture.view.close_range, 1)),
+      vpls_(stages.device, picture.vpls),
+      buffers_(stages.device, picture.plan.max_packets(picture.view.camera.width), pixels_per_band(picture)) {
+    if (picture.local) {
+        if (!stages.local_gather) {
+            stages.local_gather.emplace(stages.device);
+        }
+        stages.local_gather->set_vpls(scene, picture.vpls, *picture.local);
+    }
+}
+
+/// Indirect light of a batch's receivers. False if cancelled.
+bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
+    const uint width = picture_.view.camera.width;
+    const std::size_t packets = packet_count(batch, width);
+    if (picture_.local) {
+        return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
+                                         buffers_.indirect, progress);
+    }
+    return stages_.gatherer.gather({.tree = scene_.tree,
+                                    .vpls = vpls_,
+                                    .vpl_count = picture_.vpls.size(),
+                                    .receivers = buffers_.receivers,
+                                    .packet_count = packets,
+                                    .clamp_radius = picture_.view.clamp_radius,
+                                    .roulette = picture_.settings.roulette,
+                                    .seed = picture_.settings.seed,
+                                    .run_packets = picture_.plan.run_packets(batch, width)},
+                                   buffers_.indirect, progress);
+}
+
+/// One batch: receivers, direct light, indirect light, film. False if cancelled.
+bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
+    const RenderSettings& settings = picture_.settings;
+    const uint width = picture_.view.camera.width;
+    const std::size_t packets = packet_count(batch, width);
+    stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, settings.seed, buffers_.receivers,
+                            buffers_.vertices);
+    if (settings.indirect_only) {
+        buffers_.direct.fill_zero();
+    } else {
+        stages_.direct_light.run(scene_, buffers_.receivers, packets, direct_samples_per_sample(settings),
+                                 settings.seed, buffers_.direct);
+    }
+    const bool finished = gather_indirect(batch, progress);
+    if (finished) {
+        stages_.film.add(buffers_.receivers, buffers_.vertices, buffers_.direct, buffers_.indirect, batch,
+                         width, row_count, buffers_.sums);
+    }
+    return finished;
+}
+
+std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
+    const uint width = picture_.view.camera.width;
+    const auto batches = picture_.plan.batches(index);
+    const uint first_row = batches.front().first_tile_row * 8;
+    const uint row_count =
+        std::min(batches.front().tile_row_count * 8, picture_.view.camera.height - first_row);
+    FinishedBand band;
+    const std::size_t lights_before = picture_.local ? stages_.local_gather->light_count() : 0;
+    buffers_.sums.fill_zero();
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        const auto batch_progress = [&](std::uint64_t done, std::uint64_t total) {
+            const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+            return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
+        };
+        if (!add_batch(batches[i], row_count, batch_progress)) {
+            return std::nullopt;
+        }
+    }
+    const std::size_t pixel_count = static_cast<std::size_t>(width) * row_count;
+    stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
+    band.local_lights = picture_.local ? stages_.local_gather->light_count() - lights_before : 0;
+    band.rows.resize(pixel_count * NEARLIGHT_LAYER_CHANNELS);
+    buffers_.layers.download(band.rows);
+    return band;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/band_sharing.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "host/base/message.h"
+#include "host/base/stopwatch.h"
+
+namespace nearlight::core {
+namespace {
+
+std::string message_of(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::exception& exception) {
+        return exception.what();
+    } catch (...) {
+        return "unknown error";
+    }
+}
+
+/// What workers and caller share. All members are guarded by one mutex.
+class Board {
+  public:
+    Board(uint band_count, uint window, std::size_t worker_count)
+        : band_count_(band_count), window_(window), fractions_(worker_count), working_(worker_count) {
+        for (uint band = 0; band < band_count; ++band) {
+            waiting_.insert(waiting_.end(), band);
+        }
+    }
+
+    // For workers.
+
+    /// The first band that waits; empty when all are finished or nobody wants more.
+    std::optional<uint> take() {
+        std::unique_lock lock(mutex_);
+        // A band in another's hands may yet come back.
+        changed_.wait(lock, [&] { return stopping_ || finished_count_ == band_count_ || may_take(); });
+        if (stopping_ || waiting_.empty()) {
+            return std::nullopt;
+        }
+        return waiting_.extract(waiting_.begin()).value();
+    }
+    bool advance(std::size_t worker, double fraction) {
+        const std::lock_guard lock(mutex_);
+        fractions_[worker] = fraction;
+        announce();
+        return !stopping_;
+    }
+    void finish(std::size_t worker, uint band, FinishedBand result) {
+        const std::lock_guard lock(mutex_);
+        finished_.emplace(band, std::move(result));
+        ++finished_count_;
+        fractions_[worker] = 0;
+        announce();
+    }
+    /// Ends a worker; what it had in hand waits again.
+    void leave(std::size_t worker, std::optional<uint> unfinished, std::exception_ptr error) {
+        const std::lock_guard lock(mutex_);
+        fractions_[worker] = 0;
+        if (unfinished) {
+            waiting_.insert(*unfinished);
+        }
+        if (error) {
+            failures_.push_back({worker, error});
+        }
+        --working_;
+        announce();
+    }
+
+    // For the caller.
+
+    struct Failure {
+        std::size_t worker;
+        std::exception_ptr error;
+    };
+    struct News {
+        std::vector<FinishedBand> bands;  ///< that follow those of earlier news
+        std::vector<Failure> failures;
+        double fraction = 0;
+        std::size_t working = 0;  ///< workers that go on
+        bool complete = false;    ///< every band was handed out
+    };
+    /// Waits until there is any; the first do not wait.
+    News wait() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return is_new_; });
+        return news();
+    }
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        announce();
+    }
+
+  private:
+    [[nodiscard]] bool may_take() const {
+        return !waiting_.empty() && *waiting_.begin() < next_out_ + window_;
+    }
+    void announce() {
+        is_new_ = true;
+        changed_.notify_all();
+    }
+    News news() {
+        is_new_ = false;
+        News result{.bands = {}, .failures = std::exchange(failures_, {}), .working = working_};
+        while (!finished_.empty() && finished_.begin()->first == next_out_) {
+            result.bands.push_back(std::move(finished_.extract(finished_.begin()).mapped()));
+            ++next_out_;
+        }
+        if (!result.bands.empty()) {
+            changed_.notify_all();  // the window has moved
+        }
+        const double in_hand = std::accumulate(fractions_.begin(), fractions_.end(), 0.0);
+        result.fraction = band_count_ == 0 ? 1.0 : (finished_count_ + in_hand) / band_count_;
+        result.complete = next_out_ == band_count_;
+        return result;
+    }
+
+    const uint band_count_;
+    const uint window_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::set<uint> waiting_;
+    std::map<uint, FinishedBand> finished_;  ///< and not handed out
+    uint finished_count_ = 0;
+    uint next_out_ = 0;              ///< the first band that was not handed out
+    std::vector<double> fractions_;  ///< of the band in each worker's hand
+    std::size_t working_;
+    std::vector<Failure> failures_;  ///< not yet told
+    bool stopping_ = false;
+    bool is_new_ = true;  ///< something changed since the last news
+};
+
+/// The life of one worker's thread.
+void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& share) {
+    std::optional<uint> in_hand;
+    Stopwatch watch;
+    try {
+        const BandMaker make = worker.start();
+        while ((in_hand = board.take())) {
+            watch.lap();
+            auto band = make(*in_hand, [&](double fraction) { return board.advance(index, fraction); });
+            share.seconds += watch.lap();
+            if (!band) {
+                break;
+            }
+            ++share.bands;
+            board.finish(index, *in_hand, std::move(*band));
+            in_hand.reset();
+        }
+        board.leave(index, in_hand, nullptr);
+    } catch (...) {
+        share.seconds += in_hand ? watch.lap() : 0.0;
+        share.failed = true;
+        board.leave(index, in_hand, std::current_exception());
+    }
+}
+
+/// Threads that are stopped and waited for, whatever happens.
+class Crew {
+  public:
+    Crew(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares) : board_(board) {
+        for (std::size_t i = 0; i < workers.size(); ++i) {
+            threads_.emplace_back([&, i, worker = &workers[i]] { work(board, i, *worker, shares[i]); });
+        }
+    }
+    ~Crew() { board_.stop(); }
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
+  private:
+    Board& board_;
+    std::vector<std::jthread> threads_;  // joined after stop()
+};
+
+/// Warns of workers that failed; where nobody is left to do their part, throws what the last one threw.
+void tell_failures(const Board::News& news, std::span<const BandWorker> workers) {
+    const bool lost = news.working == 0 && !news.complete;
+    for (const Board::Failure& failure : news.failures) {
+        if (lost && &failure == &news.failures.back()) {
+            std::rethrow_exception(failure.error);
+        }
+        say_warning("device " + workers[failure.worker].name +
+                    " failed, others do its part: " + message_of(failure.error));
+    }
+}
+
+/// False if `progress` stopped the work. No worker is at work afterwards.
+bool work_together(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares,
+                   const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress) {
+    const Crew crew(board, workers, shares);
+    for (;;) {
+        Board::News news = board.wait();
+        for (FinishedBand& band : news.bands) {
+            sink(band);
+        }
+        tell_failures(news, workers);
+        if (news.complete) {
+            return true;
+        }
+        if (!progress(news.fraction)) {
+            return false;
+        }
+    }
+}
+
+}  // namespace
+
+BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker> workers,
+                        const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress) {
+    BandOutcome outcome;
+    for (const BandWorker& worker : workers) {
+        outcome.shares.push_back({.name = worker.name});
+    }
+    Board board(band_count, std::max(window, 1u), workers.size());
+    outcome.interrupted = !work_together(board, workers, outcome.shares, sink, progress);
+    return outcome;
+}
+
+void add_shares(std::span<const BandShare> shares, std::vector<BandShare>& sum) {
+    if (sum.empty()) {
+        sum.assign(shares.begin(), shares.end());
+        return;
+    }
+    auto place = sum.begin();  // devices may share a name
+    for (const BandShare& share : shares) {
+        place = std::find_if(place, sum.end(), [&](const BandShare& one) { return one.name == share.name; });
+        if (place == sum.end()) {
+            return;
+        }
+        place->bands += share.bands;
+        place->seconds += share.seconds;
+        place->failed = place->failed || share.failed;
+        ++place;
+    }
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/local_gather.h"
+
+namespace nearlight::core {
+
+void LocalGather::set_vpls(const DeviceScene& scene, std::span<const Vpl> sorted_vpls,
+                           const LocalLightPlan& plan) {
+    vpls_ = lights_.group(scene, sorted_vpls, plan);
+    plan_ = plan;
+    light_count_ = 0;
+}
+
+bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                      std::size_t packet_count, Buffer<IrradiancePacket>& irradiance,
+                      const GatherProgress& progress) {
+    Buffer<IrradiancePacket> part(*device_, packet_count);
+    irradiance.fill_zero();
+    std::uint64_t pairs_before = 0;
+    const std::uint64_t receiver_count = packet_count * NEARLIGHT_PACKET_SIZE;
+    for (const LocalVpls::Group& group : vpls_.groups) {
+        const bool finished = gatherer.gather({.tree = scene.tree,
+                                               .vpls = group.vpls,
+                                               .vpl_count = group.count,
+                                               .receivers = receivers,
+                                               .packet_count = packet_count,
+                                               .clamp_radius = group.radius},
+                                              part, [&](std::uint64_t done, std::uint64_t) {
+                                                  return !progress || progress(pairs_before + done,
+                                                                               vpls_.count * receiver_count);
+                                              });
+        if (!finished) {
+            return false;
+        }
+        vpl_light_.add(part, packet_count, irradiance);
+        pairs_before += group.count * receiver_count;
+    }
+    light_count_ += lights_.add(scene, vpls_, receivers, packet_count, plan_, irradiance);
+    return true;  // add() has waited, so `part` is no longer in use
+}
+
+}  // namespace nearlight::core

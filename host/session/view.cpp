@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/view.h"
+
+#include <algorithm>
+
+#include "host/base/message.h"
+#include "host/scene/pinhole_camera.h"
+#include "host/stages/close_range.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr uint kDefaultMaxDepth = 8;
+constexpr float kClampRadiusToRange = 0.05f;
+
+/// The distance within which nine tenths of the visible surface lie, with a little room; the scene's extent
+/// where nothing is in view.
+float automatic_range(const PilotView& pilot, float extent) {
+    if (pilot.distances.empty()) {
+        say_warning("the camera sees no diffuse surface; is it inside an object, or looking away?");
+        return std::max(extent, 1e-6f);
+    }
+    const std::size_t index = (pilot.distances.size() - 1) * 9 / 10;
+    return std::max(pilot.distances[index] * 1.05f, 1e-6f);
+}
+
+}  // namespace
+
+View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
+                 const RenderSettings& settings) {
+    View view;
+    view.scene_camera = scene.camera;
+    view.scene_camera.width = settings.width.value_or(scene.camera.width);
+    view.scene_camera.height = settings.height.value_or(scene.camera.height);
+    view.camera = make_pinhole_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
+    view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
+                                                                     : kDefaultMaxDepth);
+    view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, settings.seed);
+    const float range =
+        settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
+    view.close_range = make_close_range(view.camera, range);
+    view.clamp_radius = settings.clamp_radius.value_or(kClampRadiusToRange * range);
+    say_debug("range " + std::to_string(range) + ", clamp radius " + std::to_string(view.clamp_radius) +
+              ", max depth " + std::to_string(view.max_depth));
+    return view;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view to be rendered, with every setting decided.
+#pragma once
+
+#include "host/scene/scene.h"
+#include "host/session/settings.h"
+#include "host/stages/pilot_view.h"
+
+namespace nearlight::core {
+
+struct View {
+    SceneCamera scene_camera;  ///< at the size to render
+    PinholeCamera camera{};
+    CloseRange close_range{};
+    PilotView pilot;
+    float clamp_radius = 0.0f;
+    uint max_depth = 8;
+    [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
+};
+
+/// Decides what the settings leave open: size and depth from the scene; the range so that it holds nine
+/// tenths of what the camera sees; the clamp radius as a twentieth of the range.
+View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
+                 const RenderSettings& settings);
+
+}  // namespace nearlight::core

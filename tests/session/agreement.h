@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Comparison of the renderer with the Embree path tracer on whole pictures, antialiased and with direct
+// light.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "host/reference/path_tracer.h"
+#include "tests/session/convergence.h"
+#include "tests/session/rendering.h"
+
+namespace nearlight::core::test {
+
+/// Pictures are square, so many pixels wide.
+inline constexpr int kAgreementSize = 32;
+
+/// The layers direct and indirect of several seeds against a path-traced picture, as convergence.h says.
+inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
+                             Policy policy = Policy::complete) {
+    constexpr uint kSeeds = 24;
+    const Image truth = trace_paths(scene, {.width = kAgreementSize,
+                                            .height = kAgreementSize,
+                                            .spp = 512,
+                                            .max_depth = 6,
+                                            .clamp_radius = clamp_radius,
+                                            .seed = 9});
+    Renderer renderer(device, scene);
+    const RenderSettings settings{.sampler = sampler,
+                                  .policy = policy,
+                                  .vpl_count = 1000,
+                                  .clamp_radius = clamp_radius,
+                                  .max_depth = 6,
+                                  .width = kAgreementSize,
+                                  .height = kAgreementSize,
+                                  .samples_per_pixel = 4,
+                                  .direct_samples_per_pixel = 64};
+    const std::vector<Image> renders = render_seeds(renderer, settings, 100, kSeeds);
+    for (const std::string layer : {"direct", "indirect"}) {
+        const Verdict verdict = judge_convergence(renders, truth, layer);
+        EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;
+        EXPECT_LT(verdict.relative_error, 0.015) << layer << ": too noisy to tell anything";
+    }
+}
+
+}  // namespace nearlight::core::test

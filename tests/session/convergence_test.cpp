@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every sampler under every policy has the expectation of the path tracer, pixel by pixel; the paper's policy
+// has not, where it drops light, and this is seen. Samplers and policies that are added to the tables are
+// tested by themselves.
+#include "tests/session/convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "host/reference/path_tracer.h"
+#include "host/scene/scene_loader.h"
+#include "tests/session/rendering.h"
+#include "tests/session/variants.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/real_scenes.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+using test::all_variants;
+using test::judge_convergence;
+using test::Variant;
+using test::Verdict;
+
+constexpr uint kSeeds = 24;
+
+struct Case {
+    Scene scene;
+    float clamp_radius = 0.1f;
+    std::optional<float> range{};
+    uint max_depth = 6;
+    uint vpl_count = 1000;
+    int size = 32;  ///< of the picture, pixels each way
+    int spp = 512;  ///< of the truth
+};
+
+Image trace_truth(const Case& test_case, uint max_depth) {
+    return trace_paths(test_case.scene, {.width = test_case.size,
+                                         .height = test_case.size,
+                                         .spp = test_case.spp,
+                                         .max_depth = static_cast<int>(max_depth),
+                                         .clamp_radius = test_case.clamp_radius,
+                                         .indirect_only = true,
+                                         .pixel_centers = true,
+                                         .seed = 17});
+}
+
+Verdict judge(Renderer& renderer, const Case& test_case, const Variant& variant, const Image& truth,
+              uint max_depth) {
+    const RenderSettings settings{.sampler = variant.sampler,
+                                  .policy = variant.policy,
+                                  .vpl_count = test_case.vpl_count,
+                                  .range = test_case.range,
+                                  .clamp_radius = test_case.clamp_radius,
+                                  .max_depth = max_depth,
+                                  .width = test_case.size,
+                                  .height = test_case.size,
+                                  .samples_per_pixel = 1,
+                                  .indirect_only = true};
+    return judge_convergence(test::render_seeds(renderer, settings, 1000, kSeeds), truth, "indirect");
+}
+
+class Convergence : public test::DeviceTest {
+  protected:
+    void expect_all_converge(const Case& test_case) {
+        const Image truth = trace_truth(test_case, test_case.max_depth);
+        on_each_device([&](Device& device) {
+            Renderer renderer(device, test_case.scene);
+            for (const Variant& variant : all_variants()) {
+                if (variant.policy != Policy::paper) {
+                    const Verdict verdict = judge(renderer, test_case, variant, truth, test_case.max_depth);
+                    EXPECT_TRUE(verdict.agrees) << variant.name() << ": " << verdict.reason;
+                    EXPECT_LT(verdict.relative_error, 0.05)
+                        << variant.name() << ": too noisy to tell anything";
+                }
+            }
+        });
+    }
+    /// What has bounced once the paper's policy has all of; what has bounced more often it drops in the close
+    /// range.
+    void expect_paper_loses_bounces(const Case& test_case) {
+        const Image one_bounce = trace_truth(test_case, 3);
+        const Image truth = trace_truth(test_case, test_case.max_depth);
+        on_each_device([&](Device& device) {
+            Renderer renderer(device, test_case.scene);
+            const Variant paper{SamplerKind::close_range, Policy::paper};
+            const Verdict first = judge(renderer, test_case, paper, one_bounce, 3);
+            EXPECT_TRUE(first.agrees) << first.reason;
+            const Verdict all = judge(renderer, test_case, paper, truth, test_case.max_depth);
+            EXPECT_FALSE(all.agrees);
+            EXPECT_LT(all.bias, -5 * all.relative_error);
+        });
+    }
+};
+
+Case cornell_box() {
+    return {.scene = load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes/cornell-box/scene.xml"),
+            .clamp_radius = 0.05f};  // the box is 0.55 m wide
+}
+
+Case furnace() {
+    Case result{.scene = {}, .clamp_radius = 0.2f, .size = 16, .spp = 512};
+    add_inward_sphere(result.scene, 1.0f, 1, add_material(result.scene, lambertian({0.6f, 0.5f, 0.4f})));
+    add_point_light(result.scene, {0, 0, 0}, {2, 2, 2});
+    set_camera(result.scene, {0, 0, 0}, {0.3, 0.2, 1}, 80);
+    return result;
+}
+
+TEST_F(Convergence, CornellBox) {
+    expect_all_converge(cornell_box());
+}
+TEST_F(Convergence, CornellBoxByThePaper) {
+    expect_paper_loses_bounces(cornell_box());
+}
+TEST_F(Convergence, Furnace) {
+    expect_all_converge(furnace());
+}
+TEST_F(Convergence, CheckeredPlain) {
+    expect_all_converge(
+        {.scene = checkered_plain(), .clamp_radius = 0.2f, .range = 3.0f, .max_depth = 5, .vpl_count = 4000});
+}
+TEST_F(Convergence, CourtUnderSky) {
+    expect_all_converge({.scene = court_under_sky(), .clamp_radius = 0.2f});
+}
+TEST_F(Convergence, Wall) {
+    expect_all_converge({.scene = wall_view(), .clamp_radius = 0.2f, .size = 16});
+}
+TEST_F(Convergence, WholeRoom) {
+    expect_all_converge({.scene = whole_room_view(), .clamp_radius = 0.3f, .size = 16});
+}
+TEST_F(Convergence, NextRoom) {
+    expect_all_converge(
+        {.scene = next_room_view(), .clamp_radius = 0.3f, .vpl_count = 3000, .size = 16, .spp = 4096});
+}
+TEST_F(Convergence, VeachBidir) {
+    const auto file = test::real_scene("veach-bidir/scene.xml");
+    if (file.empty()) {
+        GTEST_SKIP() << "veach-bidir is not there; set NEARLIGHT_TEST_SCENES";
+    }
+    expect_all_converge({.scene = load_scene(file),
+                         .clamp_radius = 1.0f,
+                         .size = 16,
+                         .spp = 4096});  // the room is 13 units long
+}
+
+}  // namespace
+}  // namespace nearlight::core

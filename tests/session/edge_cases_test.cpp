@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samplers that look at the camera, where there is little to look at: tiny budgets, an empty view, no light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/session/rendering.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+
+constexpr std::array kSamplers{SamplerKind::bidirectional, SamplerKind::local};
+
+/// A floor and two walls under a lamp, seen from inside.
+Scene niche() {
+    Scene scene;
+    const uint grey = add_material(scene, lambertian({0.6f, 0.5f, 0.4f}));
+    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, grey);
+    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, grey);
+    add_quad(scene, {1, -1, -1}, {0, 0, 2}, {0, 2, 0}, grey);
+    add_point_light(scene, {-0.2f, 0.6f, 0.3f}, {1, 1, 1});
+    set_camera(scene, {-0.6, 0.2, -0.9}, {0.4, -0.4, 1}, 70);
+    scene.camera.width = 24;
+    scene.camera.height = 24;
+    return scene;
+}
+
+RenderSettings settings_of(SamplerKind sampler, uint vpl_count, uint seed) {
+    return {.sampler = sampler,
+            .vpl_count = vpl_count,
+            .range = 2.5f,
+            .clamp_radius = 0.2f,
+            .max_depth = 5,
+            .samples_per_pixel = 1,
+            .seed = seed};
+}
+
+double indirect_mean(const Image& image) {
+    for (const float value : image.values) {
+        EXPECT_TRUE(std::isfinite(value));
+    }
+    return channel_mean(image, "indirect.G");
+}
+
+class EdgeCases : public test::DeviceTest {};
+
+/// A budget too small for a good picture still gives the right one on average, and is kept.
+TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {
+    on_each_device([](Device& device) {
+        const Scene scene = niche();
+        Renderer renderer(device, scene);
+        const auto mean_of = [&](SamplerKind sampler, uint budget, int seeds, std::size_t& most) {
+            double sum = 0;
+            for (int seed = 0; seed < seeds; ++seed) {
+                const auto [image, report] =
+                    test::render_image(renderer, settings_of(sampler, budget, 50u + seed));
+                sum += indirect_mean(image);
+                most = std::max(most, report.close_vpls + report.distant_vpls);
+            }
+            return sum / seeds;
+        };
+        std::size_t ignored = 0;
+        const double expected = mean_of(SamplerKind::instant_radiosity, 20'000, 2, ignored);
+        for (const SamplerKind sampler : kSamplers) {
+            for (const uint budget : {1u, 2u, 63u}) {
+                std::size_t most = 0;
+                const double found = mean_of(sampler, budget, budget > 2 ? 40 : 200, most);
+                EXPECT_NEAR(found, expected, 0.1 * expected) << to_string(sampler) << ", " << budget;
+                EXPECT_LE(most, sampler == SamplerKind::bidirectional ? budget + 1 : 4 * budget + 16)
+                    << to_string(sampler) << ", " << budget;
+            }
+        }
+    });
+}
+
+TEST_F(EdgeCases, ACameraThatSeesNothingGivesABlackPicture) {
+    on_each_device([](Device& device) {
+        Scene scene = niche();
+        set_camera(scene, {0, 0, -5}, {0, 0, -6}, 70);
+        for (const SamplerKind sampler : kSamplers) {
+            EXPECT_EQ(indirect_mean(test::render_image(device, scene, settings_of(sampler, 50, 1)).image),
+                      0.0)
+                << to_string(sampler);
+        }
+    });
+}
+
+TEST_F(EdgeCases, WithoutLightThereIsNone) {
+    on_each_device([](Device& device) {
+        Scene scene = niche();
+        scene.delta_emitters.clear();
+        for (const SamplerKind sampler : kSamplers) {
+            const auto [image, report] = test::render_image(device, scene, settings_of(sampler, 50, 1));
+            EXPECT_EQ(indirect_mean(image), 0.0) << to_string(sampler);
+            EXPECT_EQ(report.distant_vpls, 0u);
+        }
+    });
+}
+
+/// A lamp that lights nothing: walks leave the scene, and reverse VPLs lie in the dark.
+TEST_F(EdgeCases, ALightThatShinesPastTheSceneGivesNone) {
+    on_each_device([](Device& device) {
+        Scene scene = niche();
+        scene.delta_emitters[0].position = {3, 0, 3};  // behind both walls, which face inwards
+        for (const SamplerKind sampler : kSamplers) {
+            EXPECT_EQ(indirect_mean(test::render_image(device, scene, settings_of(sampler, 50, 1)).image),
+                      0.0)
+                << to_string(sampler);
+        }
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole renderer where the answer is known: inside a sphere with a light in its centre the geometry term
+// is the same for any two points, so the indirect light is the direct light times Σ ρ^d.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/scene/pinhole_camera.h"
+#include "host/selftest/close_range_oracle.h"
+#include "host/stages/close_range.h"
+#include "tests/session/rendering.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+using test::render_image;
+
+constexpr float kIntensity = 2.0f;
+constexpr float kAlbedo = 0.6f;
+/// The sphere is 1280 flat triangles: a point sees nothing of its own and less of its neighbours, and is
+/// nearer to the light than the corners are.
+constexpr double kFacets = 0.01;
+
+Scene unit_furnace() {
+    Scene scene;
+    add_inward_sphere(scene, 1.0f, 3, add_material(scene, lambertian({kAlbedo, kAlbedo, kAlbedo})));
+    add_point_light(scene, {0, 0, 0}, {kIntensity, kIntensity, kIntensity});
+    set_camera(scene, {0, 0, 0}, {0.3, 0.2, 1}, 80);
+    scene.camera.width = 24;
+    scene.camera.height = 24;
+    return scene;
+}
+
+RenderSettings furnace_settings(SamplerKind sampler, Policy policy, uint max_depth) {
+    return {.sampler = sampler,
+            .policy = policy,
+            .vpl_count = 3000,
+            .close_fraction = 0.5f,
+            .range = 10.0f,
+            .clamp_radius = 1e-3f,
+            .max_depth = max_depth,
+            .samples_per_pixel = 1,
+            .seed = 5};
+}
+
+/// Direct and indirect radiance in the mean over the picture.
+std::pair<double, double> render_furnace(Device& device, const RenderSettings& settings) {
+    const Image image = render_image(device, unit_furnace(), settings).image;
+    return {channel_mean(image, "direct.G"), channel_mean(image, "indirect.G")};
+}
+
+/// ρ^first + … + ρ^last.
+double albedo_sum(uint first, uint last) {
+    double sum = 0;
+    for (uint d = first; d <= last; ++d) {
+        sum += std::pow(double{kAlbedo}, d);
+    }
+    return sum;
+}
+
+/// Share of the sphere's area that triangles reaching into the view have.
+double share_in_view() {
+    const Scene scene = unit_furnace();
+    const CloseRange region = make_close_range(make_pinhole_camera(scene.camera, 24, 24), 10.0f);
+    double inside = 0;
+    double all = 0;
+    for (const Triangle& triangle : scene.triangles) {
+        const TriangleCorners corners{scene.vertices[triangle.v0].position,
+                                      scene.vertices[triangle.v1].position,
+                                      scene.vertices[triangle.v2].position};
+        const double area = triangle_area(scene, triangle);
+        inside += std::isfinite(nearest_squared_distance(corners, region, 0.0)) ? area : 0.0;
+        all += area;
+    }
+    return inside / all;
+}
+
+class Furnace : public test::DeviceTest {};
+
+TEST_F(Furnace, EveryDepthAddsItsPowerOfTheAlbedo) {
+    on_each_device([](Device& device) {
+        for (const auto sampler : {SamplerKind::instant_radiosity, SamplerKind::close_range}) {
+            SCOPED_TRACE(to_string(sampler));
+            for (const uint max_depth : {2u, 3u, 4u, 7u}) {
+                const auto [direct, indirect] =
+                    render_furnace(device, furnace_settings(sampler, Policy::partition, max_depth));
+                EXPECT_NEAR(direct, kIntensity * kAlbedo / kPi, kFacets * direct);
+                const double expected = direct * albedo_sum(1, max_depth - 2);
+                EXPECT_NEAR(indirect, expected, kFacets * expected) << "max depth " << max_depth;
+            }
+        }
+    });
+}
+
+/// The paper's step 3 drops light that arrives in the close range after two or more bounces: of Σ ρ^d the
+/// terms from d = 2 on, in the share of the surface that counts as close.
+TEST_F(Furnace, PolicyPaperLosesExactlyMultiBounceLightInTheCloseRange) {
+    const double close = share_in_view();
+    ASSERT_GT(close, 0.1);
+    on_each_device([&](Device& device) {
+        constexpr uint kMaxDepth = 7;
+        const auto mean = [&](Policy policy) {
+            const auto [direct, indirect] =
+                render_furnace(device, furnace_settings(SamplerKind::close_range, policy, kMaxDepth));
+            return indirect / direct;
+        };
+        const double complete = albedo_sum(1, kMaxDepth - 2);
+        const double lost = close * albedo_sum(2, kMaxDepth - 2);
+        ASSERT_GT(lost, 5 * kFacets * complete) << "too little to tell";
+        EXPECT_NEAR(mean(Policy::partition), complete, kFacets * complete);
+        EXPECT_NEAR(mean(Policy::paper), complete - lost, kFacets * complete);
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core

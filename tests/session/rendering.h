@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering into an Image, for tests.
+#pragma once
+
+#include <vector>
+
+#include "host/image/image.h"
+#include "host/session/renderer.h"
+#include "host/stages/film.h"
+
+namespace nearlight::core::test {
+
+struct Rendering {
+    Image image;
+    RenderReport report;
+};
+
+/// Cheap, and every kind of light and random number.
+inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
+    return {.sampler = sampler,
+            .vpl_count = 60,
+            .samples_per_pixel = 2,
+            .direct_samples_per_pixel = 4,
+            .seed = 5};
+}
+
+inline Rendering render_image(
+    Renderer& renderer, const RenderSettings& settings,
+    const RenderProgress& progress = [](const std::string&, double) { return true; }) {
+    Rendering rendering;
+    rendering.report = renderer.render(
+        settings,
+        [&](const RenderReport& report, const View&, const VplSet&) {
+            rendering.image = {report.width, report.height, layer_channels(), {}};
+        },
+        [&](std::span<const float> rows) {
+            rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
+        },
+        progress);
+    return rendering;
+}
+inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
+    Renderer renderer(device, scene, settings.gather_kernel);
+    return render_image(renderer, settings);
+}
+
+/// Pictures with seeds first, first + 1, …
+inline std::vector<Image> render_seeds(Renderer& renderer, RenderSettings settings, uint first, uint count) {
+    std::vector<Image> images;
+    for (uint i = 0; i < count; ++i) {
+        settings.seed = first + i;
+        images.push_back(render_image(renderer, settings).image);
+    }
+    return images;
+}
+
+}  // namespace nearlight::core::test
