@@ -7,7 +7,7 @@
 
 #include "host/base/receivers.h"
 #include "host/bench/gather_workload.h"
-#include "host/session/renderer.h"
+#include "host/session/session.h"
 
 namespace nearlight::core {
 namespace {
@@ -66,23 +66,13 @@ GatherSegments make_camera_segments(const Scene& scene, const Bvh& bvh, std::siz
 
 GatherSegments make_rendered_segments(Device& device, const Scene& scene, const Bvh& bvh,
                                       std::size_t vpl_count, int width, int height) {
-    RenderSettings settings;
-    settings.vpl_count = static_cast<uint>(vpl_count);
-    settings.width = width;
-    settings.height = height;
-    settings.samples_per_pixel = 1;
-    std::vector<Vpl> vpls;
-    float clamp_radius = 0.0f;
-    const auto take = [&](const RenderReport& report, const View&, const VplSet& set) {
-        vpls = set.vpls;
-        clamp_radius = report.clamp_radius;
-    };
-    const auto stop = [](const std::string&, double) { return false; };
-    render(
-        device, scene, settings, take, [](std::span<const float>) {}, stop);
+    Session session(device, scene);
+    const View view = session.look({.width = width, .height = height}, 0);
+    std::vector<Vpl> vpls =
+        session.sample(view, {.vpl_count = static_cast<uint>(vpl_count)}, 0).vpls.download();
     sort_along_morton_curve(scene, vpls);
     return make_gather_segments(scene, std::move(vpls), make_camera_receivers(scene, bvh, width, height),
-                                clamp_radius);
+                                view.clamp_radius);
 }
 
 std::uint64_t count_bits(std::span<const std::uint64_t> mask) {

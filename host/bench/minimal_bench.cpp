@@ -17,7 +17,7 @@
 #include "host/bench/gather_workload.h"
 #include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
-#include "host/session/renderer.h"
+#include "host/session/render.h"
 #include "host/stages/gatherer.h"
 #include "nearlight/error.h"
 
@@ -134,10 +134,7 @@ void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
 
 /// A picture in which every pixel is a number, and not all are black.
 bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
-    RenderSettings settings;
-    settings.sampler = sampler;
-    settings.width = 128;
-    settings.height = 128;
+    const RenderSettings settings{.view = {.width = 128, .height = 128}, .sampling = {.sampler = sampler}};
     double sum = 0.0;
     bool finite = true;
     const auto take_rows = [&](std::span<const float> rows) {
@@ -148,8 +145,9 @@ bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
             }
         }
     };
+    Session session(device, work.scene);
     const RenderReport report = render(
-        device, work.scene, settings, [](const RenderReport&, const View&, const VplSet&) {}, take_rows,
+        session, settings, [](const RenderReport&, const View&, const VplSet&) {}, take_rows,
         [](const std::string&, double) { return true; });
     const bool good = finite && sum > 0.0;
     std::printf("picture by %s: %s, %zu close and %zu distant VPLs, %.2f s, mean %.5f, hash %s\n",

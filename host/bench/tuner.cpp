@@ -10,7 +10,7 @@
 #include "host/base/random.h"
 #include "host/bench/gather_segments.h"
 #include "host/bench/synthetic_scene.h"
-#include "host/session/view.h"
+#include "host/session/session.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
@@ -48,16 +48,14 @@ std::uint64_t hash_of(const Buffer<T>& buffer) {
 struct Room {
     Room(Device& device, const TunerConfig& config)
         : scene(make_sphere_room(config.triangles)),
-          bvhs(build_scene_bvhs(scene)),
-          on_device(upload_scene(device, scene, bvhs)),
-          segments(make_camera_segments(scene, bvhs.opaque, config.vpl_count, config.size, config.size)) {
-        settings.width = settings.height = config.size;
-    }
+          session(device, scene, {.bvh_quality = BvhQuality::fast}),
+          view(session.look({.width = config.size, .height = config.size}, 0)),
+          segments(make_camera_segments(scene, build_scene_bvhs(scene).opaque, config.vpl_count, config.size,
+                                        config.size)) {}
     Scene scene;
-    SceneBvhs bvhs;
-    DeviceScene on_device;
+    Session session;
+    View view;
     GatherSegments segments;
-    RenderSettings settings;
 };
 
 Work gather_work(Device& device, const Room& room) {
@@ -75,7 +73,7 @@ Work gather_work(Device& device, const Room& room) {
     const auto state = std::make_shared<State>(device, room);
     return {[state, &room] {
                 state->gatherer.gather(
-                    {room.on_device.tree, state->vpls, state->vpls.count(), state->receivers,
+                    {room.session.device_scene().tree, state->vpls, state->vpls.count(), state->receivers,
                      state->receivers.count(), room.segments.clamp_radius},
                     state->irradiance);
             },
@@ -88,17 +86,15 @@ Work picture_work(Device& device, const Room& room) {
         State(Device& on, const Room& of)
             : camera_pass(on),
               direct_light(on),
-              view(choose_view(on, camera_pass, of.on_device, of.scene, of.settings)),
-              camera(on, std::span(&view.camera, 1)),
-              close_range(on, std::span(&view.close_range, 1)),
-              band{.tile_row_count = (view.camera.height + 7) / 8},
-              packets(packet_count(band, view.camera.width)),
+              camera(on, std::span(&of.view.camera, 1)),
+              close_range(on, std::span(&of.view.close_range, 1)),
+              band{.tile_row_count = (of.view.camera.height + 7) / 8},
+              packets(packet_count(band, of.view.camera.width)),
               receivers(on, packets),
               vertices(on, packets * NEARLIGHT_PACKET_SIZE),
               irradiance(on, packets) {}
         CameraPass camera_pass;
         DirectLight direct_light;
-        View view;
         Buffer<PinholeCamera> camera;
         Buffer<CloseRange> close_range;
         CameraBand band;
@@ -110,9 +106,10 @@ Work picture_work(Device& device, const Room& room) {
     const auto state = std::make_shared<State>(device, room);
     return {[state, &room] {
                 State& s = *state;
-                s.camera_pass.run(room.on_device, s.camera, s.view.camera.width, s.close_range, s.band, 1,
+                const DeviceScene& scene = room.session.device_scene();
+                s.camera_pass.run(scene, s.camera, room.view.camera.width, s.close_range, s.band, 1,
                                   s.receivers, s.vertices);
-                s.direct_light.run(room.on_device, s.receivers, s.packets, 4, 1, s.irradiance);
+                s.direct_light.run(scene, s.receivers, s.packets, 4, 1, s.irradiance);
             },
             [state] { return hash_of(state->irradiance); }};
 }

@@ -9,6 +9,7 @@
 #include "host/base/math.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -20,10 +21,6 @@ struct Bvh {
     double sah_cost = 0;             ///< expected cost of a ray through the root, with the costs below
 };
 
-enum class BvhQuality {
-    fast,     ///< every triangle in one leaf
-    quality,  ///< a triangle may be cut and stand in several: fewer steps a ray, a longer build
-};
 const char* to_string(BvhQuality quality);
 
 struct BvhConfig {

@@ -17,7 +17,7 @@
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
 #include "host/cli/scene_options.h"
-#include "host/session/renderer.h"
+#include "host/session/render.h"
 
 namespace nearlight::core {
 namespace {
@@ -27,6 +27,7 @@ struct RenderOptions {
     PictureOptions picture;
     DeviceChoice device;
     RenderSettings settings;
+    SessionOptions session;
     ImageSize size;
     std::string close_fraction = "auto";
     std::string range = "auto";
@@ -83,27 +84,27 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
 
 RenderSettings settled(const RenderOptions& options) {
     RenderSettings settings = options.settings;
-    settings.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
-    settings.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
-    settings.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
+    settings.sampling.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
+    settings.view.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
+    settings.view.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
     if (options.size.width > 0) {
-        settings.width = options.size.width;
-        settings.height = options.size.height;
+        settings.view.width = options.size.width;
+        settings.view.height = options.size.height;
     }
     return settings;
 }
 
 /// What is asked for, yet worth a word; refuses pictures that no file system would thank for.
 void check_request(const Scene& scene, const RenderSettings& settings) {
-    const int width = settings.width.value_or(scene.camera.width);
-    const int height = settings.height.value_or(scene.camera.height);
+    const int width = settings.view.width.value_or(scene.camera.width);
+    const int height = settings.view.height.value_or(scene.camera.height);
     if (std::int64_t{width} * height > kMaxPixels) {
         throw Error(
             ErrorKind::out_of_memory,
             fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
                         width, height, kMaxPixels >> 20));
     }
-    if (settings.vpl_count == 0) {
+    if (settings.sampling.vpl_count == 0) {
         spdlog::warn("--vpls 0: the picture has no indirect light");
     }
 }
@@ -148,7 +149,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
         auto opened = open_devices(choice, list_devices());
-        begin_compiling(plain(opened), settings);
+        begin_compiling(plain(opened), options.session, settings.sampling);
         return opened;
     });
     const Stopwatch loading;
@@ -166,8 +167,9 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     ProgressBar bar("gathering", global);
     PictureFiles files(options.picture);
     FirstRows first_rows;
+    Session session(plain(devices), scene, options.session);
     const RenderReport report = render(
-        plain(devices), scene, settings,
+        session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             files.open(started.width, started.height,
                        render_metadata(hash.get(), settings, started, view, devices));
@@ -183,8 +185,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings, report,
-                               load_seconds, first_rows, devices));
+        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings,
+                               options.session.bvh_quality, report, load_seconds, first_rows, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {
@@ -204,8 +206,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         sampler_help +=
             fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--sampler", settings.sampler, samplers, sampler_help)
-        ->default_str(to_string(settings.sampler));
+    add_choice(command, "--sampler", settings.sampling.sampler, samplers, sampler_help)
+        ->default_str(to_string(settings.sampling.sampler));
     std::map<std::string, Policy> policies;
     std::string policy_help = "Of close-range: ";
     for (const PolicyEntry& entry : all_policies()) {
@@ -213,9 +215,9 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         policy_help +=
             fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--policy", settings.policy, policies, policy_help)
-        ->default_str(to_string(settings.policy));
-    command.add_option("--vpls", settings.vpl_count, "Virtual point lights to aim at")
+    add_choice(command, "--policy", settings.sampling.policy, policies, policy_help)
+        ->default_str(to_string(settings.sampling.policy));
+    command.add_option("--vpls", settings.sampling.vpl_count, "Virtual point lights to aim at")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
@@ -236,7 +238,7 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->capture_default_str();
     command
         .add_option(
-            "--max-depth", settings.max_depth,
+            "--max-depth", settings.view.max_depth,
             "Longest light path as Mitsuba counts: 2 is direct light only (default: the scene's, or 8)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
@@ -245,15 +247,15 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->capture_default_str();
     command
         .add_option(
-            "--roulette", settings.roulette,
+            "--roulette", settings.gather.roulette,
             "Trace VPLs that could bring pixels less than T times the mean by chance only; 0: trace all")
         ->check(CLI::Range(0.0f, 1000.0f))
         ->type_name("T")
         ->capture_default_str();
-    add_choice(command, "--gather", settings.gather_kernel, kGatherKernels,
+    add_choice(command, "--gather", options.session.gather_kernel, kGatherKernels,
                "Gather kernel: auto, packets or rays")
         ->default_str("auto");
-    add_bvh_option(command, settings.bvh_quality);
+    add_bvh_option(command, options.session.bvh_quality);
 }
 
 void add_pass_options(CLI::App& command, RenderOptions& options) {
@@ -282,12 +284,13 @@ void add_render_command(CommandLine& line) {
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
     command
-        .add_option("--spp", options->settings.samples_per_pixel, "Camera samples a pixel (anti-aliasing)")
+        .add_option("--spp", options->settings.gather.samples_per_pixel,
+                    "Camera samples a pixel (anti-aliasing)")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option("--direct-samples", options->settings.direct_samples_per_pixel,
+        .add_option("--direct-samples", options->settings.gather.direct_samples_per_pixel,
                     "Shadow rays a pixel for area and environment lights")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")

@@ -40,9 +40,9 @@ Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& setting
                          const View& view, const std::vector<std::unique_ptr<Device>>& devices) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
-    metadata["nearlight:sampler"] = to_string(settings.sampler);
+    metadata["nearlight:sampler"] = to_string(settings.sampling.sampler);
     metadata["nearlight:policy"] =
-        settings.sampler == SamplerKind::close_range ? to_string(settings.policy) : "none";
+        settings.sampling.sampler == SamplerKind::close_range ? to_string(settings.sampling.policy) : "none";
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.clamp_radius;
@@ -65,28 +65,28 @@ void FirstRows::note(const Stopwatch& since_begin) {
 }
 
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
-                                   const RenderSettings& settings, const RenderReport& report,
+                                   const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
                                    double load_seconds, const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
     json["scene"] = scene_file;
     json["width"] = report.width;
     json["height"] = report.height;
-    json["sampler"] = to_string(settings.sampler);
-    json["policy"] = settings.sampler == SamplerKind::close_range
-                         ? nlohmann::ordered_json(to_string(settings.policy))
+    json["sampler"] = to_string(settings.sampling.sampler);
+    json["policy"] = settings.sampling.sampler == SamplerKind::close_range
+                         ? nlohmann::ordered_json(to_string(settings.sampling.policy))
                          : nullptr;
     json["passes"] = report.passes;
-    json["vpls"] = {{"requested", settings.vpl_count}, {"close", report.close_vpls},
-                    {"distant", report.distant_vpls},  {"sparse", report.sparse_vpls},
-                    {"candidates", report.candidates}, {"local_lights", report.local_lights}};
+    json["vpls"] = {{"requested", settings.sampling.vpl_count}, {"close", report.close_vpls},
+                    {"distant", report.distant_vpls},           {"sparse", report.sparse_vpls},
+                    {"candidates", report.candidates},          {"local_lights", report.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.clamp_radius;
     json["max_depth"] = report.max_depth;
     json["seed"] = settings.seed;
-    json["bvh"] = to_string(settings.bvh_quality);
-    json["roulette"] = settings.roulette;
+    json["bvh"] = to_string(bvh);
+    json["roulette"] = settings.gather.roulette;
     json["device"] = nlohmann::ordered_json::array();
     json["device_shares"] = nlohmann::ordered_json::array();
     for (const BandShare& share : report.shares) {

@@ -10,7 +10,7 @@
 #include "host/base/stopwatch.h"
 #include "host/cl/device.h"
 #include "host/image/image_io.h"
-#include "host/session/renderer.h"
+#include "host/session/render.h"
 
 namespace nearlight::core {
 
@@ -29,7 +29,7 @@ struct FirstRows {
 
 /// What `render --json` prints.
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
-                                   const RenderSettings& settings, const RenderReport& report,
+                                   const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
                                    double load_seconds, const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices);
 

@@ -78,7 +78,8 @@ MethodFigure make_method_figure(const Album& album, const Reference& reference,
 
 VplFigure make_vpl_figure(const Album& album, SceneBench& bench, const Method& method, uint vpls, uint seed) {
     const VplSet set = bench.sample(method, vpls, seed);
-    const VplDots dots = draw_vpls(bench.overview(), bench.depths(), bench.facts().camera, set.vpls);
+    const VplDots dots =
+        draw_vpls(bench.overview(), bench.depths(), bench.facts().camera, set.vpls.download());
     return {method, dots.vpls, dots.in_picture, dots.visible,
             album.write_both("vpls-" + file_stem(method), dots.picture, 2 * kOverviewWidth)};
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "host/session/settings.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -22,7 +21,7 @@ std::string file_stem(const Method& method) {
 }
 
 Method default_method() {
-    return {SamplerKind::close_range, RenderSettings{}.policy};
+    return {SamplerKind::close_range, SamplingSettings{}.policy};
 }
 
 std::vector<Method> all_methods() {

@@ -55,9 +55,7 @@ float clamp_radius_of(const std::filesystem::path& reference_file) {
 SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& name,
                        const CompareSettings& settings,
                        const std::optional<std::filesystem::path>& reference_file)
-    : scene_(scene),
-      settings_(settings),
-      renderer_(device, scene, GatherKernel::automatic, settings.bvh_quality) {
+    : scene_(scene), settings_(settings), session_(device, scene, {.bvh_quality = settings.bvh_quality}) {
     facts_.name = name;
     facts_.source = scene.source.string();
     facts_.hash = scene_hash(scene);
@@ -70,19 +68,19 @@ SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& na
 SceneBench::FirstLook SceneBench::look() {
     RenderSettings settings =
         render_settings(settings_.baseline, settings_.vpl_counts.front(), settings_.first_seed);
-    settings.indirect_only = false;
-    settings.range = settings_.range;
-    settings.clamp_radius = settings_.clamp_radius;
-    settings.max_depth = settings_.max_depth;
+    settings.gather.indirect_only = false;
+    settings.view.range = settings_.range;
+    settings.view.clamp_radius = settings_.clamp_radius;
+    settings.view.max_depth = settings_.max_depth;
     FirstLook found;
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
-    const RenderReport report = renderer_.render(
-        settings,
+    const RenderReport report = render(
+        session_, settings,
         [&](const RenderReport&, const View& view, const VplSet& vpls) {
             facts_.camera = view.scene_camera;
             found.surface = !view.pilot.distances.empty();
-            found.close_vpls = settings.sampler != SamplerKind::close_range || vpls.close_count > 0;
+            found.close_vpls = settings.sampling.sampler != SamplerKind::close_range || vpls.close_count > 0;
         },
         [&](std::span<const float> rows) {
             append_channels(rows, channel_index("R"), 3, overview_.values);
@@ -124,27 +122,24 @@ float SceneBench::choose_clamp_radius(const std::optional<std::filesystem::path>
 }
 
 RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint seed) const {
-    RenderSettings settings;
-    settings.sampler = method.sampler;
-    settings.policy = method.policy.value_or(settings.policy);
-    settings.vpl_count = vpls;
-    settings.range = facts_.range;
-    settings.clamp_radius = facts_.clamp_radius;
-    settings.max_depth = facts_.max_depth;
-    settings.width = settings_.width;
-    settings.height = settings_.height;
-    settings.samples_per_pixel = settings_.samples_per_pixel;
-    settings.indirect_only = true;
-    settings.seed = seed;
-    return settings;
+    return {.view = {.width = settings_.width,
+                     .height = settings_.height,
+                     .range = facts_.range,
+                     .clamp_radius = facts_.clamp_radius,
+                     .max_depth = facts_.max_depth},
+            .sampling = {.sampler = method.sampler,
+                         .policy = method.policy.value_or(SamplingSettings{}.policy),
+                         .vpl_count = vpls},
+            .gather = {.samples_per_pixel = settings_.samples_per_pixel, .indirect_only = true},
+            .seed = seed};
 }
 
 std::optional<Shot> SceneBench::render_indirect(const RenderSettings& settings, const Progress& progress) {
     Shot shot{make_picture(settings_.width, settings_.height), {}};
     shot.indirect.values.clear();
     const std::size_t first = channel_index("indirect.R");
-    shot.report = renderer_.render(
-        settings, [](const RenderReport&, const View&, const VplSet&) {},
+    shot.report = render(
+        session_, settings, [](const RenderReport&, const View&, const VplSet&) {},
         [&](std::span<const float> rows) { append_channels(rows, first, 3, shot.indirect.values); },
         [&](const std::string&, double fraction) { return progress(fraction); });
     return shot.report.interrupted ? std::nullopt : std::optional(std::move(shot));
@@ -158,12 +153,8 @@ std::optional<Shot> SceneBench::shoot(const Method& method, uint vpls, uint seed
 }
 
 VplSet SceneBench::sample(const Method& method, uint vpls, uint seed) {
-    VplSet sampled;
-    renderer_.render(
-        render_settings(method, vpls, seed),
-        [&](const RenderReport&, const View&, const VplSet& set) { sampled = set; },
-        [](std::span<const float>) {}, [](const std::string&, double) { return false; });
-    return sampled;
+    const RenderSettings settings = render_settings(method, vpls, seed);
+    return session_.sample(session_.look(settings.view, seed), settings.sampling, seed);
 }
 
 ReferenceSpec SceneBench::reference_spec() const {

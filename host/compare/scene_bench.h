@@ -10,7 +10,7 @@
 
 #include "host/compare/reference.h"
 #include "host/compare/settings.h"
-#include "host/session/renderer.h"
+#include "host/session/render.h"
 
 namespace nearlight::core {
 
@@ -80,7 +80,7 @@ class SceneBench {
 
     const Scene& scene_;
     const CompareSettings& settings_;
-    Renderer renderer_;
+    Session session_;
     SceneFacts facts_;
     Image overview_;
     std::vector<float> depths_;

@@ -78,7 +78,7 @@ struct Balance {
 ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Balance& balance,
                      std::span<const Vpl> vpls) {
     ExaminedVpls candidates;
-    const Buffer<Vpl> sorted = stages.vpl_order.upload_sorted(vpls);
+    const VplBuffer sorted = stages.vpl_order.sort(vpls);
     candidates.vpls = sorted.download();
     candidates.rough_light = incident_light_at(stages, task, balance.sparse, candidates.vpls, kRoughQuality,
                                                task.seed ^ kRoughLightSeed);
@@ -86,7 +86,7 @@ ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Bala
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> density(stages.device, packets);
-    stages.vpl_light.make_receivers(sorted, vpls.size(), receivers);
+    stages.vpl_light.make_receivers(sorted.buffer(), vpls.size(), receivers);
     stages.reverse_vpls().measure_density(task.scene, balance.points, receivers, packets, density);
     for (const Vec3 n : unpack(density, vpls.size())) {
         candidates.reverse_density.push_back(n.x);
@@ -161,17 +161,18 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
                                    task.vpl_count, Pcg32(task.seed, kBidirectionalChoice).uniform());
     std::ranges::copy(unlit, candidates.begin());
     VplSet set;
-    set.vpls = take(choice, candidates);
+    std::vector<Vpl> vpls = take(choice, candidates);
     const auto chosen_reverse = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(unlit.size())) - choice.indices.begin());
-    const std::span reverse_vpls = std::span(set.vpls).first(chosen_reverse);
+    const std::span reverse_vpls = std::span(vpls).first(chosen_reverse);
     const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
     illuminate(reverse_vpls, incident_light_at(stages, task, sparse, reverse_vpls, kThorough, task.seed));
 
-    set.distant_count = set.vpls.size();
-    set.sparse_count = balance.sparse.count + sparse.count;
+    set.vpls = stages.vpl_order.sort(vpls);
+    set.distant_count = vpls.size();
+    set.sparse_count = balance.sparse.vpls.count() + sparse.vpls.count();
     set.candidate_count = candidates.size();
-    say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(set.vpls.size()) +
+    say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(vpls.size()) +
               " VPLs are reverse ones");
     return set;
 }

@@ -70,14 +70,15 @@ VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& tas
     if (close_budget == 0) {
         return sample_instant_radiosity(stages, task);
     }
-    set.vpls = place_about(stages, task, surface, close_budget);
-    set.close_count = set.vpls.size();
+    std::vector<Vpl> vpls = place_about(stages, task, surface, close_budget);
+    set.close_count = vpls.size();
     const std::vector<Vpl> distant =
         trace_about(stages, task, surface.region(), deposits_to_keep(task.policy),
                     std::max(task.vpl_count - close_budget, 1u))  // without any, the far light would be lost
             .vpls;
     set.distant_count = distant.size();
-    set.vpls.insert(set.vpls.end(), distant.begin(), distant.end());
+    vpls.insert(vpls.end(), distant.begin(), distant.end());
+    set.vpls = stages.vpl_order.sort(vpls);
     return set;
 }
 

@@ -234,21 +234,22 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
     const Choice choice = choose(stages, task, lit);
 
-    VplSet set;
-    set.vpls = chosen_vpls(candidates, share, choice);
+    std::vector<Vpl> vpls = chosen_vpls(candidates, share, choice);
     const auto patch_count = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(candidates.patch_count)) -
         choice.indices.begin());
     const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
-    const std::span patches = std::span(set.vpls).first(patch_count);
+    const std::span patches = std::span(vpls).first(patch_count);
     illuminate(patches, incident_light_at(stages, task, sparse, patches, kFull, task.seed));
-    set.close_count = static_cast<std::size_t>(std::ranges::count_if(set.vpls, is_close));
-    set.distant_count = set.vpls.size() - set.close_count;
-    set.sparse_count = sparse.count + rough_sparse.count;
+    VplSet set;
+    set.vpls = stages.vpl_order.sort(vpls);
+    set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
+    set.distant_count = vpls.size() - set.close_count;
+    set.sparse_count = sparse.vpls.count() + rough_sparse.vpls.count();
     set.candidate_count = candidates.vpls.size();
     set.close_triangles = surface.triangle_count();
     set.close_fraction =
-        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(set.vpls.size(), 1));
+        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
     return set;
 }
 

@@ -26,36 +26,36 @@ SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint
         walks.seed = seed ^ kSparseSeed;
         const std::vector<Vpl> vpls =
             trace_about(stages, walks, empty_region(stages, task.scene), KeepDeposits::all, wanted).vpls;
-        sparse.count = vpls.size();
-        sparse.vpls = stages.vpl_order.upload_sorted(vpls);
+        sparse.vpls = stages.vpl_order.sort(vpls);
     }
     return sparse;
 }
 
-void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+void gather_incident_light(SamplerStages& stages, const IncidentSources& sources,
                            const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance) {
-    stages.direct_light.run(task.scene, receivers, packet_count, quality.direct_samples, seed, irradiance);
-    if (task.bounce_count < 2) {
+    const DeviceScene& scene = sources.scene;
+    stages.direct_light.run(scene, receivers, packet_count, quality.direct_samples, seed, irradiance);
+    if (sources.bounce_count == 0) {
         return;
     }
-    if (sparse.count > 0) {
+    if (!sources.vpls.empty()) {
         Buffer<IrradiancePacket> gathered(stages.device, packet_count);
-        stages.gatherer.gather({.tree = task.scene.tree,
-                                .vpls = sparse.vpls,
-                                .vpl_count = sparse.count,
+        stages.gatherer.gather({.tree = scene.tree,
+                                .vpls = sources.vpls.buffer(),
+                                .vpl_count = sources.vpls.count(),
                                 .receivers = receivers,
                                 .packet_count = packet_count,
-                                .clamp_radius = sparse.clamp_radius},
+                                .clamp_radius = sources.clamp_radius},
                                gathered);
         stages.vpl_light.add(gathered, packet_count, irradiance);
         stages.device.finish();  // `gathered` must outlive the kernel
     }
     const BouncePaths paths{.sample_count = quality.paths,
-                            .bounce_count = task.bounce_count - 1,
-                            .clamp_radius = sparse.clamp_radius,
+                            .bounce_count = sources.bounce_count,
+                            .clamp_radius = sources.clamp_radius,
                             .seed = seed ^ kSparseSeed};
-    stages.bounce_tracer.run(task.scene, receivers, packet_count, paths, irradiance);
+    stages.bounce_tracer.run(scene, receivers, packet_count, paths, irradiance);
 }
 
 std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t count) {
@@ -75,7 +75,11 @@ std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& t
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> irradiance(stages.device, packets);
     stages.vpl_light.make_receivers(vpls, points.size(), receivers);
-    gather_incident_light(stages, task, sparse, receivers, packets, quality, seed, irradiance);
+    const IncidentSources sources{.scene = task.scene,
+                                  .bounce_count = task.bounce_count > 0 ? task.bounce_count - 1 : 0,
+                                  .vpls = sparse.vpls,
+                                  .clamp_radius = sparse.clamp_radius};
+    gather_incident_light(stages, sources, receivers, packets, quality, seed, irradiance);
     return unpack(irradiance, points.size());
 }
 

@@ -8,8 +8,7 @@ namespace nearlight::core {
 
 /// VPLs of light walks over the whole scene that light other VPLs, not the picture.
 struct SparseSet {
-    Buffer<Vpl> vpls;
-    std::size_t count = 0;
+    VplBuffer vpls;
     float clamp_radius = 0.0f;  ///< to gather them with, m; short paths supply what that leaves out
 };
 
@@ -22,13 +21,21 @@ struct IncidentQuality {
     uint paths = 4;            ///< for what the clamp radius of the sparse set leaves out; 0: leave it out
 };
 
-/// Irradiance of all depths at the receivers (W/m²): what a VPL of depth up to task.bounce_count there
-/// reflects. Without bias if paths > 0.
-void gather_incident_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
+/// Where the light comes from: the emitters of the scene, and VPLs of up to `bounce_count` bounces.
+struct IncidentSources {
+    const DeviceScene& scene;
+    uint bounce_count = 0;
+    const VplBuffer& vpls;
+    float clamp_radius = 0.0f;  ///< to gather them with, m
+};
+
+/// Irradiance of the receivers (W/m²) by light of up to `bounce_count` bounces, without bias if paths > 0.
+void gather_incident_light(SamplerStages& stages, const IncidentSources& sources,
                            const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance);
 
-/// The same at each of `points`: multiplies the power of a VPL that was made for an irradiance of 1 W/m².
+/// Irradiance at each of `points`, by what a VPL of depth up to task.bounce_count there reflects: multiplies
+/// the power of a VPL that was made for an irradiance of 1 W/m².
 std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
                                     std::span<const Vpl> points, const IncidentQuality& quality, uint seed);
 /// Multiplies powers by the light that arrives.

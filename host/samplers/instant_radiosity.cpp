@@ -9,9 +9,9 @@ namespace nearlight::core {
 
 VplSet sample_instant_radiosity(SamplerStages& stages, const SamplingTask& task) {
     VplSet set;
-    set.vpls =
-        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, task.vpl_count).vpls;
-    set.distant_count = set.vpls.size();
+    set.vpls = stages.vpl_order.sort(
+        trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, task.vpl_count).vpls);
+    set.distant_count = set.vpls.count();
     return set;
 }
 

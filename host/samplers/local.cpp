@@ -43,8 +43,8 @@ VplSet sample_local(SamplerStages& stages, const SamplingTask& task) {
     // A square metre that receives E has E · walks / Φ deposits of depth 1, Φ the power of all lights.
     const float walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power;
     VplSet set;
-    set.vpls = deposits.vpls;
-    set.distant_count = set.vpls.size();
+    set.vpls = stages.vpl_order.sort(deposits.vpls);
+    set.distant_count = set.vpls.count();
     set.local =
         LocalLightPlan{.clamp_radius = task.clamp_radius,
                        .widest_radius = widest,

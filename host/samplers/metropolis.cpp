@@ -150,7 +150,7 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
     const double seed_count = std::clamp<double>(kSeedsPerVpl * task.vpl_count, kMinSeeds, kMaxSeeds);
     const Seeds seeds = make_seeds(stages, space, static_cast<uint>(seed_count));
     if (!(seeds.mean_target > 0.0)) {
-        return {};
+        return {.vpls = VplBuffer(stages.device, {})};
     }
     const auto chain_count = static_cast<std::size_t>(
         std::min<double>(kChainsPerVpl * task.vpl_count, max_in_step(task.bounce_count)));
@@ -161,8 +161,8 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
         std::max(kStepsPerChain, static_cast<uint>(steps_needed));  // where memory bounds the chains
     const std::vector<Vpl> states = run_chains(stages, space, seeds, starts, steps);
     VplSet set;
-    set.vpls = thin(states, task.vpl_count, Pcg32(task.seed, kThinning).uniform());
-    set.distant_count = set.vpls.size();
+    set.vpls = stages.vpl_order.sort(thin(states, task.vpl_count, Pcg32(task.seed, kThinning).uniform()));
+    set.distant_count = set.vpls.count();
     set.candidate_count = seeds.targets.size() + states.size();
     return set;
 }

@@ -159,6 +159,7 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
         return sample_instant_radiosity(stages, task);
     }
     VplSet set;
+    std::vector<Vpl> accepted;
     double sum = Pcg32(task.seed, kDecisions)
                      .uniform();  // of probabilities; where it passes a whole number, one is accepted
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
@@ -171,13 +172,14 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
                 const double before = std::floor(sum);
                 sum += probability;
                 if (std::floor(sum) > before) {
-                    set.vpls.push_back(batch[i]);
-                    set.vpls.back().power *= static_cast<float>(1.0 / probability);
+                    accepted.push_back(batch[i]);
+                    accepted.back().power *= static_cast<float>(1.0 / probability);
                 }
             }
             set.candidate_count += count;
         });
-    set.distant_count = set.vpls.size();
+    set.vpls = stages.vpl_order.sort(accepted);
+    set.distant_count = set.vpls.count();
     return set;
 }
 

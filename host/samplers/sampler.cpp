@@ -7,18 +7,34 @@
 namespace nearlight::core {
 namespace {
 
+void compile_for_close_range(SamplerStages& stages, Policy policy) {
+    if (policy != Policy::complete) {
+        stages.light_visibility();
+    }
+}
+void compile_for_metropolis(SamplerStages& stages, Policy) {
+    stages.metropolis_chains();
+}
+void compile_for_bidirectional(SamplerStages& stages, Policy) {
+    stages.reverse_vpls();
+}
+
 constexpr std::array kSamplers{
-    SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera",
-                 sample_close_range},
+    SamplerEntry{SamplerKind::close_range, "close-range",
+                 "evenly over surfaces close to and in front of the camera", sample_close_range,
+                 compile_for_close_range, false},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
-                 sample_instant_radiosity},
-    SamplerEntry{SamplerKind::rejection, "rejection", "light walks that the camera needs", sample_rejection},
+                 sample_instant_radiosity, nullptr, false},
+    SamplerEntry{SamplerKind::rejection, "rejection", "where light walks land, those that the camera needs",
+                 sample_rejection, nullptr, false},
     SamplerEntry{SamplerKind::metropolis, "metropolis", "where Markov chains find what the camera needs",
-                 sample_metropolis},
+                 sample_metropolis, compile_for_metropolis, false},
     SamplerEntry{SamplerKind::bidirectional, "bidirectional",
-                 "where walks from lights and from the view land", sample_bidirectional},
-    SamplerEntry{SamplerKind::local, "local", "the same, smoothed, with lights of each tile for what is near",
-                 sample_local},
+                 "where walks from lights and rays from the view land", sample_bidirectional,
+                 compile_for_bidirectional, false},
+    SamplerEntry{SamplerKind::local, "local",
+                 "wherever light walks land, smoothed, with lights of each tile for what is near",
+                 sample_local, nullptr, true},
 };
 constexpr std::array kPolicies{
     PolicyEntry{Policy::complete, "complete", "unbiased, light of all depths on the patches"},
@@ -26,21 +42,20 @@ constexpr std::array kPolicies{
     PolicyEntry{Policy::paper, "paper", "loses bounces"},
 };
 
-const SamplerEntry& entry_of(SamplerKind kind) {
-    return *std::ranges::find(kSamplers, kind, &SamplerEntry::kind);
-}
-
 }  // namespace
 
 std::span<const SamplerEntry> all_samplers() {
     return kSamplers;
+}
+const SamplerEntry& sampler_entry(SamplerKind kind) {
+    return *std::ranges::find(kSamplers, kind, &SamplerEntry::kind);
 }
 std::span<const PolicyEntry> all_policies() {
     return kPolicies;
 }
 
 std::string to_string(SamplerKind kind) {
-    return entry_of(kind).name;
+    return sampler_entry(kind).name;
 }
 std::string to_string(Policy policy) {
     return std::ranges::find(kPolicies, policy, &PolicyEntry::policy)->name;
@@ -48,9 +63,9 @@ std::string to_string(Policy policy) {
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task) {
     if (task.vpl_count == 0 || task.bounce_count == 0 || task.scene.host_info.emitter_count == 0) {
-        return {};
+        return {.vpls = VplBuffer(stages.device, {})};
     }
-    return entry_of(task.sampler).sample(stages, task);
+    return sampler_entry(task.sampler).sample(stages, task);
 }
 
 }  // namespace nearlight::core

@@ -11,23 +11,11 @@
 #include "host/stages/device_scene.h"
 #include "host/stages/local_lights.h"
 #include "host/stages/pilot_view.h"
+#include "host/stages/vpl_buffer.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
-enum class SamplerKind {
-    close_range,        ///< the paper's: patches near and before the camera, sparse walks elsewhere
-    instant_radiosity,  ///< [Keller 1997] quasi-random walks over the whole scene
-    rejection,          ///< [Georgiev & Slusallek 2010] of many walks, what the camera needs
-    metropolis,     ///< [Segovia et al. 2007] Markov chains over light paths towards what the camera needs
-    bidirectional,  ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
-    local,          ///< [Davidovič et al. 2010] the same under a wide clamp, and lights of each tile
-};
-/// What becomes of sparse deposits in the close range; see docs/method.md.
-enum class Policy {
-    complete,   ///< patches carry light of all depths, so none are needed inside: unbiased
-    paper,      ///< dropped, whatever their depth: loses multi-bounce light
-    partition,  ///< those of depth 2 and more are kept: unbiased
-};
 std::string to_string(SamplerKind kind);
 std::string to_string(Policy policy);
 
@@ -47,7 +35,7 @@ struct SamplingTask {
 
 /// Ready to be gathered: powers add up to the scene's reflected flux in expectation.
 struct VplSet {
-    std::vector<Vpl> vpls;
+    VplBuffer vpls;                   ///< along the Morton curve
     std::size_t close_count = 0;      ///< placed on close-range patches
     std::size_t distant_count = 0;    ///< deposited by light walks
     std::size_t close_triangles = 0;  ///< triangles that patches were placed on
@@ -73,6 +61,9 @@ struct SamplerEntry {
     const char* name;
     const char* description;  ///< a few words, for help texts
     VplSet (*sample)(SamplerStages& stages, const SamplingTask& task);
+    /// Begins to compile the stages that only some samplers need; null: there are none.
+    void (*begin_compiling)(SamplerStages& stages, Policy policy);
+    bool makes_local_lights;  ///< VplSet::local is set, so rows are gathered with local lights
 };
 struct PolicyEntry {
     Policy policy;
@@ -80,6 +71,7 @@ struct PolicyEntry {
     const char* description;
 };
 std::span<const SamplerEntry> all_samplers();
+const SamplerEntry& sampler_entry(SamplerKind kind);
 std::span<const PolicyEntry> all_policies();
 
 }  // namespace nearlight::core

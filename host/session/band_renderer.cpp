@@ -6,7 +6,7 @@
 namespace nearlight::core {
 namespace {
 
-uint direct_samples_per_sample(const RenderSettings& settings) {
+uint direct_samples_per_sample(const GatherSettings& settings) {
     return std::max(1u, (settings.direct_samples_per_pixel + settings.samples_per_pixel - 1) /
                             settings.samples_per_pixel);
 }
@@ -31,48 +31,53 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
       picture_(picture),
       camera_(stages.device, std::span(&picture.view.camera, 1)),
       close_range_(stages.device, std::span(&picture.view.close_range, 1)),
-      vpls_(stages.device, picture.vpls),
+      own_vpls_(picture.vpls.vpls.is_on(stages.device) ? VplBuffer()
+                                                       : picture.vpls.vpls.copy_to(stages.device)),
       buffers_(stages.device, picture.plan.max_packets(picture.view.camera.width), pixels_per_band(picture)) {
-    if (picture.local) {
+    if (picture.vpls.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
         }
-        stages.local_gather->set_vpls(scene, picture.vpls, *picture.local);
+        stages.local_gather->set_vpls(scene, vpls(), *picture.vpls.local);
     }
+}
+
+const VplBuffer& BandRenderer::vpls() const {
+    return picture_.vpls.vpls.is_on(stages_.device) ? picture_.vpls.vpls : own_vpls_;
 }
 
 /// Indirect light of a batch's receivers. False if cancelled.
 bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
-    if (picture_.local) {
+    if (picture_.vpls.local) {
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
                                          buffers_.indirect, progress);
     }
     return stages_.gatherer.gather({.tree = scene_.tree,
-                                    .vpls = vpls_,
-                                    .vpl_count = picture_.vpls.size(),
+                                    .vpls = vpls().buffer(),
+                                    .vpl_count = vpls().count(),
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
                                     .clamp_radius = picture_.view.clamp_radius,
                                     .roulette = picture_.settings.roulette,
-                                    .seed = picture_.settings.seed,
+                                    .seed = picture_.seed,
                                     .run_packets = picture_.plan.run_packets(batch, width)},
                                    buffers_.indirect, progress);
 }
 
 /// One batch: receivers, direct light, indirect light, film. False if cancelled.
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
-    const RenderSettings& settings = picture_.settings;
+    const GatherSettings& settings = picture_.settings;
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
-    stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, settings.seed, buffers_.receivers,
+    stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
                             buffers_.vertices);
     if (settings.indirect_only) {
         buffers_.direct.fill_zero();
     } else {
         stages_.direct_light.run(scene_, buffers_.receivers, packets, direct_samples_per_sample(settings),
-                                 settings.seed, buffers_.direct);
+                                 picture_.seed, buffers_.direct);
     }
     const bool finished = gather_indirect(batch, progress);
     if (finished) {
@@ -89,7 +94,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
     const uint row_count =
         std::min(batches.front().tile_row_count * 8, picture_.view.camera.height - first_row);
     FinishedBand band;
-    const std::size_t lights_before = picture_.local ? stages_.local_gather->light_count() : 0;
+    const std::size_t lights_before = picture_.vpls.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();
     for (std::size_t i = 0; i < batches.size(); ++i) {
         const auto batch_progress = [&](std::uint64_t done, std::uint64_t total) {
@@ -102,7 +107,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
     }
     const std::size_t pixel_count = static_cast<std::size_t>(width) * row_count;
     stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
-    band.local_lights = picture_.local ? stages_.local_gather->light_count() - lights_before : 0;
+    band.local_lights = picture_.vpls.local ? stages_.local_gather->light_count() - lights_before : 0;
     band.rows.resize(pixel_count * NEARLIGHT_LAYER_CHANNELS);
     buffers_.layers.download(band.rows);
     return band;

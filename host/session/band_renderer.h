@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
+#include "host/samplers/sampler.h"
 #include "host/session/band_sharing.h"
 #include "host/session/local_gather.h"
 #include "host/session/plan.h"
-#include "host/session/settings.h"
 #include "host/session/view.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/direct_light.h"
@@ -37,15 +37,15 @@ struct BandStages {
 /// What is the same for all bands and devices.
 struct Picture {
     const View& view;
-    const RenderSettings& settings;
+    const GatherSettings& settings;
+    uint seed = 0;
     const RenderPlan& plan;
-    std::span<const Vpl> vpls;  ///< in the order in which they are gathered
-    const std::optional<LocalLightPlan>& local;
+    const VplSet& vpls;  ///< on one device; every other one has the host's copy
 };
 
 class BandRenderer {
   public:
-    /// Uploads the VPLs. Refers to all of its arguments.
+    /// Uploads the VPLs unless they are on this device. Refers to all of its arguments.
     BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture);
 
     /// Rows of all layers of band `index` of picture.plan; empty if cancelled.
@@ -66,13 +66,14 @@ class BandRenderer {
 
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_indirect(const CameraBand& batch, const GatherProgress& progress);
+    [[nodiscard]] const VplBuffer& vpls() const;
 
     BandStages& stages_;
     const DeviceScene& scene_;
     const Picture& picture_;
     Buffer<PinholeCamera> camera_;
     Buffer<CloseRange> close_range_;
-    Buffer<Vpl> vpls_;
+    VplBuffer own_vpls_;  ///< empty where the set itself is on this device
     BatchBuffers buffers_;
 };
 

@@ -3,9 +3,8 @@
 
 namespace nearlight::core {
 
-void LocalGather::set_vpls(const DeviceScene& scene, std::span<const Vpl> sorted_vpls,
-                           const LocalLightPlan& plan) {
-    vpls_ = lights_.group(scene, sorted_vpls, plan);
+void LocalGather::set_vpls(const DeviceScene& scene, const VplBuffer& vpls, const LocalLightPlan& plan) {
+    vpls_ = lights_.group(scene, vpls.download(), plan);
     plan_ = plan;
     light_count_ = 0;
 }

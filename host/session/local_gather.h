@@ -4,6 +4,7 @@
 
 #include "host/stages/gatherer.h"
 #include "host/stages/local_lights.h"
+#include "host/stages/vpl_buffer.h"
 #include "host/stages/vpl_light.h"
 
 namespace nearlight::core {
@@ -14,8 +15,8 @@ class LocalGather {
     explicit LocalGather(Device& device)
         : device_(&device), lights_(device), vpl_light_(device), vpls_(device) {}
 
-    /// For one picture. `sorted_vpls` are of all depths, in Morton order.
-    void set_vpls(const DeviceScene& scene, std::span<const Vpl> sorted_vpls, const LocalLightPlan& plan);
+    /// For one picture. `vpls` are of all depths, in Morton order.
+    void set_vpls(const DeviceScene& scene, const VplBuffer& vpls, const LocalLightPlan& plan);
 
     /// Irradiance of the receivers in the first packet_count packets. False if cancelled.
     bool run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "host/base/stopwatch.h"
-#include "host/session/settings.h"
+#include "kernels/shared/types.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -19,7 +20,7 @@ uint pass_seed(uint seed, uint pass);
 /// Whether there is to be another pass, and how far all of them are.
 class PassClock {
   public:
-    /// `seconds` have passed since the renderer was made.
+    /// `seconds` were spent already, on getting ready.
     PassClock(const RenderSettings& settings, double seconds);
 
     /// To be asked after each pass.

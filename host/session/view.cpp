@@ -27,15 +27,16 @@ float automatic_range(const PilotView& pilot, float extent) {
 }  // namespace
 
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
-                 const RenderSettings& settings) {
+                 const ViewSettings& settings, uint seed) {
     View view;
+    view.seed = seed;
     view.scene_camera = scene.camera;
     view.scene_camera.width = settings.width.value_or(scene.camera.width);
     view.scene_camera.height = settings.height.value_or(scene.camera.height);
     view.camera = make_pinhole_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
     view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
                                                                      : kDefaultMaxDepth);
-    view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, settings.seed);
+    view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, seed);
     const float range =
         settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
     view.close_range = make_close_range(view.camera, range);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host/scene/scene.h"
-#include "host/session/settings.h"
 #include "host/stages/pilot_view.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -12,15 +12,16 @@ struct View {
     SceneCamera scene_camera;  ///< at the size to render
     PinholeCamera camera{};
     CloseRange close_range{};
-    PilotView pilot;
-    float clamp_radius = 0.0f;
-    uint max_depth = 8;
+    PilotView pilot;            ///< on the device that led when the view was chosen
+    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
+    uint max_depth = 8;         ///< as Mitsuba counts
+    uint seed = 0;              ///< of the pilot
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 
 /// Decides what the settings leave open: size and depth from the scene; the range so that it holds nine
 /// tenths of what the camera sees; the clamp radius as a twentieth of the range.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
-                 const RenderSettings& settings);
+                 const ViewSettings& settings, uint seed);
 
 }  // namespace nearlight::core

@@ -4,16 +4,9 @@
 
 #include "host/bvh/scene_trees.h"
 #include "host/cl/buffer.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
-
-/// Which kernel gathers. Both compute the same sum; visibility may differ for rays that meet an edge of a
-/// triangle within rounding.
-enum class GatherKernel {
-    automatic,  ///< packets on CPUs, rays elsewhere
-    packets,    ///< gather_packets.cl: one work-item, up to 256 receivers in vector registers
-    rays,       ///< gather_rays.cl: one work-item, one receiver
-};
 
 /// What `automatic` means on the device; the others are what they are.
 GatherKernel choose_kernel(GatherKernel kernel, const Device& device);

@@ -116,6 +116,7 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const CameraBand band{.tile_row_count = static_cast<uint>(height + 7) / 8, .samples_per_pixel = 2};
 
     PilotView view;
+    view.device = &device;
     view.packet_count = static_cast<uint>(packet_count(band, pinhole.width));
     view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
     view.vertices = Buffer<CameraVertex>(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);

@@ -34,6 +34,7 @@ struct ImportonGroups {
 };
 
 struct PilotView {
+    const Device* device = nullptr;  ///< that all buffers are on
     Buffer<ReceiverPacket> receivers;
     Buffer<CameraVertex> vertices;
     uint packet_count = 0;
@@ -42,6 +43,7 @@ struct PilotView {
     ImportonGroups importon_groups;   ///< some of them
     std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
 
+    [[nodiscard]] bool is_on(const Device& other) const { return device == &other; }
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;
 };
 

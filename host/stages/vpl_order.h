@@ -10,6 +10,7 @@
 
 #include "host/stages/compaction.h"
 #include "host/stages/morton_sort.h"
+#include "host/stages/vpl_buffer.h"
 
 namespace nearlight::core {
 
@@ -18,14 +19,14 @@ class VplOrder {
     explicit VplOrder(Device& device) : device_(&device), morton_sort_(device), compaction_(device) {}
 
     /// Along the Morton curve through their bounds.
-    Buffer<Vpl> upload_sorted(std::span<const Vpl> vpls) {
+    VplBuffer sort(std::span<const Vpl> vpls) {
         const Buffer<Vpl> unsorted(*device_, vpls);
         Buffer<uint> order(*device_, vpls.size());
         Buffer<Vpl> sorted(*device_, vpls.size());
         morton_sort_.order(unsorted, vpls.size(), order);
         compaction_.gather(unsorted, order, vpls.size(), sorted);
         device_->finish();  // `unsorted` must outlive the kernel
-        return sorted;
+        return {*device_, std::move(sorted), vpls.size()};
     }
 
     /// The indices in that order. Only positions are on the device meanwhile, so many more of them fit.

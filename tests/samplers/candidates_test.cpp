@@ -22,7 +22,8 @@ class CandidatesTest : public test::DeviceTest {};
 TEST_F(CandidatesTest, ErrorsAreNotBelowThoseOfThePartsOfThePicture) {
     on_each_device([](Device& device) {
         SamplingBench bench(device, divided_room());
-        const std::vector<Vpl> vpls = bench.sample(SamplerKind::instant_radiosity, kCandidates, 1).vpls;
+        const std::vector<Vpl> vpls =
+            bench.sample(SamplerKind::instant_radiosity, kCandidates, 1).vpls.download();
         const JudgedCandidates judged =
             judge(bench.stages(), bench.task(SamplerKind::close_range, kWanted, 1), vpls);
         ASSERT_EQ(judged.weights.size(), vpls.size());
@@ -46,7 +47,8 @@ TEST_F(CandidatesTest, ErrorsAreNotBelowThoseOfThePartsOfThePicture) {
 TEST_F(CandidatesTest, RowsThatWereNotKeptAreFoundAgain) {
     on_each_device([](Device& device) {
         SamplingBench bench(device, divided_room());
-        const std::vector<Vpl> vpls = bench.sample(SamplerKind::instant_radiosity, kCandidates, 1).vpls;
+        const std::vector<Vpl> vpls =
+            bench.sample(SamplerKind::instant_radiosity, kCandidates, 1).vpls.download();
         const SamplingTask task = bench.task(SamplerKind::close_range, kWanted, 1);
         const JudgedCandidates judged = judge(bench.stages(), task, vpls);
         const auto choice = [&](std::span<const float> rows) {

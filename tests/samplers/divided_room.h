@@ -64,10 +64,9 @@ class SamplingBench {
     [[nodiscard]] const PilotView& view() const { return view_; }
     /// What each VPL of a set brings to the camera.
     [[nodiscard]] std::vector<float> contributions(const VplSet& set) {
-        const Buffer<Vpl> vpls(device_, std::span(set.vpls));
-        Buffer<float> contributions(device_, set.vpls.size());
-        stages_.vpl_contribution.run(scene_.buffers, vpls, set.vpls.size(), view_, kBenchClampRadius,
-                                     contributions);
+        Buffer<float> contributions(device_, set.vpls.count());
+        stages_.vpl_contribution.run(scene_.buffers, set.vpls.buffer(), set.vpls.count(), view_,
+                                     kBenchClampRadius, contributions);
         return contributions.download();
     }
 
@@ -82,7 +81,7 @@ class SamplingBench {
 /// Summed power of the VPLs of a depth, W (green).
 inline double power_at_depth(const VplSet& set, uint depth) {
     double sum = 0;
-    for (const Vpl& vpl : set.vpls) {
+    for (const Vpl& vpl : set.vpls.download()) {
         sum += vpl.depth == depth ? vpl.power.y : 0.0f;
     }
     return sum;

@@ -27,17 +27,14 @@ inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sam
                                             .max_depth = 6,
                                             .clamp_radius = clamp_radius,
                                             .seed = 9});
-    Renderer renderer(device, scene);
-    const RenderSettings settings{.sampler = sampler,
-                                  .policy = policy,
-                                  .vpl_count = 1000,
-                                  .clamp_radius = clamp_radius,
-                                  .max_depth = 6,
-                                  .width = kAgreementSize,
-                                  .height = kAgreementSize,
-                                  .samples_per_pixel = 4,
-                                  .direct_samples_per_pixel = 64};
-    const std::vector<Image> renders = render_seeds(renderer, settings, 100, kSeeds);
+    Session session(device, scene);
+    const RenderSettings settings{.view = {.width = kAgreementSize,
+                                           .height = kAgreementSize,
+                                           .clamp_radius = clamp_radius,
+                                           .max_depth = 6},
+                                  .sampling = {.sampler = sampler, .policy = policy, .vpl_count = 1000},
+                                  .gather = {.samples_per_pixel = 4, .direct_samples_per_pixel = 64}};
+    const std::vector<Image> renders = render_seeds(session, settings, 100, kSeeds);
     for (const std::string layer : {"direct", "indirect"}) {
         const Verdict verdict = judge_convergence(renders, truth, layer);
         EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;

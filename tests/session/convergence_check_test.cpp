@@ -118,14 +118,10 @@ class ConvergenceMistakes : public test::DeviceTest {
 TEST_F(ConvergenceMistakes, AreFound) {
     const Scene scene =
         load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes/cornell-box/scene.xml");
-    const RenderSettings settings{.sampler = SamplerKind::instant_radiosity,
-                                  .vpl_count = 1000,
-                                  .clamp_radius = 0.1f,
-                                  .max_depth = 5,
-                                  .width = kSize,
-                                  .height = kSize,
-                                  .samples_per_pixel = 1,
-                                  .indirect_only = true};
+    const RenderSettings settings{
+        .view = {.width = kSize, .height = kSize, .clamp_radius = 0.1f, .max_depth = 5},
+        .sampling = {.sampler = SamplerKind::instant_radiosity, .vpl_count = 1000},
+        .gather = {.samples_per_pixel = 1, .indirect_only = true}};
     const auto multiply = [](float factor, const std::function<bool(int x, int y)>& where) -> Mistake {
         return [=](Image& image) {
             for (const char* name : {"indirect.R", "indirect.G", "indirect.B"}) {
@@ -139,11 +135,11 @@ TEST_F(ConvergenceMistakes, AreFound) {
         };
     };
     on_each_device([&](Device& device) {
-        Renderer renderer(device, scene);
-        const std::vector<Image> right = test::render_seeds(renderer, settings, 0, kRenders);
+        Session session(device, scene);
+        const std::vector<Image> right = test::render_seeds(session, settings, 0, kRenders);
         RenderSettings fine = settings;
-        fine.vpl_count = 40'000;
-        const Image truth = truth_of(test::render_seeds(renderer, fine, 500, 12));
+        fine.sampling.vpl_count = 40'000;
+        const Image truth = truth_of(test::render_seeds(session, fine, 500, 12));
         const auto judge = [&](const Mistake& mistake) {
             std::vector<Image> renders = right;
             for (Image& image : renders) {

@@ -48,19 +48,17 @@ Image trace_truth(const Case& test_case, uint max_depth) {
                                          .seed = 17});
 }
 
-Verdict judge(Renderer& renderer, const Case& test_case, const Variant& variant, const Image& truth,
+Verdict judge(Session& session, const Case& test_case, const Variant& variant, const Image& truth,
               uint max_depth) {
-    const RenderSettings settings{.sampler = variant.sampler,
-                                  .policy = variant.policy,
-                                  .vpl_count = test_case.vpl_count,
-                                  .range = test_case.range,
-                                  .clamp_radius = test_case.clamp_radius,
-                                  .max_depth = max_depth,
-                                  .width = test_case.size,
-                                  .height = test_case.size,
-                                  .samples_per_pixel = 1,
-                                  .indirect_only = true};
-    return judge_convergence(test::render_seeds(renderer, settings, 1000, kSeeds), truth, "indirect");
+    const RenderSettings settings{
+        .view = {.width = test_case.size,
+                 .height = test_case.size,
+                 .range = test_case.range,
+                 .clamp_radius = test_case.clamp_radius,
+                 .max_depth = max_depth},
+        .sampling = {.sampler = variant.sampler, .policy = variant.policy, .vpl_count = test_case.vpl_count},
+        .gather = {.samples_per_pixel = 1, .indirect_only = true}};
+    return judge_convergence(test::render_seeds(session, settings, 1000, kSeeds), truth, "indirect");
 }
 
 class Convergence : public test::DeviceTest {
@@ -68,10 +66,10 @@ class Convergence : public test::DeviceTest {
     void expect_all_converge(const Case& test_case) {
         const Image truth = trace_truth(test_case, test_case.max_depth);
         on_each_device([&](Device& device) {
-            Renderer renderer(device, test_case.scene);
+            Session session(device, test_case.scene);
             for (const Variant& variant : all_variants()) {
                 if (variant.policy != Policy::paper) {
-                    const Verdict verdict = judge(renderer, test_case, variant, truth, test_case.max_depth);
+                    const Verdict verdict = judge(session, test_case, variant, truth, test_case.max_depth);
                     EXPECT_TRUE(verdict.agrees) << variant.name() << ": " << verdict.reason;
                     EXPECT_LT(verdict.relative_error, 0.05)
                         << variant.name() << ": too noisy to tell anything";
@@ -85,11 +83,11 @@ class Convergence : public test::DeviceTest {
         const Image one_bounce = trace_truth(test_case, 3);
         const Image truth = trace_truth(test_case, test_case.max_depth);
         on_each_device([&](Device& device) {
-            Renderer renderer(device, test_case.scene);
+            Session session(device, test_case.scene);
             const Variant paper{SamplerKind::close_range, Policy::paper};
-            const Verdict first = judge(renderer, test_case, paper, one_bounce, 3);
+            const Verdict first = judge(session, test_case, paper, one_bounce, 3);
             EXPECT_TRUE(first.agrees) << first.reason;
-            const Verdict all = judge(renderer, test_case, paper, truth, test_case.max_depth);
+            const Verdict all = judge(session, test_case, paper, truth, test_case.max_depth);
             EXPECT_FALSE(all.agrees);
             EXPECT_LT(all.bias, -5 * all.relative_error);
         });

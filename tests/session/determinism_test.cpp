@@ -33,10 +33,8 @@ Scene terrace() {
 }
 
 RenderSettings terrace_settings(uint seed, SamplerKind sampler = SamplerKind::close_range) {
-    return {.sampler = sampler,
-            .vpl_count = 120,
-            .samples_per_pixel = 6,
-            .direct_samples_per_pixel = 12,
+    return {.sampling = {.sampler = sampler, .vpl_count = 120},
+            .gather = {.samples_per_pixel = 6, .direct_samples_per_pixel = 12},
             .seed = seed};
 }
 
@@ -49,7 +47,7 @@ TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
              {std::pair{SamplerKind::close_range, 0.0f}, std::pair{SamplerKind::close_range, 2.0f},
               std::pair{SamplerKind::local, 0.0f}}) {
             RenderSettings settings = terrace_settings(1, sampler);
-            settings.roulette = roulette;
+            settings.gather.roulette = roulette;
             const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
             for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
                 DeviceEntry entry = device.entry();

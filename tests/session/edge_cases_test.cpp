@@ -30,12 +30,9 @@ Scene niche() {
 }
 
 RenderSettings settings_of(SamplerKind sampler, uint vpl_count, uint seed) {
-    return {.sampler = sampler,
-            .vpl_count = vpl_count,
-            .range = 2.5f,
-            .clamp_radius = 0.2f,
-            .max_depth = 5,
-            .samples_per_pixel = 1,
+    return {.view = {.range = 2.5f, .clamp_radius = 0.2f, .max_depth = 5},
+            .sampling = {.sampler = sampler, .vpl_count = vpl_count},
+            .gather = {.samples_per_pixel = 1},
             .seed = seed};
 }
 
@@ -52,12 +49,12 @@ class EdgeCases : public test::DeviceTest {};
 TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {
     on_each_device([](Device& device) {
         const Scene scene = niche();
-        Renderer renderer(device, scene);
+        Session session(device, scene);
         const auto mean_of = [&](SamplerKind sampler, uint budget, int seeds, std::size_t& most) {
             double sum = 0;
             for (int seed = 0; seed < seeds; ++seed) {
                 const auto [image, report] =
-                    test::render_image(renderer, settings_of(sampler, budget, 50u + seed));
+                    test::render_image(session, settings_of(sampler, budget, 50u + seed));
                 sum += indirect_mean(image);
                 most = std::max(most, report.close_vpls + report.distant_vpls);
             }

@@ -62,7 +62,7 @@ class Energy : public test::DeviceTest {
             : camera_pass(device),
               stages(device),
               on_device(device, room_with_block()),
-              view(choose_view(device, camera_pass, on_device.buffers, on_device.scene, {.range = 2.0f})),
+              view(choose_view(device, camera_pass, on_device.buffers, on_device.scene, {.range = 2.0f}, 0)),
               photographer(on_device.scene, {on_device.scene.camera, camera_behind()}, view.close_range,
                            kDepths) {}
 
@@ -79,20 +79,21 @@ class Energy : public test::DeviceTest {
                                                                  uint depths = kDepths) {
         std::vector<std::map<EnergyClass, double>> photographs;
         for (uint seed = 0; seed < kEnergySeeds; ++seed) {
-            VplSet set = sample_vpls(bench.stages, {.scene = bench.on_device.buffers,
-                                                    .view = bench.view.pilot,
-                                                    .sampler = variant.sampler,
-                                                    .policy = variant.policy,
-                                                    .vpl_count = vpl_count,
-                                                    .bounce_count = depths,
-                                                    .close_fraction = 0.5f,
-                                                    .close_range = bench.view.close_range,
-                                                    .clamp_radius = bench.view.clamp_radius,
-                                                    .seed = 100 + seed});
+            const VplSet set = sample_vpls(bench.stages, {.scene = bench.on_device.buffers,
+                                                          .view = bench.view.pilot,
+                                                          .sampler = variant.sampler,
+                                                          .policy = variant.policy,
+                                                          .vpl_count = vpl_count,
+                                                          .bounce_count = depths,
+                                                          .close_fraction = 0.5f,
+                                                          .close_range = bench.view.close_range,
+                                                          .clamp_radius = bench.view.clamp_radius,
+                                                          .seed = 100 + seed});
+            std::vector<Vpl> vpls = set.vpls.download();
             if (change) {
-                change(set.vpls, bench.view.close_range);
+                change(vpls, bench.view.close_range);
             }
-            photographs.push_back(bench.photographer.photograph(set.vpls));
+            photographs.push_back(bench.photographer.photograph(vpls));
         }
         return photographs;
     }

@@ -35,14 +35,9 @@ Scene unit_furnace() {
 }
 
 RenderSettings furnace_settings(SamplerKind sampler, Policy policy, uint max_depth) {
-    return {.sampler = sampler,
-            .policy = policy,
-            .vpl_count = 3000,
-            .close_fraction = 0.5f,
-            .range = 10.0f,
-            .clamp_radius = 1e-3f,
-            .max_depth = max_depth,
-            .samples_per_pixel = 1,
+    return {.view = {.range = 10.0f, .clamp_radius = 1e-3f, .max_depth = max_depth},
+            .sampling = {.sampler = sampler, .policy = policy, .vpl_count = 3000, .close_fraction = 0.5f},
+            .gather = {.samples_per_pixel = 1},
             .seed = 5};
 }
 

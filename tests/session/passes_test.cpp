@@ -65,13 +65,13 @@ TEST(PassSeed, NoTwoPassesOfNeighbouringSeedsAreAlike) {
 TEST_F(Passes, OneIsThePictureBitForBit) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
-        Renderer renderer(device, scene);
-        const test::Rendering plain = test::render_image(renderer, test::few_vpls());
-        const test::Rendering one = test::render_image(renderer, with_passes(test::few_vpls(), 1));
+        Session session(device, scene);
+        const test::Rendering plain = test::render_image(session, test::few_vpls());
+        const test::Rendering one = test::render_image(session, with_passes(test::few_vpls(), 1));
         EXPECT_EQ(one.report.image_hash, plain.report.image_hash);
         RenderSettings hurried = test::few_vpls();
         hurried.seconds = 0;  // the first pass is made all the same, and is the only one
-        const test::Rendering first = test::render_image(renderer, hurried);
+        const test::Rendering first = test::render_image(session, hurried);
         EXPECT_EQ(first.report.passes, 1u);
         EXPECT_EQ(first.report.image_hash, plain.report.image_hash);
         EXPECT_EQ(first.image.values, plain.image.values);
@@ -81,18 +81,18 @@ TEST_F(Passes, OneIsThePictureBitForBit) {
 TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
-        Renderer renderer(device, scene);
+        Session session(device, scene);
         for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
             constexpr uint kPasses = 3;
             RenderSettings settings = test::few_vpls(sampler);
-            const test::Rendering averaged = test::render_image(renderer, with_passes(settings, kPasses));
-            settings.range = averaged.report.range;
-            settings.clamp_radius = averaged.report.clamp_radius;
+            const test::Rendering averaged = test::render_image(session, with_passes(settings, kPasses));
+            settings.view.range = averaged.report.range;
+            settings.view.clamp_radius = averaged.report.clamp_radius;
             Image expected;
             std::size_t vpls = 0;
             for (uint pass = 0; pass < kPasses; ++pass) {
                 settings.seed = pass_seed(5, pass);
-                const test::Rendering single = test::render_image(renderer, settings);
+                const test::Rendering single = test::render_image(session, settings);
                 vpls += single.report.close_vpls + single.report.distant_vpls;
                 if (pass == 0) {
                     expected = single.image;
@@ -119,31 +119,31 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
 TEST_F(Passes, StopWhereTheTimeIsUsedOrEnoughAreMade) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
-        Renderer renderer(device, scene);
+        Session session(device, scene);
         RenderSettings settings = test::few_vpls();
         settings.seconds = 1e9;
         settings.passes = 2;
-        EXPECT_EQ(test::render_image(renderer, settings).report.passes, 2u);
+        EXPECT_EQ(test::render_image(session, settings).report.passes, 2u);
         settings.passes.reset();
         settings.seconds = 0.5;
-        EXPECT_GE(test::render_image(renderer, settings).report.passes, 1u);
+        EXPECT_GE(test::render_image(session, settings).report.passes, 1u);
     });
 }
 
 TEST_F(Passes, AnInterruptedOneLeavesTheMeanOfThoseBefore) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
-        Renderer renderer(device, scene);
+        Session session(device, scene);
         const RenderSettings settings = with_passes(test::few_vpls(), 4);
         const test::Rendering stopped = test::render_image(
-            renderer, settings, [](const std::string&, double fraction) { return fraction < 0.25; });
+            session, settings, [](const std::string&, double fraction) { return fraction < 0.25; });
         EXPECT_TRUE(stopped.report.interrupted);
         // When the second pass begins, unless this thread was late. One band is the whole picture here, and
         // the last pass has not finished it.
         const uint whole = stopped.report.passes - 1;
         ASSERT_LT(whole, 4u);
         EXPECT_EQ(stopped.image.values,
-                  whole > 0 ? test::render_image(renderer, with_passes(settings, whole)).image.values
+                  whole > 0 ? test::render_image(session, with_passes(settings, whole)).image.values
                             : std::vector<float>{});
     });
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/image/image.h"
-#include "host/session/renderer.h"
+#include "host/session/render.h"
 #include "host/stages/film.h"
 
 namespace nearlight::core::test {
@@ -17,19 +17,17 @@ struct Rendering {
 
 /// Cheap, and every kind of light and random number.
 inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
-    return {.sampler = sampler,
-            .vpl_count = 60,
-            .samples_per_pixel = 2,
-            .direct_samples_per_pixel = 4,
+    return {.sampling = {.sampler = sampler, .vpl_count = 60},
+            .gather = {.samples_per_pixel = 2, .direct_samples_per_pixel = 4},
             .seed = 5};
 }
 
 inline Rendering render_image(
-    Renderer& renderer, const RenderSettings& settings,
+    Session& session, const RenderSettings& settings,
     const RenderProgress& progress = [](const std::string&, double) { return true; }) {
     Rendering rendering;
-    rendering.report = renderer.render(
-        settings,
+    rendering.report = render(
+        session, settings,
         [&](const RenderReport& report, const View&, const VplSet&) {
             rendering.image = {report.width, report.height, layer_channels(), {}};
         },
@@ -40,16 +38,16 @@ inline Rendering render_image(
     return rendering;
 }
 inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {
-    Renderer renderer(device, scene, settings.gather_kernel);
-    return render_image(renderer, settings);
+    Session session(device, scene);
+    return render_image(session, settings);
 }
 
 /// Pictures with seeds first, first + 1, …
-inline std::vector<Image> render_seeds(Renderer& renderer, RenderSettings settings, uint first, uint count) {
+inline std::vector<Image> render_seeds(Session& session, RenderSettings settings, uint first, uint count) {
     std::vector<Image> images;
     for (uint i = 0; i < count; ++i) {
         settings.seed = first + i;
-        images.push_back(render_image(renderer, settings).image);
+        images.push_back(render_image(session, settings).image);
     }
     return images;
 }

@@ -78,8 +78,8 @@ class SeveralDevices : public test::DeviceTest {
 
 test::Rendering render_on(std::vector<Device*> devices, const RenderSettings& settings) {
     const Scene scene = lit_floor();
-    Renderer renderer(devices, scene);
-    return test::render_image(renderer, settings);
+    Session session(devices, scene);
+    return test::render_image(session, settings);
 }
 
 TEST_F(SeveralDevices, GiveTheBitsOfOne) {
@@ -131,9 +131,9 @@ TEST_F(SeveralDevices, AFailedOneIsLeftOutOfLaterPictures) {
     write_kernels_without_gather(folder.path());
     Device& broken = open(device(1).entry(), folder.path());
     const Scene scene = lit_floor();
-    Renderer renderer(std::vector{&device(0), &broken}, scene);
-    EXPECT_EQ(test::render_image(renderer, test::few_vpls()).report.shares.size(), 2u);
-    EXPECT_EQ(test::render_image(renderer, test::few_vpls()).report.shares.size(), 1u);
+    Session session(std::vector{&device(0), &broken}, scene);
+    EXPECT_EQ(test::render_image(session, test::few_vpls()).report.shares.size(), 2u);
+    EXPECT_EQ(test::render_image(session, test::few_vpls()).report.shares.size(), 1u);
 }
 
 TEST_F(SeveralDevices, AnotherLeadsWhereTheFirstHasNoRoomForTheScene) {
@@ -159,10 +159,10 @@ TEST_F(SeveralDevices, WhenAllFailItIsAnError) {
 
 TEST_F(SeveralDevices, StopWhenTheCallerWantsNoMore) {
     const Scene scene = lit_floor();
-    Renderer renderer(std::vector{&device(0), &device(1)}, scene);
+    Session session(std::vector{&device(0), &device(1)}, scene);
     std::size_t rows = 0;
-    const RenderReport report = renderer.render(
-        test::few_vpls(), [](const RenderReport&, const View&, const VplSet&) {},
+    const RenderReport report = render(
+        session, test::few_vpls(), [](const RenderReport&, const View&, const VplSet&) {},
         [&](std::span<const float> finished) { rows += finished.size() / (200 * NEARLIGHT_LAYER_CHANNELS); },
         [](const std::string&, double fraction) { return fraction < 0.3; });
     EXPECT_TRUE(report.interrupted);

@@ -46,7 +46,7 @@ TEST_F(TunablesTest, NoneChangesABitOfThePicture) {
         Device device(shared.entry(), shared.options());
         for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
             RenderSettings settings = test::few_vpls(sampler);
-            settings.roulette = sampler == SamplerKind::close_range ? 1.0f : 0.0f;
+            settings.gather.roulette = sampler == SamplerKind::close_range ? 1.0f : 0.0f;
             device.set_tunables(shared.tunables());
             const std::uint64_t usual = test::render_image(device, step(), settings).report.image_hash;
             for (const auto& [name, tunables] : extremes(shared.tunables())) {

@@ -30,7 +30,7 @@ TEST_F(VplOrderTest, IsAPermutationAlongTheMortonCurve) {
     on_each_device([](Device& device) {
         for (const uint count : {0u, 1u, 2u, 1000u}) {
             const std::vector<Vpl> vpls = random_vpls(count);
-            const Buffer<Vpl> sorted = VplOrder(device).upload_sorted(vpls);
+            const VplBuffer sorted = VplOrder(device).sort(vpls);
             const std::vector<Vpl> result = sorted.download();
             ASSERT_EQ(result.size(), count);
             std::vector<bool> seen(count);
@@ -43,7 +43,7 @@ TEST_F(VplOrderTest, IsAPermutationAlongTheMortonCurve) {
             MortonSort morton(device);
             Buffer<uint> codes(device, count);
             Buffer<uint> values(device, count);
-            morton.codes(sorted, count, morton.bounds(sorted, count), codes, values);
+            morton.codes(sorted.buffer(), count, morton.bounds(sorted.buffer(), count), codes, values);
             const std::vector<uint> along = codes.download();
             EXPECT_TRUE(std::is_sorted(along.begin(), along.end()));
         }

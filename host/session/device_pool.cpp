@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/device_pool.h"
+
+#include "host/base/message.h"
+
+namespace nearlight::core {
+
+DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : kernel_(kernel) {
+    for (Device* device : devices) {
+        devices_.push_back(std::make_unique<PoolDevice>(*device, kernel));
+    }
+    appoint_leader();
+}
+
+std::vector<const Device*> DevicePool::plain_devices() const {
+    std::vector<const Device*> result;
+    for (const auto& device : devices_) {
+        result.push_back(&device->device());
+    }
+    return result;
+}
+
+TreeShapes DevicePool::tree_shapes() const {
+    TreeShapes all;
+    for (const auto& device : devices_) {
+        const TreeShapes shapes = core::tree_shapes(device->device(), kernel_);
+        all = {.binary = all.binary || shapes.binary, .wide = all.wide || shapes.wide};
+    }
+    return all;
+}
+
+void DevicePool::upload(const Scene& scene, const SceneTrees& trees) {
+    for (std::size_t i = devices_.size(); i-- > 0;) {
+        try {
+            devices_[i]->scene = upload_scene(devices_[i]->device(), scene, trees, kernel_);
+        } catch (const Error& error) {
+            lose(i, error);
+        }
+    }
+}
+
+void DevicePool::drop_failed(std::span<const BandShare> shares) {
+    for (std::size_t i = shares.size(); i-- > 0;) {
+        if (shares[i].failed) {
+            drop(i);
+        }
+    }
+}
+
+std::size_t DevicePool::peak_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& device : devices_) {
+        bytes += device->device().peak_bytes();
+    }
+    return bytes;
+}
+
+/// Must be called while `error` is handled: where there is no other device, it is thrown on.
+void DevicePool::lose(std::size_t index, const Error& error) {
+    if (devices_.size() == 1) {
+        throw;
+    }
+    say_warning("device " + devices_[index]->device().entry().label() +
+                " failed, others do its part: " + error.what());
+    drop(index);
+}
+
+void DevicePool::drop(std::size_t index) {
+    devices_.erase(devices_.begin() + static_cast<std::ptrdiff_t>(index));
+    appoint_leader();
+}
+
+void DevicePool::appoint_leader() {
+    if (!leader().samplers) {
+        leader().samplers.emplace(leader().device(), GatherConfig{.kernel = kernel_});
+    }
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/render.h"
+
+#include <algorithm>
+
+#include "host/base/hash.h"
+#include "host/base/stopwatch.h"
+#include "host/session/passes.h"
+
+namespace nearlight::core {
+namespace {
+
+/// What precedes the rows of a picture.
+struct Prepared {
+    View view;
+    VplSet vpls;
+    uint seed = 0;
+};
+
+std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
+    for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
+        hash = fnv1a(std::as_bytes(rows.subspan(i, 3)), hash);
+    }
+    return hash;
+}
+
+RenderReport begin_report(Session& session) {
+    RenderReport report;
+    report.image_hash = kFnvSeed;
+    const SessionSeconds ready = session.take_seconds();
+    report.seconds = {.build_bvh = ready.build_bvh, .upload = ready.upload, .total = ready.total};
+    return report;
+}
+
+/// Settings that were decided, and VPLs that are gathered.
+void note_pass(const Prepared& pass, RenderReport& report) {
+    if (report.passes++ == 0) {
+        report.width = static_cast<int>(pass.view.camera.width);
+        report.height = static_cast<int>(pass.view.camera.height);
+        report.range = pass.view.close_range.range;
+        report.clamp_radius = pass.view.clamp_radius;
+        report.max_depth = pass.view.max_depth;
+        report.close_fraction = pass.vpls.close_fraction;
+    }
+    report.close_vpls += pass.vpls.close_count;
+    report.distant_vpls += pass.vpls.distant_count;
+    report.sparse_vpls += pass.vpls.sparse_count;
+    report.candidates += pass.vpls.candidate_count;
+}
+
+Prepared prepare(Session& session, const ViewSettings& view, const SamplingSettings& sampling, uint seed,
+                 RenderReport& report) {
+    const Stopwatch watch;
+    Prepared pass{.view = session.look(view, seed), .vpls = {}, .seed = seed};
+    pass.vpls = session.sample(pass.view, sampling, seed);
+    note_pass(pass, report);
+    report.seconds.generate += watch.seconds();
+    return pass;
+}
+
+void gather(Session& session, const Prepared& pass, const GatherSettings& settings, const RowSink& sink,
+            const GatherFraction& progress, RenderReport& report) {
+    const Stopwatch watch;
+    const GatherOutcome outcome = session.gather(pass.view, pass.vpls, settings, pass.seed, sink, progress);
+    report.seconds.gather += watch.seconds();
+    report.local_lights += outcome.local_lights;
+    report.interrupted = outcome.interrupted;
+    report.device_bytes = std::max(report.device_bytes, session.peak_bytes());
+    add_shares(outcome.shares, report.shares);
+}
+
+/// Later passes keep what the first decided of the view, or they would not be renderings of one thing.
+ViewSettings decided(const ViewSettings& settings, const View& view) {
+    ViewSettings same = settings;
+    same.range = view.close_range.range;
+    same.clamp_radius = view.clamp_radius;
+    return same;
+}
+
+void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
+                 const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
+    const Prepared pass = prepare(session, settings.view, settings.sampling, settings.seed, report);
+    start(report, pass.view, pass.vpls);
+    gather(session, pass, settings.gather, sink, progress, report);
+}
+
+void render_passes(Session& session, const RenderSettings& settings, const RenderStart& start,
+                   const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
+    PassClock clock(settings, report.seconds.total);
+    const Prepared first = prepare(session, settings.view, settings.sampling, settings.seed, report);
+    PassAverage average(first.view.camera.width, first.view.camera.height);
+    const RowSink add_rows = [&](std::span<const float> rows) { average.add_rows(rows); };
+    const GatherFraction pass_progress = [&](double fraction) { return progress(clock.fraction(fraction)); };
+    gather(session, first, settings.gather, add_rows, pass_progress, report);
+    const ViewSettings view = decided(settings.view, first.view);
+    while (!report.interrupted && clock.has_another()) {
+        average.begin_pass();
+        const Prepared pass =
+            prepare(session, view, settings.sampling, pass_seed(settings.seed, report.passes), report);
+        gather(session, pass, settings.gather, add_rows, pass_progress, report);
+    }
+    start(report, first.view, first.vpls);
+    average.send(sink);
+}
+
+}  // namespace
+
+RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
+                    const RowSink& sink, const RenderProgress& progress) {
+    RenderReport report = begin_report(session);
+    const Stopwatch total;
+    const RowSink hash_and_send = [&](std::span<const float> rows) {
+        report.image_hash = hash_beauty(rows, report.image_hash);
+        sink(rows);
+    };
+    const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
+    const bool several = settings.passes.value_or(settings.seconds ? 2 : 1) > 1;
+    (several ? render_passes : render_once)(session, settings, start, hash_and_send, gathering, report);
+    report.seconds.compile = session.new_compile_seconds();
+    report.seconds.total += total.seconds();
+    return report;
+}
+
+}  // namespace nearlight::core

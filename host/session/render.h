@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The main path: a scene becomes a picture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/session/session.h"
+
+namespace nearlight::core {
+
+/// Stage ("gathering") and how far the picture is, 0 to 1. Returns false to stop.
+using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
+
+struct RenderSeconds {
+    double build_bvh = 0;
+    double compile = 0;   ///< while anything was compiled or loaded; other work goes on meanwhile
+    double upload = 0;    ///< of scene and trees, whose wide form is made meanwhile
+    double generate = 0;  ///< pilot and VPLs
+    double gather = 0;    ///< camera pass, direct light, gather, film
+    double total = 0;
+};
+
+struct RenderReport {
+    int width = 0;
+    int height = 0;
+    float range = 0;         ///< of the close range, m
+    float clamp_radius = 0;  ///< m
+    uint max_depth = 0;      ///< as Mitsuba counts
+    uint passes = 0;         ///< that were begun
+    // Of all passes together:
+    std::size_t close_vpls = 0;
+    std::size_t distant_vpls = 0;
+    std::size_t sparse_vpls = 0;   ///< that only lit other VPLs
+    std::size_t candidates = 0;    ///< that VPLs were chosen from; 0: there was no choice
+    std::size_t local_lights = 0;  ///< of all tiles
+    float close_fraction = 0;      ///< of the first pass
+    RenderSeconds seconds;
+    std::vector<BandShare> shares;  ///< of the picture, by device
+    std::size_t device_bytes = 0;   ///< at most at any time, all devices together
+    std::uint64_t image_hash = 0;   ///< of the beauty's bits; equal pictures have equal hashes
+    bool interrupted = false;       ///< the last pass is not whole; rows that no pass reached were not sent
+};
+
+/// Called when all settings are decided and before the first row, so that files can be opened with the right
+/// size and metadata. View and VPLs are those of the first pass. Of several passes rows come after the last.
+using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
+
+/// One picture, or the mean of several. Only a session's first report has the seconds of getting ready.
+RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
+                    const RowSink& sink, const RenderProgress& progress);
+
+}  // namespace nearlight::core

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/base/receivers.h"
+#include "host/base/stopwatch.h"
+#include "host/bvh/bvh_cache.h"
+#include "host/cl/program_compiler.h"
+#include "host/samplers/incident_light.h"
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight::core {
+namespace {
+
+/// Bytes of finished bands that may wait for an earlier one.
+constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
+
+uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
+    const std::size_t band_bytes =
+        std::size_t{width} * plan.tile_rows_per_band * 8 * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+    return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
+}
+
+std::vector<BandWorker> band_workers(const DevicePool& pool, const Picture& picture) {
+    std::vector<BandWorker> workers;
+    for (const auto& device : pool.devices()) {
+        workers.push_back(
+            {.name = device->device().entry().label(), .start = [&picture, device = device.get()] {
+                 auto bands = std::make_shared<BandRenderer>(device->bands, device->scene, picture);
+                 return [bands](uint index, const BandProgress& progress) {
+                     return bands->render(index, progress);
+                 };
+             }});
+    }
+    return workers;
+}
+
+std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<const Vec3> normals,
+                                        float extent) {
+    std::vector<ReceiverPacket> packets(receiver_packet_count(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        set_receiver(packets[i / NEARLIGHT_PACKET_SIZE], i % NEARLIGHT_PACKET_SIZE,
+                     {stand_off(points[i], normals[i], extent), normals[i]});
+    }
+    return packets;
+}
+
+SamplingTask sampling_task(const DeviceScene& scene, const View& view, const PilotView& pilot,
+                           const SamplingSettings& settings, uint seed) {
+    return {.scene = scene,
+            .view = pilot,
+            .sampler = settings.sampler,
+            .policy = settings.policy,
+            .vpl_count = settings.vpl_count,
+            .bounce_count = view.bounce_count(),
+            .close_fraction = settings.close_fraction,
+            .close_range = view.close_range,
+            .clamp_radius = view.clamp_radius,
+            .seed = seed};
+}
+
+}  // namespace
+
+/// Kernels compile while the tree is built: one waits for the driver, the other for memory.
+Session::Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options)
+    : scene_(scene), pool_(devices, options.gather_kernel) {
+    const Stopwatch total;
+    Stopwatch watch;
+    const SceneTrees trees =
+        find_or_build_scene_trees(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
+                                  {.folder = pool_.leader().device().options().cache_dir});
+    seconds_.build_bvh = watch.lap();
+    pool_.upload(scene, trees);
+    seconds_.upload = watch.lap();
+    seconds_.total = total.seconds();
+}
+Session::Session(Device& device, const Scene& scene, const SessionOptions& options)
+    : Session(std::vector{&device}, scene, options) {}
+
+View Session::look(const ViewSettings& settings, uint seed) {
+    return pool_.on_leader([&](PoolDevice& leader) {
+        return choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, settings, seed);
+    });
+}
+
+VplSet Session::sample(const View& view, const SamplingSettings& settings, uint seed) {
+    return pool_.on_leader([&](PoolDevice& leader) {
+        // Of a leader that has failed since, the pilot is gone; the same seed gives the same again.
+        std::optional<PilotView> again;
+        if (!view.pilot.is_on(leader.device())) {
+            again = look_at_scene(leader.device(), leader.bands.camera_pass, leader.scene, view.scene_camera,
+                                  view.seed);
+        }
+        const PilotView& pilot = again ? *again : view.pilot;
+        VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
+        if (pool_.size() > 1) {
+            set.vpls.keep_on_host();
+        }
+        return set;
+    });
+}
+
+GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
+                              const RowSink& sink, const GatherFraction& progress) {
+    const PinholeCamera& camera = view.camera;
+    const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
+                                      settings.samples_per_pixel, pool_.leader().scene.has_lobes ? 2 : 1);
+    const Picture picture{.view = view, .settings = settings, .seed = seed, .plan = plan, .vpls = vpls};
+    GatherOutcome outcome;
+    const auto take_band = [&](const FinishedBand& band) {
+        outcome.local_lights += band.local_lights;
+        sink(band.rows);
+    };
+    BandOutcome shared = share_bands(plan.band_count(), band_window(plan, camera.width, pool_.size()),
+                                     band_workers(pool_, picture), take_band, progress);
+    pool_.drop_failed(shared.shares);
+    outcome.shares = std::move(shared.shares);
+    outcome.interrupted = shared.interrupted;
+    return outcome;
+}
+
+std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
+                                      const View& view, const VplSet& vpls,
+                                      const IrradianceSettings& settings, uint seed) {
+    if (points.size() != normals.size()) {
+        throw Error(ErrorKind::invalid_argument, "irradiance at " + std::to_string(points.size()) +
+                                                     " points needs as many normals, not " +
+                                                     std::to_string(normals.size()));
+    }
+    return pool_.on_leader([&](PoolDevice& leader) {
+        Device& device = leader.device();
+        const std::vector<ReceiverPacket> packets =
+            pack_points(points, normals, leader.scene.host_info.extent);
+        const Buffer<ReceiverPacket> receivers(device, std::span<const ReceiverPacket>(packets));
+        Buffer<IrradiancePacket> light(device, packets.size());
+        const VplBuffer copy = vpls.vpls.is_on(device) ? VplBuffer() : vpls.vpls.copy_to(device);
+        gather_incident_light(*leader.samplers,
+                              {.scene = leader.scene,
+                               .bounce_count = view.bounce_count(),
+                               .vpls = vpls.vpls.is_on(device) ? vpls.vpls : copy,
+                               .clamp_radius = view.clamp_radius},
+                              receivers, packets.size(),
+                              {.direct_samples = settings.direct_samples, .paths = settings.paths}, seed,
+                              light);
+        return unpack(light, points.size());
+    });
+}
+
+double Session::new_compile_seconds() {
+    const double all = pool_.leader().device().compiler().busy_seconds();
+    return all - std::exchange(told_compile_seconds_, all);
+}
+
+// In the order of need. Programs stay with their device when the stages are gone.
+void begin_compiling(std::span<Device* const> devices, const SessionOptions& options,
+                     const SamplingSettings& settings) {
+    const SamplerEntry& sampler = sampler_entry(settings.sampler);
+    const auto begin_bands = [&](Device& device) {
+        const BandStages bands(device, options.gather_kernel);
+        if (sampler.makes_local_lights) {
+            const LocalGather local_gather(device);
+        }
+    };
+    begin_bands(*devices.front());
+    SamplerStages stages(*devices.front(), {.kernel = options.gather_kernel});
+    if (sampler.begin_compiling != nullptr) {
+        sampler.begin_compiling(stages, settings.policy);
+    }
+    for (Device* device : devices.subspan(1)) {
+        begin_bands(*device);
+    }
+}
+
+}  // namespace nearlight::core

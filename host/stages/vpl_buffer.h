@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A set of VPLs in device memory.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/cl/buffer.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight::core {
+
+/// VPLs on one device, fetched by who must see them on the host.
+class VplBuffer {
+  public:
+    VplBuffer() = default;
+    /// The first `count` of `buffer`, which is on `device`.
+    VplBuffer(Device& device, Buffer<Vpl> buffer, std::size_t count)
+        : device_(&device), buffer_(std::move(buffer)), count_(count) {}
+    /// Uploads them.
+    VplBuffer(Device& device, std::span<const Vpl> vpls)
+        : VplBuffer(device, Buffer<Vpl>(device, vpls), vpls.size()) {}
+
+    [[nodiscard]] const Buffer<Vpl>& buffer() const { return buffer_; }
+    [[nodiscard]] Buffer<Vpl>& buffer() { return buffer_; }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] bool is_on(const Device& device) const { return device_ == &device; }
+
+    [[nodiscard]] std::vector<Vpl> download() const {
+        std::vector<Vpl> vpls(count_);
+        buffer_.download(vpls);
+        return vpls;
+    }
+
+    /// Downloads them once, so that copies can be made after the device has failed, and by several threads.
+    void keep_on_host() { on_host_ = download(); }
+    /// The same VPLs on `device`.
+    [[nodiscard]] VplBuffer copy_to(Device& device) const {
+        return on_host_.size() == count_ ? VplBuffer(device, on_host_) : VplBuffer(device, download());
+    }
+
+  private:
+    Device* device_ = nullptr;
+    Buffer<Vpl> buffer_;
+    std::size_t count_ = 0;
+    std::vector<Vpl> on_host_;  ///< all of them, or none
+};
+
+}  // namespace nearlight::core
