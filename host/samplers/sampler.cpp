@@ -8,22 +8,24 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::array kSamplers{
-    SamplerEntry{SamplerKind::close_range, "close-range", "evenly over surfaces near and before the camera",
-                 sample_close_range},
+    SamplerEntry{SamplerKind::close_range, "close-range",
+                 "evenly over the surfaces close to and in front of the camera", sample_close_range},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity},
-    SamplerEntry{SamplerKind::rejection, "rejection", "light walks that the camera needs", sample_rejection},
-    SamplerEntry{SamplerKind::metropolis, "metropolis", "where Markov chains find what the camera needs",
-                 sample_metropolis},
+    SamplerEntry{SamplerKind::rejection, "rejection", "where light walks land that matter to the camera",
+                 sample_rejection},
+    SamplerEntry{SamplerKind::metropolis, "metropolis",
+                 "where Markov chains find light that matters to the camera", sample_metropolis},
     SamplerEntry{SamplerKind::bidirectional, "bidirectional",
-                 "where walks from lights and from the view land", sample_bidirectional},
-    SamplerEntry{SamplerKind::local, "local", "the same, smoothed, with lights of each tile for what is near",
+                 "where light walks land, and where rays from visible points land", sample_bidirectional},
+    SamplerEntry{SamplerKind::local, "local",
+                 "wherever light walks land, with smoother VPLs and extra lights for each tile nearby",
                  sample_local},
 };
 constexpr std::array kPolicies{
-    PolicyEntry{Policy::complete, "complete", "unbiased, light of all depths on the patches"},
-    PolicyEntry{Policy::partition, "partition", "unbiased, direct light only on the patches"},
-    PolicyEntry{Policy::paper, "paper", "loses bounces"},
+    PolicyEntry{Policy::complete, "complete", "unbiased; close-range VPLs carry light of all depths"},
+    PolicyEntry{Policy::partition, "partition", "unbiased; close-range VPLs carry direct light only"},
+    PolicyEntry{Policy::paper, "paper", "as in the paper; loses light of several bounces"},
 };
 
 const SamplerEntry& entry_of(SamplerKind kind) {

@@ -92,7 +92,7 @@ TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
 
 TEST_F(Compare, CtrlCKeepsWhatWasMeasured) {
     NEARLIGHT_NEEDS_DEVICE();
-    const char* promise = "the same command goes on";
+    const char* promise = "rerun the same command to resume";
     const ProgramResult result = run_interrupted(
         command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8"), 2,
         [&](const ProgramResult& so_far) { return so_far.errors.find(promise) != std::string::npos; });
