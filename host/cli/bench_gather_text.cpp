@@ -56,8 +56,7 @@ std::string differences_of(const TracerFigures& tracer, const GatherBenchResult&
     if (tracer.is_wrong && tracer.embree_width != 0) {
         text += fmt::format(
             "Embree contradicts itself: {} differs from rtcOccluded1 for {:.2g} % of the rays. It is "
-            "excluded "
-            "below.\n",
+            "excluded below.\n",
             tracer.name,
             100.0 * static_cast<double>(tracer.disagreements) / static_cast<double>(result.after_culling));
     }

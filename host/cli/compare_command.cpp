@@ -159,7 +159,8 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
     command
         .add_option(
             "--baseline", options.baseline,
-            "Sampler that the others' numbers are divided by (default: " + to_string(default_method()) + ")")
+            "Sampler that ratios refer to: every sampler's numbers are divided by its numbers (default: " +
+                to_string(default_method()) + ")")
         ->type_name("NAME");
     command.add_option("--vpls", options.vpls, "Numbers of VPLs, comma-separated")
         ->type_name("LIST")
@@ -175,10 +176,9 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option(
-            "--crop", options.crops,
-            "Part of the picture to enlarge in the report; may be given several times (default: where "
-            "errors are largest)")
+        .add_option("--crop", options.crops,
+                    "Part of the picture to enlarge in the report; may be given several times (default: "
+                    "where errors are largest)")
         ->type_name("X,Y,W,H")
         ->allow_extra_args(false);
 }
@@ -223,8 +223,7 @@ void add_reference_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--reference-vpls", settings.reference_vpls,
                     "Make the reference with this many VPLs: at least 200000 with instant radiosity, as in "
-                    "the paper, "
-                    "or ten times the largest number compared with another sampler")
+                    "the paper, or ten times the largest number compared with another sampler")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31u))
         ->type_name("N");
     command

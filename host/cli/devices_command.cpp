@@ -85,8 +85,8 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
     }
     print(
         "`nearlight render` uses the devices marked *: those that --device or NEARLIGHT_DEVICE names, or "
-        "else the "
-        "first GPU, or else the first device. Several devices (--device all, or 0,1) share a picture.\n");
+        "else the first GPU, or else the first device. Several devices (--device all, or 0,1) share a "
+        "picture.\n");
 }
 
 ExitCode run_devices(const DevicesOptions& options, const GlobalOptions& global) {

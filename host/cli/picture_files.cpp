@@ -97,10 +97,9 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->allow_extra_args(false)
         ->required();
     command
-        .add_option(
-            "--layers,--aov", options.layers,
-            "Layers of EXR pictures besides beauty, comma-separated (default: all): direct, indirect, "
-            "albedo, N, P, depth, closerange")
+        .add_option("--layers,--aov", options.layers,
+                    "Layers of EXR pictures besides beauty, comma-separated (default: all): direct, "
+                    "indirect, albedo, N, P, depth, closerange")
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);

@@ -224,10 +224,9 @@ void add_reference_command(CommandLine& line) {
                     "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's)")
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
-    command.add_flag(
-        "--resume", options->resume,
-        "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, size and "
-        "options must be the same");
+    command.add_flag("--resume", options->resume,
+                     "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, "
+                     "size and options must be the same");
     command.add_option("--seed", options->seed,
                        "Seed of the random numbers: the same seed gives the same picture");
     command.add_option("--threads", options->threads, "CPU threads; 0: one per core")

@@ -247,9 +247,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->capture_default_str();
     command
         .add_option("--roulette", settings.roulette,
-                    "Russian roulette: trace VPLs that could bring a part of the picture less than T times "
-                    "the mean only "
-                    "with a probability; 0 traces all")
+                    "Russian roulette: trace a VPL that could bring less than T times the mean only with a "
+                    "probability; 0 traces all")
         ->check(CLI::Range(0.0f, 1000.0f))
         ->type_name("T")
         ->capture_default_str();
@@ -269,8 +268,7 @@ void add_pass_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--time", options.seconds,
                     "Make as many passes as fit in this time, including the time to read the scene; always "
-                    "makes one, "
-                    "and never more than --passes")
+                    "makes one, and never more than --passes")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("SECONDS");
 }

@@ -101,11 +101,11 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
     for (const TunerTrial& trial : result.trials) {
         print(to_text(trial));
     }
-    print(fmt::format(
-        "Medians of interleaved runs. Another value replaces the usual one if it takes at least 3 % "
-        "less time and the difference exceeds the variation between runs. Pictures are the same "
-        "with all values.\n{}: {}\n",
-        result.device, to_text(result.chosen)));
+    print(
+        fmt::format("Medians of interleaved runs. Another value replaces the usual one if it takes at least "
+                    "3 % less time and the difference exceeds the variation between runs. Pictures are the "
+                    "same with all values.\n{}: {}\n",
+                    result.device, to_text(result.chosen)));
     if (!file.empty()) {
         spdlog::info("wrote {}; `nearlight tune --reset` removes it", file);
     }

@@ -84,12 +84,11 @@ void write_meanings(HtmlWriter& html) {
     html.element("h2", "What the numbers mean").open("dl");
     write_pair(html, "RMSE",
                "Root of the mean squared difference from the reference over pixels and R, G, B, as in the "
-               "paper; over seeds, the root of the mean of the squares. The mean variance of the "
-               "reference's own noise is subtracted first.");
+               "paper; over seeds, the root of the mean of the squares. The mean variance of the reference's "
+               "own noise is subtracted first.");
     write_pair(html, "± 95 %",
                "Half the width of the 95 % confidence interval over seeds (Student's t). If the intervals of "
-               "two methods overlap, the methods cannot be told apart; more seeds make intervals "
-               "narrower.");
+               "two methods overlap, the methods cannot be told apart; more seeds make intervals narrower.");
     write_pair(html, "relative MSE",
                "Mean of squared difference ÷ (squared reference + 0.01), so that dark corners count as much "
                "as bright walls. The reference's noise is subtracted here too.");
@@ -105,10 +104,9 @@ void write_meanings(HtmlWriter& html) {
     write_pair(html, "seconds",
                "Medians over seeds. Generate: view, pilots and VPLs; gather: camera rays, shadow rays and "
                "film. One-off costs of a scene (compiling, tree, upload) are excluded.");
-    write_pair(
-        html, "equal RMSE",
-        "For each RMSE that the baseline reached: the VPLs and seconds that a method needs for it, from "
-        "straight lines through log RMSE and log seconds over log VPLs gathered.");
+    write_pair(html, "equal RMSE",
+               "For each RMSE that the baseline reached: the VPLs and seconds that a method needs for it, "
+               "from straight lines through log RMSE and log seconds over log VPLs gathered.");
     write_pair(html, "basis",
                "Measured; fitted, which is within twice the measured range; extrapolated, which is beyond it "
                "and gives an order of magnitude; never: the method's error does not fall, or not within a "
@@ -145,11 +143,10 @@ void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSe
                  "lie beside or behind the camera.");
     write_vpl_figures(html, scene);
     html.element("h3", "Indirect light");
-    html.element(
-        "p", fmt::format(
-                 "The first seed: the picture, below it the error relative to the reference, and then {} of "
-                 "the picture enlarged. All pictures have the same exposure.",
-                 scene.figures.crops.size() == 1 ? "a part" : "parts"));
+    html.element("p",
+                 fmt::format("The first seed: the picture, below it the error relative to the reference, and "
+                             "then {} of the picture enlarged. All pictures have the same exposure.",
+                             scene.figures.crops.size() == 1 ? "a part" : "parts"));
     write_method_figures(html, scene, settings);
     html.close();
 }

@@ -12,15 +12,14 @@ constexpr std::array kSamplers{
                  "evenly over the surfaces close to and in front of the camera", sample_close_range},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity},
-    SamplerEntry{SamplerKind::rejection, "rejection", "where light walks land that matter to the camera",
-                 sample_rejection},
+    SamplerEntry{SamplerKind::rejection, "rejection",
+                 "where light walks land, if the light there matters to the camera", sample_rejection},
     SamplerEntry{SamplerKind::metropolis, "metropolis",
                  "where Markov chains find light that matters to the camera", sample_metropolis},
     SamplerEntry{SamplerKind::bidirectional, "bidirectional",
                  "where light walks land, and where rays from visible points land", sample_bidirectional},
     SamplerEntry{SamplerKind::local, "local",
-                 "wherever light walks land, with smoother VPLs and extra lights for each tile nearby",
-                 sample_local},
+                 "wherever light walks land, smoothed, with extra lights near each tile", sample_local},
 };
 constexpr std::array kPolicies{
     PolicyEntry{Policy::complete, "complete", "unbiased; close-range VPLs carry light of all depths"},
