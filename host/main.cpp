@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     } catch (const nearlight::Error& error) {
         return fail(error.what(), nearlight::core::exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
-        return fail("out of memory on the host; try a smaller --size or fewer --layers",
+        return fail("out of memory on the host; use a smaller --size or fewer --layers",
                     ExitCode::out_of_memory);
     } catch (const std::exception& error) {
         return fail(error.what(), ExitCode::runtime);

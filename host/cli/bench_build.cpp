@@ -87,15 +87,15 @@ ExitCode run_bench_build(const BenchBuildOptions& options, const GlobalOptions& 
 
 void add_bench_build(CommandLine& line, CLI::App& group) {
     auto options = std::make_shared<BenchBuildOptions>();
-    CLI::App& command =
-        line.add_part(group, "build", "Trees, beside Embree's: seconds, cost, and steps of the gather's rays",
-                      [options](const GlobalOptions& global) { return run_bench_build(*options, global); });
+    CLI::App& command = line.add_part(
+        group, "build", "Compare trees with Embree's: seconds, cost, and steps of the gather's rays",
+        [options](const GlobalOptions& global) { return run_bench_build(*options, global); });
     add_bench_scene_options(command, options->scene);
     add_size_option(command, options->size)->default_str("512x512");
-    command.add_option("--vpls", options->vpls, "VPLs of the rays whose steps are counted")
+    command.add_option("--vpls", options->vpls, "Number of VPLs; the steps of their shadow rays are counted")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    command.add_option("--repeats", options->repeats, "Builds of which the median counts")
+    command.add_option("--repeats", options->repeats, "Number of builds of each tree; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
 }

@@ -9,8 +9,8 @@
 namespace nearlight::core {
 
 void add_bench_command(CommandLine& line) {
-    CLI::App& group =
-        line.add_command_group("bench", "Measure a part beside the best that others offer, on the same work");
+    CLI::App& group = line.add_command_group(
+        "bench", "Benchmark one stage against Embree, TBB or the standard library, on the same work");
     add_bench_build(line, group);
     add_bench_gather(line, group);
     add_bench_sort(line, group);

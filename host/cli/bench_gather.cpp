@@ -113,7 +113,7 @@ nlohmann::ordered_json to_json(const std::string& name, BvhQuality bvh, const Ga
 ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions& global) {
     if (options.scene.file.empty() == options.replay.empty()) {
         throw Error(ErrorKind::invalid_argument,
-                    "give either a SCENE to make segments from, or --replay FILE");
+                    "give either a SCENE, from which segments are made, or --replay FILE");
     }
     const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     const GatherSegments segments = make_segments(options, *device);
@@ -138,26 +138,33 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
 void add_bench_gather(CommandLine& line, CLI::App& group) {
     auto options = std::make_shared<BenchGatherOptions>();
     CLI::App& command = line.add_part(
-        group, "gather", "Shadow rays from VPLs to receivers, beside Embree; fails where they disagree",
+        group, "gather",
+        "Trace shadow rays from VPLs to receivers and compare with Embree; fails if hits differ",
         [options](const GlobalOptions& global) { return run_bench_gather(*options, global); });
     add_bench_scene_options(command, options->scene);
-    command.add_option("--dump", options->dump, "Write the segments for others to replay (docs/bench.md)")
+    command
+        .add_option("--dump", options->dump,
+                    "Write the segments to a file for other programs to replay (format: docs/bench.md)")
         ->type_name("FILE");
-    command.add_option("--replay", options->replay, "Take the segments of such a file instead of a scene")
+    command
+        .add_option("--replay", options->replay, "Read the segments from a file of --dump instead of a scene")
         ->type_name("FILE");
     add_size_option(command, options->size)->default_str("512x512");
-    command.add_option("--vpls", options->vpls, "VPLs")->check(CLI::Range(1, 1 << 20))->capture_default_str();
-    command.add_option("--repeats", options->repeats, "Runs of which the median counts")
+    command.add_option("--vpls", options->vpls, "Number of VPLs")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    command.add_option("--repeats", options->repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--kernel", options->kernel, "Our gather kernels that take part")
+    command.add_option("--kernel", options->kernel, "Gather kernels of nearlight that take part")
         ->check(CLI::IsMember({"all", "packets", "rays"}))
         ->capture_default_str();
     command.add_flag("--rendered", options->rendered,
-                     "VPLs that a render would use, instead of those of plain light walks");
+                     "Use the VPLs of a render instead of those of plain light walks");
     command
-        .add_option("--roulette", options->roulette,
-                    "Threshold; ours take part with Russian roulette too (see render)")
+        .add_option(
+            "--roulette", options->roulette,
+            "Threshold: nearlight's kernels also run with Russian roulette (see `nearlight render --help`)")
         ->check(CLI::Range(0.0f, 1000.0f))
         ->type_name("T");
     add_bvh_option(command, options->bvh);

@@ -50,13 +50,13 @@ std::string differences_of(const TracerFigures& tracer, const GatherBenchResult&
         }
     }
     if (tracer.disagreements > lines) {
-        text += fmt::format("  {} differs for {} rays more (--json has the first hundred)\n", tracer.name,
+        text += fmt::format("  {} differs for {} more rays (--json has the first hundred)\n", tracer.name,
                             tracer.disagreements - lines);
     }
     if (tracer.is_wrong && tracer.embree_width != 0) {
         text += fmt::format(
-            "Embree contradicts itself: {} differs from rtcOccluded1 for {:.2g} % of the rays. It does not "
-            "count below.\n",
+            "Embree contradicts itself: {} differs from rtcOccluded1 for {:.2g} % of the rays. It is "
+            "excluded below.\n",
             tracer.name,
             100.0 * static_cast<double>(tracer.disagreements) / static_cast<double>(result.after_culling));
     }
@@ -84,7 +84,8 @@ std::string gather_bench_text(const std::string& name, BvhQuality bvh, const Gat
         fmt::format("Hit by hit: {}; a ray within {:.3g} of an edge may go either way.\n",
                     result.agrees ? "ours agree with Embree" : "OURS DO NOT AGREE", result.edge_tolerance);
     text +=
-        "Medians of interleaved runs. Ours is all of the gather, Embree's the time inside its calls only.\n";
+        "Medians of interleaved runs. Our time is that of the whole gather, Embree's only that inside its "
+        "calls.\n";
     const std::vector<TracerFigures>& tracers = result.tracers;
     text += ratio_line(tracers[result.ours], tracers[result.embree1], result.wall1, result.processor1);
     text += ratio_line(tracers[result.ours], tracers[result.embree16], result.wall16, result.processor16);

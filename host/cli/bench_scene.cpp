@@ -17,13 +17,14 @@ constexpr std::string_view kSpheres = "spheres:";
 void add_bench_scene_options(CLI::App& command, SceneOptions& options) {
     add_scene_options(command, options);
     command.get_option("SCENE")->required(false)->description(
-        "Mitsuba XML (.xml), glTF (.gltf, .glb), OBJ (.obj), or spheres:N, a made-up room of N triangles");
+        "Mitsuba XML (.xml), glTF (.gltf, .glb), OBJ (.obj), or spheres:N for a generated room of N "
+        "triangles");
 }
 
 Scene make_bench_scene(const SceneOptions& options) {
     const std::string name = options.file.string();
     if (name.empty()) {
-        throw Error(ErrorKind::invalid_argument, "give a SCENE, or spheres:N");
+        throw Error(ErrorKind::invalid_argument, "give a SCENE or spheres:N");
     }
     if (!name.starts_with(kSpheres)) {
         return load_scene(options);
@@ -32,8 +33,10 @@ Scene make_bench_scene(const SceneOptions& options) {
     const char* const end = name.data() + name.size();
     const auto [rest, error] = std::from_chars(name.data() + kSpheres.size(), end, triangles);
     if (error != std::errc() || rest != end || triangles == 0 || triangles > 50'000'000) {
-        throw Error(ErrorKind::invalid_argument,
-                    "'" + name + "': give a number of triangles, as in spheres:400000");
+        throw Error(
+            ErrorKind::invalid_argument,
+            "'" + name +
+                "' is not a scene; give a number of triangles from 1 to 50000000, as in spheres:400000");
     }
     return make_sphere_room(triangles);
 }

@@ -42,7 +42,7 @@ std::string to_text(const SortBenchResult& result) {
     for (const SortRatio& ratio : result.ratios) {
         text += fmt::format("{:>10.2f} {:>12.2f}  {}\n", ratio.wall, ratio.processor, ratio.name);
     }
-    return text + "Medians of interleaved runs; above 1: ours is faster.\n";
+    return text + "Medians of interleaved runs; above 1, ours is faster.\n";
 }
 
 ExitCode run_bench_sort(const BenchSortOptions& options, const GlobalOptions& global) {
@@ -63,12 +63,12 @@ ExitCode run_bench_sort(const BenchSortOptions& options, const GlobalOptions& gl
 void add_bench_sort(CommandLine& line, CLI::App& group) {
     auto options = std::make_shared<BenchSortOptions>();
     CLI::App& command = line.add_part(
-        group, "sort", "Radix sort and prefix sum, beside the host's libraries and plain copying",
+        group, "sort", "Compare radix sort and prefix sum with TBB, the standard library and plain copying",
         [options](const GlobalOptions& global) { return run_bench_sort(*options, global); });
-    command.add_option("--count", options->config.count, "Keys")
+    command.add_option("--count", options->config.count, "Number of keys")
         ->check(CLI::Range(1, 1 << 28))
         ->capture_default_str();
-    command.add_option("--repeats", options->config.repeats, "Runs of which the median counts")
+    command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     add_device_options(command, options->device);

@@ -65,7 +65,7 @@ std::string to_text(const RaySetResult& set) {
     if (set.ratio_processor > 0.0) {
         text += fmt::format(", {:.2f} by processor time", set.ratio_processor);
     }
-    return text + (set.agrees ? "\n" : "; ITS HITS ARE NOT EMBREE'S\n");
+    return text + (set.agrees ? "\n" : "; ITS HITS DIFFER FROM EMBREE'S\n");
 }
 
 std::string to_text(const Scene& scene, const TraceBenchResult& result) {
@@ -75,7 +75,7 @@ std::string to_text(const Scene& scene, const TraceBenchResult& result) {
         text += to_text(set);
     }
     return text +
-           "\nMedians of interleaved runs, closest hits. Embree's is the time inside its calls only.\n";
+           "\nMedians of interleaved runs, for closest hits. Embree's time is only that inside its calls.\n";
 }
 
 ExitCode run_bench_trace(const BenchTraceOptions& options, const GlobalOptions& global) {
@@ -100,14 +100,14 @@ ExitCode run_bench_trace(const BenchTraceOptions& options, const GlobalOptions& 
 void add_bench_trace(CommandLine& line, CLI::App& group) {
     auto options = std::make_shared<BenchTraceOptions>();
     CLI::App& command =
-        line.add_part(group, "trace", "Rays of the camera and of light walks, beside Embree",
+        line.add_part(group, "trace", "Trace rays of the camera and of light walks, and compare with Embree",
                       [options](const GlobalOptions& global) { return run_bench_trace(*options, global); });
     add_bench_scene_options(command, options->scene);
     add_size_option(command, options->size)->default_str("512x512");
-    command.add_option("--rays", options->config.walk_rays, "Rays of light walks")
+    command.add_option("--rays", options->config.walk_rays, "Number of rays of light walks")
         ->check(CLI::Range(1, 1 << 26))
         ->capture_default_str();
-    command.add_option("--repeats", options->config.repeats, "Runs of which the median counts")
+    command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     add_device_options(command, options->device);

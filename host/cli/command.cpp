@@ -88,16 +88,18 @@ std::string short_usage(const CLI::App& app) {
         name.resize(12, ' ');
         text += "  " + name + command->get_description() + "\n";
     }
-    return text + "\n'nearlight COMMAND --help' tells more.\n";
+    return text + "\nRun 'nearlight COMMAND --help' for the options of a command.\n";
 }
 
 void add_global_options(CLI::App& app, GlobalOptions& global) {
-    const std::string group = "Every command";
-    app.set_help_flag("-h,--help", "Show this help")->group(group);
-    app.set_version_flag("--version", "nearlight " NEARLIGHT_VERSION, "Show the version")->group(group);
-    app.add_flag("--json", global.json, "Print the result as one JSON object")->group(group);
-    app.add_flag("-q,--quiet", global.quiet, "Print errors only")->group(group);
-    app.add_flag("-v,--verbose", global.verbose, "Print debug messages too")->group(group);
+    const std::string group = "Common options";
+    app.set_help_flag("-h,--help", "Show this help and exit")->group(group);
+    app.set_version_flag("--version", "nearlight " NEARLIGHT_VERSION, "Show the version and exit")
+        ->group(group);
+    app.add_flag("--json", global.json, "Print the result to standard output as one JSON object")
+        ->group(group);
+    app.add_flag("-q,--quiet", global.quiet, "Print only errors")->group(group);
+    app.add_flag("-v,--verbose", global.verbose, "Also print debug messages")->group(group);
 }
 
 }  // namespace
@@ -142,7 +144,7 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
     }
     if (global_.quiet && global_.verbose) {
         throw Error(ErrorKind::invalid_argument,
-                    "--quiet and --verbose contradict each other; give one of them");
+                    "--quiet and --verbose contradict each other; give only one of them");
     }
     set_up_log(global_.quiet ? Verbosity::quiet : global_.verbose ? Verbosity::verbose : Verbosity::normal);
     const ExitCode code = run_(global_);
@@ -159,7 +161,7 @@ ImageSize parse_size(const std::string& text) {
     const auto fits = [](int side) { return side >= 1 && side <= kMaxSide; };
     if (!has_x || height_error != std::errc() || last != end || !fits(size.width) || !fits(size.height)) {
         throw Error(ErrorKind::invalid_argument, "'" + text +
-                                                     "' is no size: give WIDTHxHEIGHT, each from 1 to " +
+                                                     "' is not a size; give WIDTHxHEIGHT, each from 1 to " +
                                                      std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
@@ -169,7 +171,7 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
     return command
         .add_option_function<std::string>(
             "--size", [&size](const std::string& text) { size = parse_size(text); },
-            "Size of the picture in pixels")
+            "Size of the picture, in pixels")
         ->type_name("WxH");
 }
 

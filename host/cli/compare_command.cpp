@@ -60,7 +60,7 @@ void refuse_twin_scenes(const std::vector<std::filesystem::path>& files) {
     for (auto file = files.begin(); file != files.end(); ++file) {
         if (std::find(files.begin(), file, *file) != file) {
             throw Error(ErrorKind::invalid_argument,
-                        "scene '" + file->string() + "' is given twice; give it once");
+                        "scene '" + file->string() + "' is given twice; name each scene once");
         }
     }
 }
@@ -83,13 +83,13 @@ void check_files(const CompareSettings& settings) {
     std::error_code ignored;
     if (std::filesystem::exists(settings.output, ignored) &&
         !std::filesystem::is_directory(settings.output, ignored)) {
-        throw Error(ErrorKind::file, "-o '" + settings.output.string() + "' is a file; name a folder");
+        throw Error(ErrorKind::file, "-o '" + settings.output.string() + "' is a file; give a folder");
     }
 }
 
 void tell(const Comparison& comparison, const CompareSettings& settings) {
-    spdlog::info("{} cells measured, {} found in {}", comparison.measured_cells, comparison.reused_cells,
-                 settings.output.string());
+    spdlog::info("measured {} pictures, reused {} from {}", comparison.measured_cells,
+                 comparison.reused_cells, settings.output.string());
     spdlog::info("wrote {}", (settings.output / "report.html").string());
 }
 
@@ -132,7 +132,7 @@ ExitCode run_compare(const CompareOptions& options, const GlobalOptions& global)
     const std::optional<Comparison> comparison = compare(*device, scenes, settings, observer);
     bar.clear();
     if (!comparison) {
-        spdlog::warn("interrupted; what was measured is kept in {}: the same command goes on from there",
+        spdlog::warn("interrupted; the measurements so far are kept in {}; rerun the same command to resume",
                      settings.output.string());
         return ExitCode::interrupted;
     }
@@ -157,52 +157,58 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
                     "Samplers to compare, comma-separated (default: all): " + names)
         ->type_name("LIST");
     command
-        .add_option("--baseline", options.baseline,
-                    "Ratios are a sampler's ÷ this one's (default: " + to_string(default_method()) + ")")
+        .add_option(
+            "--baseline", options.baseline,
+            "Sampler that ratios refer to: every sampler's numbers are divided by its numbers (default: " +
+                to_string(default_method()) + ")")
         ->type_name("NAME");
-    command.add_option("--vpls", options.vpls, "Counts of VPLs, comma-separated")
+    command.add_option("--vpls", options.vpls, "Numbers of VPLs, comma-separated")
         ->type_name("LIST")
         ->default_str("1000,2000,5000,10000");
-    command.add_option("--seeds", settings.seed_count, "Seeds; more make confidence intervals narrower")
+    command
+        .add_option("--seeds", settings.seed_count,
+                    "Number of seeds; more seeds make confidence intervals narrower")
         ->check(CLI::Range(1u, 10'000u))
         ->type_name("N")
         ->capture_default_str();
-    command.add_option("--first-seed", settings.first_seed, "The first of them")
+    command.add_option("--first-seed", settings.first_seed, "First seed; the others follow it")
         ->check(CLI::Range(0u, 1'000'000'000u))
         ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--crop", options.crops,
-                    "Part of the picture to look at closely; may be given several times (default: where it "
-                    "is hardest)")
+                    "Part of the picture to enlarge in the report; may be given several times (default: "
+                    "where errors are largest)")
         ->type_name("X,Y,W,H")
         ->allow_extra_args(false);
 }
 
 void add_light_options(CLI::App& command, CompareSettings& settings) {
-    command.add_option("--spp", settings.samples_per_pixel, "Camera samples a pixel; 1 is at its centre")
+    command
+        .add_option("--spp", settings.samples_per_pixel,
+                    "Camera samples per pixel; a single one lies at the pixel's centre")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--clamp-radius", settings.clamp_radius,
-                    "The same for all samplers and the reference, scene units")
+                    "Clamp radius of all samplers and of the reference, in scene units")
         ->check(CLI::Range(0.0f, 1e9f))
         ->type_name("R");
     command
         .add_option("--clamp-fraction", settings.clamp_fraction,
-                    "Clamp radius as a part of the range (default: 0.025)")
+                    "Clamp radius as a fraction of the range (default: 0.025)")
         ->check(CLI::Range(0.0f, 10.0f))
         ->type_name("F");
     command
-        .add_option(
-            "--range", settings.range,
-            "How far from the camera the close range reaches, scene units (default: as `render` does)")
+        .add_option("--range", settings.range,
+                    "Distance from the camera at which the close range ends, in scene units (default: as in "
+                    "`render`)")
         ->check(CLI::Range(1e-6f, 1e9f))
         ->type_name("R");
     command
         .add_option("--max-depth", settings.max_depth,
-                    "Longest light path as Mitsuba counts (default: the scene's, or 8)")
+                    "Maximum path depth, counted as in Mitsuba (default: the scene's, or 8)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
 }
@@ -210,31 +216,30 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
 void add_reference_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--reference-spp", settings.reference_spp,
-                    "Samples a pixel of the path-traced reference, rounded up to a multiple of 16")
+                    "Samples per pixel of the path-traced reference, rounded up to a multiple of 16")
         ->check(CLI::Range(8, 1 << 24))
         ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--reference-vpls", settings.reference_vpls,
-                    "Take so many VPLs as reference; of instant radiosity, as in the paper, at least 200000, "
-                    "of other "
-                    "samplers ten times the largest count compared")
+                    "Make the reference with this many VPLs: at least 200000 with instant radiosity, as in "
+                    "the paper, or ten times the largest number compared with another sampler")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31u))
         ->type_name("N");
     command
         .add_option_function<std::string>(
             "--reference-sampler",
             [&settings](const std::string& name) { settings.reference_sampler = parse_method(name); },
-            "Whose VPLs these are (default: instant-radiosity)")
+            "Sampler that makes the VPLs of --reference-vpls (default: instant-radiosity)")
         ->type_name("NAME");
     command
         .add_option("--reference", settings.reference_files,
-                    "Reference made by `nearlight reference`; may be given several times, one a scene")
+                    "Reference made by `nearlight reference`; may be given several times, once per scene")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
         .add_option("--reference-dir", settings.reference_folder,
-                    "Keep references here (default: DIR/references)")
+                    "Folder for references (default: DIR/references)")
         ->type_name("DIR");
 }
 
@@ -251,8 +256,7 @@ void add_compare_command(CommandLine& line) {
     add_shared_scene_options(command, options->scene);
     add_bvh_option(command, options->settings.bvh_quality);
     command
-        .add_option("-o,--output", options->settings.output,
-                    "Folder for the report; what is measured is kept there")
+        .add_option("-o,--output", options->settings.output, "Folder for the report and for all measurements")
         ->type_name("DIR")
         ->required();
     add_what_options(command, *options);

@@ -8,20 +8,19 @@ namespace nearlight::core {
 
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
     command
-        .add_option(
-            "--device", choice.device,
-            "OpenCL devices, comma-separated: index, part of a name, cpu, gpu or all; 0/2 are two halves of "
-            "device 0, "
-            "0/2.1 the second of them. `render` shares a picture among several (default: $NEARLIGHT_DEVICE, "
-            "else the first GPU, else the first device; see `nearlight devices`)")
+        .add_option("--device", choice.device,
+                    "OpenCL devices, comma-separated: an index, a part of a name, cpu, gpu or all. 0/2 means "
+                    "both halves of device 0, and 0/2.1 its second half. `render` divides a picture among "
+                    "several devices. The default is $NEARLIGHT_DEVICE, or else the first GPU, or else the "
+                    "first device (see `nearlight devices`)")
         ->type_name("DEVICE");
     command
         .add_option("--kernel-dir", choice.options.kernel_dir,
-                    "Read kernels from this folder instead of the binary")
+                    "Read kernels from this folder instead of the built-in ones")
         ->type_name("DIR");
     command
         .add_option("--cache-dir", choice.options.cache_dir,
-                    "Keep compiled kernels, trees and tunables here (default: ~/.cache/nearlight); `none` "
+                    "Folder for compiled kernels, trees and tunables (default: ~/.cache/nearlight); `none` "
                     "keeps nothing")
         ->type_name("DIR");
 }
@@ -48,7 +47,7 @@ std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, co
 std::unique_ptr<Device> open_device(const DeviceChoice& choice) {
     const std::vector<DeviceEntry> chosen = choose_devices(list_devices(), choice.device);
     if (chosen.size() > 1) {
-        spdlog::warn("{} devices match, this command works on one: using {} ({})", chosen.size(),
+        spdlog::warn("{} devices match, but this command uses only one: {} ({})", chosen.size(),
                      chosen.front().label(), chosen.front().platform);
     }
     spdlog::debug("device {}: {}, {}, driver {}", chosen.front().index, chosen.front().label(),

@@ -60,13 +60,13 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
                           to_string(entry.kind)));
         print(fmt::format("     platform  {}\n     version   {}\n     driver    {}\n", entry.platform,
                           entry.version, entry.driver));
-        print(fmt::format("     units     {} with vectors of {}, memory {}, largest buffer {}\n",
+        print(fmt::format("     units     {} with vectors of {}, memory {}, maximum buffer {}\n",
                           entry.compute_units, entry.float_width, memory_text(entry.global_bytes),
                           memory_text(entry.max_allocation_bytes)));
         if (entry.max_parts > 1) {
-            print(
-                fmt::format("     parts     up to {0}: --device {1}/{0} uses them all, {1}/{0}.0 the first\n",
-                            entry.max_parts, entry.index));
+            print(fmt::format(
+                "     parts     up to {0}: --device {1}/{0} uses all of them, {1}/{0}.0 only the first\n",
+                entry.max_parts, entry.index));
         }
         const ChosenTunables tunables = tunables_of(entry, cache_dir);
         print(
@@ -84,9 +84,9 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
         print(fmt::format("  problem: {}\n", problem));
     }
     print(
-        "* is what `nearlight render` uses: what --device or NEARLIGHT_DEVICE names (several share a "
-        "picture: --device "
-        "all, or 0,1), else the first GPU, else the first device.\n");
+        "`nearlight render` uses the devices marked *: those that --device or NEARLIGHT_DEVICE names, or "
+        "else the first GPU, or else the first device. Several devices (--device all, or 0,1) share a "
+        "picture.\n");
 }
 
 ExitCode run_devices(const DevicesOptions& options, const GlobalOptions& global) {
@@ -105,12 +105,13 @@ ExitCode run_devices(const DevicesOptions& options, const GlobalOptions& global)
 void add_devices_command(CommandLine& line) {
     auto options = std::make_shared<DevicesOptions>();
     CLI::App& command =
-        line.add_command("devices", "List OpenCL platforms and devices, and say which one is used",
+        line.add_command("devices", "List OpenCL platforms and devices, and show which are used",
                          [options](const GlobalOptions& global) { return run_devices(*options, global); });
-    command.add_option("--device", options->choice, "Mark what this choice would use")->type_name("DEVICE");
+    command.add_option("--device", options->choice, "Mark the devices that this choice would use")
+        ->type_name("DEVICE");
     command
         .add_option("--cache-dir", options->cache_dir,
-                    "Where `nearlight tune` keeps tunables (default: ~/.cache/nearlight)")
+                    "Folder where `nearlight tune` keeps tunables (default: ~/.cache/nearlight)")
         ->type_name("DIR");
 }
 

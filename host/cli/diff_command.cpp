@@ -82,7 +82,7 @@ ExitCode run_diff(const DiffOptions& options, const GlobalOptions& global) {
     if (a.width != b.width || a.height != b.height) {
         throw Error(
             ErrorKind::file,
-            fmt::format("'{}' has {}x{} pixels, '{}' has {}x{}: only pictures of one size can be compared",
+            fmt::format("'{}' has {}x{} pixels, but '{}' has {}x{}; give two pictures of the same size",
                         options.image.string(), a.width, a.height, options.reference.string(), b.width,
                         b.height));
     }
@@ -108,12 +108,13 @@ ExitCode run_diff(const DiffOptions& options, const GlobalOptions& global) {
 void add_diff_command(CommandLine& line) {
     auto options = std::make_shared<DiffOptions>();
     CLI::App& command =
-        line.add_command("diff", "Compare two pictures: RMSE, relative MSE, mean ratio, FLIP",
+        line.add_command("diff", "Compare two pictures by RMSE, relative MSE, mean ratio and FLIP",
                          [options](const GlobalOptions& global) { return run_diff(*options, global); });
-    command.add_option("A", options->image, "Picture")->required();
-    command.add_option("B", options->reference, "Reference of the same size")->required();
+    command.add_option("A", options->image, "Picture to judge")->required();
+    command.add_option("B", options->reference, "Reference picture of the same size")->required();
     command
-        .add_option("-o,--output", options->map, "Write a map of the FLIP error (of the first layer) here")
+        .add_option("-o,--output", options->map,
+                    "Write a map of the FLIP error of the first layer to this file")
         ->type_name("MAP");
     command.add_option("--layer", options->layers, "Compare only this layer; may be given several times")
         ->type_name("NAME")

@@ -23,7 +23,7 @@ ExitCode run_info(const SceneOptions& options, const GlobalOptions& global) {
 void add_info_command(CommandLine& line) {
     auto options = std::make_shared<SceneOptions>();
     CLI::App& command = line.add_command(
-        "info", "Tell what a scene holds, what of it is approximated, and the memory it takes",
+        "info", "Show what a scene contains, what is approximated, and how much memory it needs",
         [options](const GlobalOptions& global) { return run_info(*options, global); });
     add_scene_options(command, *options);
 }

@@ -54,7 +54,8 @@ std::vector<std::size_t> channels_for(const PictureOptions& options, const std::
 void check_output(const std::string& file) {
     namespace fs = std::filesystem;
     if (extension_of(file) != ".exr" && extension_of(file) != ".png") {
-        throw Error(ErrorKind::invalid_argument, "cannot write '" + file + "': pictures end in .exr or .png");
+        throw Error(ErrorKind::invalid_argument,
+                    "cannot write '" + file + "': the names of pictures end in .exr or .png");
     }
     const fs::path parent = fs::path(file).parent_path();
     const fs::path folder = parent.empty() ? fs::path(".") : parent;
@@ -64,15 +65,15 @@ void check_output(const std::string& file) {
                                          "'; create it first");
     }
     if (fs::is_directory(file, error)) {
-        throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; name a file");
+        throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; give a file");
     }
     if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
         throw Error(ErrorKind::file,
-                    "cannot write '" + file + "': it is there and read-only; name another file");
+                    "cannot write '" + file + "': it exists and is read-only; give another file");
     }
     if (access(folder.c_str(), W_OK) != 0) {
-        throw Error(ErrorKind::file,
-                    "cannot write '" + file + "': the folder '" + folder.string() + "' is not writable");
+        throw Error(ErrorKind::file, "cannot write '" + file + "': the folder '" + folder.string() +
+                                         "' is not writable; give another folder");
     }
 }
 
@@ -97,13 +98,12 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->required();
     command
         .add_option("--layers,--aov", options.layers,
-                    "Layers of the EXR besides beauty, comma-separated (default: all): direct, indirect, "
-                    "albedo, N, P, "
-                    "depth, closerange")
+                    "Layers of EXR pictures besides beauty, comma-separated (default: all): direct, "
+                    "indirect, albedo, N, P, depth, closerange")
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--exposure", options.exposure, "Of PNG pictures, in stops")
+    command.add_option("--exposure", options.exposure, "Exposure of PNG pictures, in stops")
         ->type_name("EV")
         ->capture_default_str();
 }
@@ -116,7 +116,7 @@ void check_outputs(const PictureOptions& options) {
             for (const std::string& name : known) {
                 list += (list.empty() ? "" : ", ") + name;
             }
-            throw Error(ErrorKind::invalid_argument, "unknown layer '" + layer + "'; there are: " + list);
+            throw Error(ErrorKind::invalid_argument, "unknown layer '" + layer + "'; choose from: " + list);
         }
     }
     for (const std::string& file : options.outputs) {

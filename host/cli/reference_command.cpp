@@ -128,7 +128,7 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
 const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
     const auto found = std::ranges::find(options.outputs, ".exr", &std::filesystem::path::extension);
     if (found == options.outputs.end()) {
-        throw Error(ErrorKind::invalid_argument, "--resume needs an output that ends in .exr");
+        throw Error(ErrorKind::invalid_argument, "--resume needs an output whose name ends in .exr");
     }
     return *found;
 }
@@ -143,7 +143,7 @@ std::optional<StoredReference> resume(const ReferenceOptions& options, const Sce
         settings.spp = std::max(settings.spp, stored->samples);
         outcome.samples_before = stored->samples;
         outcome.earlier_seconds = stored->render_seconds;
-        spdlog::info("going on from {} samples per pixel", stored->samples);
+        spdlog::info("resuming after {} samples per pixel", stored->samples);
     }
     return stored;
 }
@@ -197,37 +197,39 @@ ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& glo
 
 void add_reference_command(CommandLine& line) {
     auto options = std::make_shared<ReferenceOptions>();
-    CLI::App& command =
-        line.add_command("reference", "Path-trace a scene on the CPU: what every sampler converges to",
-                         [options](const GlobalOptions& global) { return run_reference(*options, global); });
+    CLI::App& command = line.add_command(
+        "reference", "Path-trace a scene on the CPU: the reference that every sampler converges to",
+        [options](const GlobalOptions& global) { return run_reference(*options, global); });
     add_scene_options(command, options->scene);
     command
-        .add_option("-o,--output", options->outputs, "EXR (all layers) or PNG; may be given several times")
+        .add_option("-o,--output", options->outputs,
+                    "Picture to write: .exr (all layers) or .png; may be given several times")
         ->type_name("OUT")
         ->required()
         ->allow_extra_args(false);
     command
         .add_option("--spp", options->spp,
-                    "Samples per pixel, rounded up to whole batches of 4 or 16; "
-                    "default: the scene's, or " +
-                        std::to_string(kDefaultSpp))
+                    "Samples per pixel, rounded up to whole batches of 4 or 16 (default: the scene's, or " +
+                        std::to_string(kDefaultSpp) + ")")
         ->check(CLI::Range(1, 1 << 24));
-    command.add_option("--clamp-radius", options->clamp_radius, "Bound 1/r² below this distance; 0: nowhere")
+    command
+        .add_option("--clamp-radius", options->clamp_radius,
+                    "Clamp radius, in scene units: bound 1/r² below this distance; 0 bounds nothing")
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--indirect-only", options->indirect_only, "Leave out emission and direct light");
     command.add_flag("--pixel-centers", options->pixel_centers,
-                     "Send all samples through the centres of pixels, as 'nearlight render --spp 1' does");
+                     "Send all samples through the centres of pixels, as `nearlight render --spp 1` does");
     command
         .add_option("--max-depth", options->max_depth,
-                    "Longest path, 2: direct light only; 0: no limit; default: the scene's")
+                    "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's)")
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
-    command.add_flag(
-        "--resume", options->resume,
-        "Go on from the EXR output, if it is there, until it has --spp samples; only if it is of the "
-        "same scene, size and options");
-    command.add_option("--seed", options->seed, "Another seed, other noise");
-    command.add_option("--threads", options->threads, "CPU threads; 0: one a core")
+    command.add_flag("--resume", options->resume,
+                     "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, "
+                     "size and options must be the same");
+    command.add_option("--seed", options->seed,
+                       "Seed of the random numbers: the same seed gives the same picture");
+    command.add_option("--threads", options->threads, "CPU threads; 0: one per core")
         ->check(CLI::NonNegativeNumber);
 }
 

@@ -54,7 +54,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& va
         const auto found = choices.find(text);
         if (found == choices.end()) {
             throw Error(ErrorKind::invalid_argument,
-                        fmt::format("{} does not know '{}'; there are: {}", option, text, names));
+                        fmt::format("unknown {} '{}'; choose one of: {}", option, text, names));
         }
         value = found->second;
     };
@@ -75,9 +75,9 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
         used = 0;
     }
     if (used != text.size() || !(value >= low) || !(value <= high)) {
-        throw Error(
-            ErrorKind::invalid_argument,
-            fmt::format("{} takes `auto` or a number from {:g} to {:g}, not '{}'", option, low, high, text));
+        throw Error(ErrorKind::invalid_argument,
+                    fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, low,
+                                high, text));
     }
     return value;
 }
@@ -99,13 +99,12 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.view.width.value_or(scene.camera.width);
     const int height = settings.view.height.value_or(scene.camera.height);
     if (std::int64_t{width} * height > kMaxPixels) {
-        throw Error(
-            ErrorKind::out_of_memory,
-            fmt::format("{}x{} pixels are too many: at most {} million fit into one; use a smaller --size",
-                        width, height, kMaxPixels >> 20));
+        throw Error(ErrorKind::out_of_memory,
+                    fmt::format("{}x{} pixels are too many: the maximum is {} million; use a smaller --size",
+                                width, height, kMaxPixels >> 20));
     }
     if (settings.sampling.vpl_count == 0) {
-        spdlog::warn("--vpls 0: the picture has no indirect light");
+        spdlog::warn("with --vpls 0 the picture has no indirect light");
     }
 }
 
@@ -115,8 +114,8 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
                  report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
     tell_shares(report);
     const char* const note = !report.interrupted ? ""
-                             : report.passes > 1 ? " (interrupted: the last pass is not whole)"
-                                                 : " (interrupted: the rest is black)";
+                             : report.passes > 1 ? " (interrupted: the last pass is incomplete)"
+                                                 : " (interrupted: rows that were not rendered are black)";
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, note);
     }
@@ -200,7 +199,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
 void add_method_options(CLI::App& command, RenderOptions& options) {
     RenderSettings& settings = options.settings;
     std::map<std::string, SamplerKind> samplers;
-    std::string sampler_help = "Where VPLs are put: ";
+    std::string sampler_help = "Where to put VPLs: ";
     for (const SamplerEntry& entry : all_samplers()) {
         samplers.emplace(entry.name, entry.kind);
         sampler_help +=
@@ -209,7 +208,7 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     add_choice(command, "--sampler", settings.sampling.sampler, samplers, sampler_help)
         ->default_str(to_string(settings.sampling.sampler));
     std::map<std::string, Policy> policies;
-    std::string policy_help = "Of close-range: ";
+    std::string policy_help = "Policy of the sampler close-range: ";
     for (const PolicyEntry& entry : all_policies()) {
         policies.emplace(entry.name, entry.policy);
         policy_help +=
@@ -217,58 +216,61 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     }
     add_choice(command, "--policy", settings.sampling.policy, policies, policy_help)
         ->default_str(to_string(settings.sampling.policy));
-    command.add_option("--vpls", settings.sampling.vpl_count, "Virtual point lights to aim at")
+    command.add_option("--vpls", settings.sampling.vpl_count, "Target number of VPLs (virtual point lights)")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--close-fraction", options.close_fraction,
-                    "Share of them in the close range, 0 to 1, or auto")
+                    "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")
         ->type_name("F")
         ->capture_default_str();
     command
         .add_option("--range", options.range,
-                    "How far from the camera the close range reaches, scene units, or auto")
+                    "Distance from the camera at which the close range ends: scene units, or auto")
         ->type_name("R")
         ->capture_default_str();
     command
-        .add_option("--clamp-radius", options.clamp_radius,
-                    "VPLs nearer than this light as if they were so far, scene units, or auto")
+        .add_option(
+            "--clamp-radius", options.clamp_radius,
+            "VPLs closer than R light a point as if they were at the distance R: scene units, or auto")
         ->type_name("R")
         ->capture_default_str();
     command
         .add_option(
             "--max-depth", settings.view.max_depth,
-            "Longest light path as Mitsuba counts: 2 is direct light only (default: the scene's, or 8)")
+            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's, or 8)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
-    command.add_option("--seed", settings.seed, "Another seed, another noise")
+    command
+        .add_option("--seed", settings.seed,
+                    "Seed of the random numbers: the same seed gives the same picture")
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option(
-            "--roulette", settings.gather.roulette,
-            "Trace VPLs that could bring pixels less than T times the mean by chance only; 0: trace all")
+        .add_option("--roulette", settings.gather.roulette,
+                    "Russian roulette: trace a VPL that could bring less than T times the mean only with a "
+                    "probability; 0 traces all")
         ->check(CLI::Range(0.0f, 1000.0f))
         ->type_name("T")
         ->capture_default_str();
     add_choice(command, "--gather", options.session.gather_kernel, kGatherKernels,
-               "Gather kernel: auto, packets or rays")
+               "Gather kernel: packets (for CPUs), rays (for GPUs) or auto")
         ->default_str("auto");
     add_bvh_option(command, options.session.bvh_quality);
 }
 
 void add_pass_options(CLI::App& command, RenderOptions& options) {
     command
-        .add_option("--passes", options.settings.passes,
-                    "Renderings to average, each with VPLs and random numbers of its own (default: 1)")
+        .add_option(
+            "--passes", options.settings.passes,
+            "Number of renderings to average, each with different VPLs and random numbers (default: 1)")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N");
     command
-        .add_option(
-            "--time", options.seconds,
-            "As many passes (at most those of --passes) as are done in so many seconds, reading the scene "
-            "included; one at least")
+        .add_option("--time", options.seconds,
+                    "Make as many passes as fit in this time, including the time to read the scene; always "
+                    "makes one, and never more than --passes")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("SECONDS");
 }
@@ -285,13 +287,13 @@ void add_render_command(CommandLine& line) {
     add_size_option(command, options->size);
     command
         .add_option("--spp", options->settings.gather.samples_per_pixel,
-                    "Camera samples a pixel (anti-aliasing)")
+                    "Camera samples per pixel, for antialiasing")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--direct-samples", options->settings.gather.direct_samples_per_pixel,
-                    "Shadow rays a pixel for area and environment lights")
+                    "Shadow rays per pixel to area and environment lights")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();
@@ -300,7 +302,8 @@ void add_render_command(CommandLine& line) {
     add_device_options(command, options->device);
     command
         .add_option("--threads", options->threads,
-                    "CPU threads for trees and for CPU devices, PoCL's at least; 0: one a core")
+                    "CPU threads for building trees and for PoCL's CPU device (other CPU drivers ignore "
+                    "this); 0: one per core")
         ->check(CLI::Range(0, 1024))
         ->type_name("N")
         ->capture_default_str();

@@ -16,10 +16,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("-D,--define", options.definitions,
-                    "Value for $NAME in a Mitsuba scene, or camera=NAME for glTF; may be given several times")
+                    "Value of $NAME in a Mitsuba scene, or camera=NAME for glTF; may be given several times")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
-    command.add_flag("--strict", options.strict, "Fail where the scene would be approximated");
+    command.add_flag("--strict", options.strict, "Fail if the scene would have to be approximated");
 }
 
 void add_bvh_option(CLI::App& command, BvhQuality& quality) {
@@ -29,8 +29,8 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality) {
             [&quality](const std::string& name) {
                 quality = name == "fast" ? BvhQuality::fast : BvhQuality::quality;
             },
-            "Tree that rays go through: fast (built in half the time) or quality (up to a quarter fewer "
-            "steps a ray)")
+            "Tree for rays: fast (takes half the time to build) or quality (up to a quarter fewer steps per "
+            "ray)")
         ->check(CLI::IsMember({"fast", "quality"}))
         ->default_str(to_string(quality));
 }
@@ -42,7 +42,7 @@ LoadOptions load_options(const SceneOptions& options) {
         const std::size_t equals = definition.find('=');
         if (equals == std::string::npos || equals == 0) {
             throw Error(ErrorKind::invalid_argument,
-                        "'-D " + definition + "' defines nothing: give NAME=VALUE");
+                        "'-D " + definition + "' defines nothing; give NAME=VALUE");
         }
         result.parameters[definition.substr(0, equals)] = definition.substr(equals + 1);
     }

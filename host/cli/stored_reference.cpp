@@ -22,8 +22,9 @@ std::string to_text(const Metadata::mapped_type& value) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
-    throw Error(ErrorKind::file, "cannot resume '" + file.string() + "': " + reason +
-                                     "; give it the same scene and options, or name another output");
+    throw Error(ErrorKind::file,
+                "cannot resume '" + file.string() + "': " + reason +
+                    "; use the scene and options that it was made with, or give another output");
 }
 
 /// What `stored` has under `name`; refuses where it has nothing of that type.
@@ -31,7 +32,7 @@ template <typename T>
 T attribute(const std::filesystem::path& file, const Metadata& stored, const std::string& name) {
     const auto found = stored.find(name);
     if (found == stored.end() || !std::holds_alternative<T>(found->second)) {
-        refuse(file, "it has no attribute " + name + " and so is no reference that could be gone on with");
+        refuse(file, "it has no attribute " + name + ", so it is not a reference that can be resumed");
     }
     return std::get<T>(found->second);
 }

@@ -51,9 +51,9 @@ nlohmann::ordered_json to_json(const TunerResult& result, const std::string& fil
 }
 
 std::string to_text(const TunerTrial& trial) {
-    std::string text = fmt::format("{}, by the {} ({})\n{:>10} {:>10} {:>13} {:>16}\n", trial.tunable,
-                                   trial.measured_by, trial.by_processor ? "processor time" : "wall clock",
-                                   "value", "ms", "processor ms", "to the usual");
+    std::string text = fmt::format(
+        "{}, measured by the {} ({})\n{:>10} {:>10} {:>13} {:>16}\n", trial.tunable, trial.measured_by,
+        trial.by_processor ? "processor time" : "wall clock", "value", "ms", "processor ms", "to the usual");
     for (const TunerCandidate& candidate : trial.candidates) {
         if (!candidate.failed_because.empty()) {
             text += fmt::format("{:>10} {}\n", candidate.value, candidate.failed_because);
@@ -73,7 +73,7 @@ ExitCode reset(const Device& device) {
     const std::filesystem::path file = tunables_file(device.entry(), device.options().cache_dir);
     std::error_code ignored;
     const bool removed = !file.empty() && std::filesystem::remove(file, ignored);
-    spdlog::info("{}", removed ? "removed " + file.string() : "nothing was stored for " + device.name());
+    spdlog::info("{}", removed ? "removed " + file.string() : "nothing is stored for " + device.name());
     return ExitCode::done;
 }
 
@@ -86,7 +86,7 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
         options.dry_run ? "" : tunables_file(device->entry(), device->options().cache_dir).string();
     if (file.empty() && !options.dry_run) {
         throw Error(ErrorKind::invalid_argument,
-                    "no folder to keep tunables in: give one with --cache-dir, or --dry-run");
+                    "there is no folder to keep tunables in; give one with --cache-dir, or use --dry-run");
     }
     spdlog::info("measuring {}, which takes about half a minute", device->entry().label());
     const TunerResult result = tune(*device, options.config);
@@ -102,8 +102,9 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
         print(to_text(trial));
     }
     print(
-        fmt::format("Medians of runs by turns; another value replaces the usual one where it takes less time "
-                    "by 3 %, and by more than runs vary. Results are the same bits with all.\n{}: {}\n",
+        fmt::format("Medians of interleaved runs. Another value replaces the usual one if it takes at least "
+                    "3 % less time and the difference exceeds the variation between runs. Pictures are the "
+                    "same with all values.\n{}: {}\n",
                     result.device, to_text(result.chosen)));
     if (!file.empty()) {
         spdlog::info("wrote {}; `nearlight tune --reset` removes it", file);
@@ -116,16 +117,18 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
 void add_tune_command(CommandLine& line) {
     auto options = std::make_shared<TuneOptions>();
     CLI::App& command = line.add_command(
-        "tune", "Measure how work is best divided for a device, and keep that for all further runs",
+        "tune", "Measure how best to divide work on a device, and keep the result for later runs",
         [options](const GlobalOptions& global) { return run_tune(*options, global); });
-    command.add_option("--repeats", options->config.repeats, "Runs of which the median counts")
+    command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--triangles", options->config.triangles, "Of the made-up room that is measured")
+    command
+        .add_option("--triangles", options->config.triangles,
+                    "Number of triangles in the generated room that is measured")
         ->check(CLI::Range(100, 10'000'000))
         ->capture_default_str();
-    command.add_flag("--dry-run", options->dry_run, "Measure only, keep nothing");
-    command.add_flag("--reset", options->reset, "Forget what was found for the device");
+    command.add_flag("--dry-run", options->dry_run, "Measure, but keep nothing");
+    command.add_flag("--reset", options->reset, "Delete the result that is kept for the device");
     add_device_options(command, options->device);
 }
 

@@ -51,9 +51,9 @@ std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::sp
     for (const std::filesystem::path& file : settings.reference_files) {
         if (std::ranges::find(assigned, std::optional(file)) == assigned.end()) {
             throw Error(ErrorKind::file,
-                        "'" + file.string() + "' shows none of the scenes to compare (by its " +
+                        "'" + file.string() + "' shows none of the scenes to compare (according to its " +
                             "'nearlight:sceneHash'); make it with `nearlight reference` from the " +
-                            "scene as it is now");
+                            "current scene file");
         }
     }
     return assigned;
@@ -200,7 +200,7 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const std::string label =
             names[i] + (scenes.size() > 1 ? fmt::format(" ({} of {})", i + 1, scenes.size()) : "");
-        observer.begin(label + ": getting ready");
+        observer.begin(label + ": preparing");
         SceneBench bench(device, scenes[i], names[i], settings, reference_files[i]);
         SceneRun run(device, bench, settings, observer);
         observer.begin(label + ": reference");

@@ -52,7 +52,7 @@ Method parse_method(std::string_view name) {
         known += (known.empty() ? "" : ", ") + to_string(method);
     }
     throw Error(ErrorKind::invalid_argument,
-                "unknown sampler '" + std::string(name) + "'; there are: " + known);
+                "unknown sampler '" + std::string(name) + "'; choose one of: " + known);
 }
 
 }  // namespace nearlight::core

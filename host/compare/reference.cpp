@@ -80,14 +80,16 @@ ReferenceNoise noise_of(const Image& picture, std::span<const double> variances)
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-    throw Error(ErrorKind::file, "'" + file.string() + "' is no reference for this comparison: " + why);
+    throw Error(ErrorKind::file,
+                "'" + file.string() + "' cannot be the reference of this comparison: " + why);
 }
 
 template <typename Value>
 Value attribute(const std::filesystem::path& file, const Metadata& metadata, const char* name) {
     const auto found = metadata.find(name);
     if (found == metadata.end() || !std::holds_alternative<Value>(found->second)) {
-        refuse(file, std::string("it has no '") + name + "'; make it with `nearlight reference`");
+        refuse(file, std::string("it has no attribute '") + name +
+                         "'; make the reference with `nearlight reference`");
     }
     return std::get<Value>(found->second);
 }
@@ -96,22 +98,22 @@ void check_reference_file(const std::filesystem::path& file, const Metadata& met
                           const ReferenceSpec& spec) {
     const auto hash = attribute<std::string>(file, metadata, "nearlight:sceneHash");
     if (hash != hex_digits(spec.scene_hash)) {
-        refuse(file, "it shows another scene (hash " + hash + ", that of " + spec.scene_name + " is " +
+        refuse(file, "it shows another scene (its hash is " + hash + ", that of " + spec.scene_name + " is " +
                          hex_digits(spec.scene_hash) + ")");
     }
     if (image.width != spec.width || image.height != spec.height) {
         refuse(file, "it has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                         " pixels, the comparison " + std::to_string(spec.width) + "x" +
+                         " pixels, but the comparison has " + std::to_string(spec.width) + "x" +
                          std::to_string(spec.height));
     }
     const float radius = attribute<float>(file, metadata, "nearlight:clampRadius");
     if (!(std::abs(radius - spec.clamp_radius) <= 1e-5f * spec.clamp_radius)) {
-        refuse(file, "its clamp radius is " + std::to_string(radius) + ", the comparison's " +
+        refuse(file, "its clamp radius is " + std::to_string(radius) + ", but that of the comparison is " +
                          std::to_string(spec.clamp_radius));
     }
     const int depth = attribute<int>(file, metadata, "nearlight:maxDepth");
     if (depth != static_cast<int>(spec.max_depth)) {
-        refuse(file, "its depth is " + std::to_string(depth) + ", the comparison's " +
+        refuse(file, "its depth is " + std::to_string(depth) + ", but that of the comparison is " +
                          std::to_string(spec.max_depth));
     }
 }
@@ -119,7 +121,7 @@ void check_reference_file(const std::filesystem::path& file, const Metadata& met
 }  // namespace
 
 std::string samples_text(const Reference& reference) {
-    return std::to_string(reference.samples) + (reference.path_traced ? " samples a pixel" : " VPLs");
+    return std::to_string(reference.samples) + (reference.path_traced ? " samples per pixel" : " VPLs");
 }
 
 std::uint64_t identity(const Reference& reference) {
@@ -194,10 +196,11 @@ Reference load_reference(const std::filesystem::path& file, const ReferenceSpec&
     const bool has_centers = centers != metadata.end() && centers->second == Metadata::mapped_type(1);
     if (has_centers != spec.pixel_centers) {
         say_warning(fmt::format(
-            "'{}' was traced {}, the comparison's pictures are sampled {}: the difference counts as error",
+            "'{}' was sampled {}, but the pictures of the comparison are sampled {}; the difference counts "
+            "as error",
             file.string(),
-            has_centers ? "through the pixels' centres" : "all over the pixels (without --pixel-centers)",
-            spec.pixel_centers ? "at the centres (--spp 1)" : "all over the pixels"));
+            has_centers ? "at the centres of pixels" : "all over the pixels (without --pixel-centers)",
+            spec.pixel_centers ? "at the centres of pixels (--spp 1)" : "all over the pixels"));
     }
     reference.display_scale = display_scale(reference.picture);
     return reference;

@@ -48,9 +48,9 @@ std::optional<Image> ReferenceStore::load(const ReferenceSpec& spec, std::size_t
         if (pass.width == spec.width && pass.height == spec.height && pass.find_channel("R") >= 0) {
             return pass;
         }
-        say_warning(fmt::format("'{}' is not what its name says; making it anew", path.string()));
+        say_warning(fmt::format("'{}' does not contain what its name says; making it again", path.string()));
     } catch (const Error& error) {
-        say_warning(std::string(error.what()) + "; making it anew");
+        say_warning(std::string(error.what()) + "; making it again");
     }
     return std::nullopt;
 }

@@ -60,7 +60,7 @@ void write_plots(HtmlWriter& html, const SceneComparison& scene) {
     for (const Plot& plot : scene.plots) {
         if (plot.svg.empty()) {
             html.element("p", plot.title +
-                                  ": the plot is missing, for gnuplot was not there; its script is " +
+                                  ": the plot is missing because gnuplot is not installed; its script is " +
                                   plot.script.filename().string() + " in the folder plots.");
         } else {
             html.image(plot.svg, "image/svg+xml", plot.title, {{"class", "plot"}});

@@ -46,7 +46,7 @@ std::string reference_text(const Reference& reference) {
     const std::string noise =
         reference.noise.known
             ? fmt::format("its own noise is {:.3g} (RMS)", std::sqrt(reference.noise.mean_variance))
-            : std::string("its own noise is not known and not subtracted");
+            : std::string("its own noise is unknown and not subtracted");
     return fmt::format("{}, {}{}; {}", reference.method, samples_text(reference),
                        reference.file.empty() ? "" : " (" + reference.file + ")", noise);
 }
@@ -65,14 +65,14 @@ void write_conditions(HtmlWriter& html, const Comparison& comparison, const Comp
     write_pair(html, "Device", comparison.device + ", driver " + comparison.driver);
     write_pair(
         html, "Pictures",
-        fmt::format("{}×{} pixels, {} sample{} a pixel{}; indirect light only", settings.width,
+        fmt::format("{}×{} pixels, {} sample{} per pixel{}; indirect light only", settings.width,
                     settings.height, settings.samples_per_pixel, settings.samples_per_pixel == 1 ? "" : "s",
                     settings.samples_per_pixel == 1 ? ", at its centre" : ""));
-    write_pair(
-        html, "Seeds",
-        fmt::format("{}, from {} on; the same for all methods", settings.seed_count, settings.first_seed));
+    write_pair(html, "Seeds",
+               fmt::format("{}, starting at {}; the same for all methods", settings.seed_count,
+                           settings.first_seed));
     write_pair(html, "Baseline",
-               to_string(settings.baseline) + ": ratios are a method's number ÷ this one's");
+               to_string(settings.baseline) + ": ratios are a method's number ÷ the baseline's");
     for (const SceneComparison& scene : comparison.scenes) {
         write_pair(html, "Scene " + scene.facts.name, scene_text(scene));
     }
@@ -83,43 +83,34 @@ void write_conditions(HtmlWriter& html, const Comparison& comparison, const Comp
 void write_meanings(HtmlWriter& html) {
     html.element("h2", "What the numbers mean").open("dl");
     write_pair(html, "RMSE",
-               "Root of the mean squared difference to the reference over pixels and R, G, B, as in the "
-               "paper; over seeds, "
-               "the root of the mean of the squares. The mean variance of the reference's own noise is "
-               "subtracted first.");
+               "Root of the mean squared difference from the reference over pixels and R, G, B, as in the "
+               "paper; over seeds, the root of the mean of the squares. The mean variance of the reference's "
+               "own noise is subtracted first.");
     write_pair(html, "± 95 %",
-               "Half the width of the 95 % confidence interval over seeds (Student's t). Two methods whose "
-               "intervals "
-               "overlap have not been told apart; more seeds make intervals narrower.");
+               "Half the width of the 95 % confidence interval over seeds (Student's t). If the intervals of "
+               "two methods overlap, the methods cannot be told apart; more seeds make intervals narrower.");
     write_pair(html, "relative MSE",
-               "Mean of squared difference ÷ (squared reference + 0.01): dark corners count as much as "
-               "bright walls. "
-               "The reference's noise is subtracted here too.");
+               "Mean of squared difference ÷ (squared reference + 0.01), so that dark corners count as much "
+               "as bright walls. The reference's noise is subtracted here too.");
     write_pair(html, "mean ratio",
-               "All light in the picture ÷ all light in the reference. 1 within its interval is what an "
-               "unbiased method "
-               "has; less means that light is lost.");
+               "All light in the picture ÷ all light in the reference. For an unbiased method, the interval "
+               "contains 1; a lower ratio means that light is lost.");
     write_pair(html, "FLIP",
-               "How different both pictures look when one flips between them, 0 to 1, at 67 pixels a degree "
-               "of sight, both "
-               "made equally bright for the eye. Lower is better.");
+               "How different the two pictures look when one flips between them, from 0 to 1, at 67 pixels "
+               "per degree of visual angle, both with the same exposure. Lower is better.");
     write_pair(html, "VPLs",
-               "Asked for, gathered (what every pixel sums over), and sparse (these only light other VPLs). "
-               "Gathered ones "
-               "cost time at every pixel, sparse ones only once.");
+               "Requested, gathered (every pixel sums over these) and sparse (these only light other VPLs). "
+               "Gathered VPLs cost time at every pixel, sparse ones only once.");
     write_pair(html, "seconds",
                "Medians over seeds. Generate: view, pilots and VPLs; gather: camera rays, shadow rays and "
-               "film. What is "
-               "done once a scene (compiling, tree, upload) is not in them.");
+               "film. One-off costs of a scene (compiling, tree, upload) are excluded.");
     write_pair(html, "equal RMSE",
-               "For each RMSE that the baseline reached: VPLs and seconds that a method needs for it, by "
-               "straight lines "
-               "through log RMSE and log seconds over log VPLs gathered.");
-    write_pair(html, "how known",
-               "Measured; fitted within twice the measured range; extrapolated beyond it (an order of "
-               "magnitude); never: "
-               "the method's error does not fall, or not within a hundred times the measured range, or has a "
-               "floor above this RMSE because light is lost.");
+               "For each RMSE that the baseline reached: the VPLs and seconds that a method needs for it, "
+               "from straight lines through log RMSE and log seconds over log VPLs gathered.");
+    write_pair(html, "basis",
+               "Measured; fitted, which is within twice the measured range; extrapolated, which is beyond it "
+               "and gives an order of magnitude; never: the method's error does not fall, or not within a "
+               "hundred times the measured range, or cannot fall to this RMSE because light is lost.");
     html.close();
 }
 
@@ -128,7 +119,7 @@ void write_scene_facts(HtmlWriter& html, const SceneComparison& scene) {
         .image(scene.figures.overview.small, "image/png", scene.facts.name, {{"class", "picture"}})
         .close();
     html.element("p", scene_text(scene) + ".");
-    html.element("p", fmt::format("Once for all pictures, and in no time below: {:.2f} s for the tree, "
+    html.element("p", fmt::format("One-off cost, excluded below: {:.2f} s for the tree, "
                                   "{:.2f} s for compiling kernels.",
                                   scene.facts.setup.build_bvh, scene.facts.setup.compile));
     if (const std::string remark = noise_remark(scene.reference, scene.equal_vpls); !remark.empty()) {
@@ -145,17 +136,17 @@ void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSe
     write_equal_rmse_table(html, scene, settings);
     html.element("h3", "Convergence");
     write_plots(html, scene);
-    html.element("h3", fmt::format("Where the VPLs are, {} asked for", settings.vpl_counts.front()));
+    html.element("h3", fmt::format("Positions of the VPLs, {} requested", settings.vpl_counts.front()));
     html.element("p",
-                 "Orange dots were placed on surfaces of the close range, blue ones by light walks; those "
-                 "behind something are "
-                 "small and faint. What is not in the picture lies beside or behind the camera.");
+                 "Orange dots are VPLs placed on surfaces of the close range, blue dots those left by light "
+                 "walks. Dots behind something are small and faint. VPLs that are missing from the picture "
+                 "lie beside or behind the camera.");
     write_vpl_figures(html, scene);
     html.element("h3", "Indirect light");
-    html.element(
-        "p", fmt::format("First seed. Above the picture as it comes out, below it the error relative to the "
-                         "reference, then {} of it enlarged. All pictures are equally exposed.",
-                         scene.figures.crops.size() == 1 ? "a part" : "parts"));
+    html.element("p",
+                 fmt::format("The first seed: the picture, below it the error relative to the reference, and "
+                             "then {} of the picture enlarged. All pictures have the same exposure.",
+                             scene.figures.crops.size() == 1 ? "a part" : "parts"));
     write_method_figures(html, scene, settings);
     html.close();
 }
@@ -167,7 +158,7 @@ std::string comparison_html(const Comparison& comparison, const CompareSettings&
     html.element("h1", "Comparison of VPL samplers");
     write_conditions(html, comparison, settings);
     html.element("h2", "In short");
-    html.element("p", "Geometric means over all counts; below 1 is better than the baseline.");
+    html.element("p", "Geometric means over all numbers of VPLs; below 1 is better than the baseline.");
     write_summary_table(html, comparison, settings);
     for (const SceneComparison& scene : comparison.scenes) {
         write_scene(html, scene, settings);

@@ -41,7 +41,7 @@ std::string conditions(const SceneComparison& scene, const CompareSettings& sett
         facts.triangles, settings.width, settings.height, settings.seed_count, facts.max_depth, facts.range,
         facts.clamp_radius, scene.reference.method, samples_text(scene.reference));
     if (scene.reference.noise.known) {
-        text += fmt::format("; its own noise, {:.2g}, is subtracted",
+        text += fmt::format("; its own noise, {:.2g}, is subtracted from the errors",
                             std::sqrt(scene.reference.noise.mean_variance));
     }
     const std::string remark = noise_remark(scene.reference, scene.equal_vpls);
@@ -49,7 +49,7 @@ std::string conditions(const SceneComparison& scene, const CompareSettings& sett
 }
 
 std::string equal_vpls_table(const SceneComparison& scene) {
-    std::string text = header({"equal VPLs", "asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
+    std::string text = header({"equal VPLs", "requested", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
                                "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
     for (const EqualVplsRow& entry : scene.equal_vpls) {
         text +=
@@ -68,7 +68,7 @@ std::string equal_rmse_table(const SceneComparison& scene, const CompareSettings
         return {};
     }
     std::string text =
-        header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "known"});
+        header({"equal RMSE", "RMSE", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "basis"});
     for (const EqualRmse& group : scene.equal_rmse) {
         for (const EqualRmseRow& entry : group.rows) {
             text +=
@@ -81,8 +81,9 @@ std::string equal_rmse_table(const SceneComparison& scene, const CompareSettings
 }
 
 std::string vpl_pictures(const SceneComparison& scene, const CompareSettings& settings) {
-    std::string text = fmt::format("Where {} VPLs are (orange: on the close range, blue: by walks):\n\n",
-                                   settings.vpl_counts.front());
+    std::string text = fmt::format(
+        "Positions of {} VPLs (orange: placed on the close range, blue: left by light walks):\n\n",
+        settings.vpl_counts.front());
     for (const VplFigure& figure : scene.figures.vpls) {
         text += image(figure.file, to_string(figure.method)) + "\n";
     }

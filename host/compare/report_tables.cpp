@@ -121,7 +121,7 @@ void write_summary_table(HtmlWriter& html, const Comparison& comparison, const C
 void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
     html.open("div", {{"class", "scroll"}}).open("table");
     write_header(html,
-                 {"sampler", "policy", "VPLs asked for", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
+                 {"sampler", "policy", "VPLs requested", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
                   "relative MSE", "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
     const std::size_t methods = settings.methods.size();
     for (std::size_t i = 0; i < scene.equal_vpls.size(); ++i) {
@@ -142,7 +142,7 @@ void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, cons
     }
     html.open("div", {{"class", "scroll"}}).open("table");
     write_header(html, {"RMSE", "sampler", "policy", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline",
-                        "how known"});
+                        "basis"});
     for (const EqualRmse& group : scene.equal_rmse) {
         for (const EqualRmseRow& row : group.rows) {
             write_row(html, group, row, settings.methods[row.curve], row.curve == 0);

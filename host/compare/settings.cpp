@@ -35,8 +35,8 @@ uint parse_vpl_count(const std::string& text) {
     const std::optional<uint> count = whole_number<uint>(text);
     if (!count || *count < 1 || *count > kMaxVpls) {
         throw Error(ErrorKind::invalid_argument,
-                    "--vpls: '" + text + "' is no count of VPLs; give whole numbers from 1 to " +
-                        std::to_string(kMaxVpls) + " with commas between, as in 1000,2000");
+                    "--vpls: '" + text + "' is not a number of VPLs; give whole numbers from 1 to " +
+                        std::to_string(kMaxVpls) + ", separated by commas, as in 1000,2000");
     }
     return *count;
 }
@@ -85,12 +85,14 @@ std::size_t min_reference_vpls(const CompareSettings& settings) {
 void check_reference_sampler(const CompareSettings& settings) {
     const Method& sampler = *settings.reference_sampler;
     if (sampler.policy == Policy::paper) {
-        throw Error(ErrorKind::invalid_argument, "--reference-sampler " + to_string(sampler) +
-                                                     " loses light, so it is no reference; take another");
+        throw Error(ErrorKind::invalid_argument,
+                    "--reference-sampler " + to_string(sampler) +
+                        " loses light, so it cannot make the reference; use another");
     }
     if (settings.reference_vpls == 0) {
-        throw Error(ErrorKind::invalid_argument, "--reference-sampler " + to_string(sampler) +
-                                                     " needs --reference-vpls: say how many VPLs");
+        throw Error(ErrorKind::invalid_argument,
+                    "--reference-sampler " + to_string(sampler) +
+                        " needs a number of VPLs; give it with --reference-vpls");
     }
 }
 
@@ -101,12 +103,12 @@ void check_reference(const CompareSettings& settings) {
     if (settings.reference_vpls > 0 && settings.reference_vpls < min_reference_vpls(settings)) {
         throw Error(ErrorKind::invalid_argument, "--reference-vpls " +
                                                      std::to_string(settings.reference_vpls) +
-                                                     " are too few for a reference; take at least " +
+                                                     " are too few for a reference; use at least " +
                                                      std::to_string(min_reference_vpls(settings)));
     }
     if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
         throw Error(ErrorKind::invalid_argument,
-                    "--reference and --reference-vpls exclude each other; give one of them");
+                    "--reference and --reference-vpls exclude each other; give only one of them");
     }
 }
 
@@ -144,7 +146,7 @@ Crop parse_crop(const std::string& text) {
     if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) {
         throw Error(
             ErrorKind::invalid_argument,
-            "--crop: '" + text + "' is no part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60");
+            "--crop: '" + text + "' is not a part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60");
     }
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
@@ -152,16 +154,16 @@ Crop parse_crop(const std::string& text) {
 void check_settings(const CompareSettings& settings) {
     if (settings.methods.empty() || settings.vpl_counts.empty() || settings.seed_count == 0) {
         throw Error(ErrorKind::invalid_argument,
-                    "nothing to compare: give at least one sampler, one count of VPLs and one seed");
+                    "nothing to compare: give at least one sampler, one number of VPLs and one seed");
     }
     if (settings.clamp_radius && settings.clamp_fraction) {
         throw Error(ErrorKind::invalid_argument,
-                    "--clamp-radius and --clamp-fraction exclude each other; give one of them");
+                    "--clamp-radius and --clamp-fraction exclude each other; give only one of them");
     }
     if (settings.max_depth && *settings.max_depth < 3) {
         throw Error(ErrorKind::invalid_argument,
                     "--max-depth " + std::to_string(*settings.max_depth) +
-                        " leaves no indirect light, which is what is compared; take 3 or more");
+                        " leaves no indirect light, which is what `compare` measures; use 3 or more");
     }
     check_baseline(settings);
     check_reference(settings);

@@ -64,7 +64,7 @@ bool is_biased(const EqualVplsRow& row) {
 
 std::string noise_remark(const Reference& reference, std::span<const EqualVplsRow> rows) {
     if (!reference.noise.known) {
-        return "the noise of the reference is not known, and so is not subtracted from the errors";
+        return "the noise of the reference is unknown, so it is not subtracted from the errors";
     }
     const double noise = std::sqrt(reference.noise.mean_variance);
     const EqualVplsRow& best =
@@ -78,10 +78,11 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
     if (best.rmse.value > 0.0) {
         const double more = std::pow(noise / (kNoiseThatCounts * best.rmse.value), 2);
         text += fmt::format(
-            "; about {:.0f} {} would do", more * static_cast<double>(reference.samples),
-            reference.path_traced ? "samples a pixel (--reference-spp)" : "VPLs (--reference-vpls)");
+            "; about {:.0f} {} would be enough", more * static_cast<double>(reference.samples),
+            reference.path_traced ? "samples per pixel (--reference-spp)" : "VPLs (--reference-vpls)");
     }
-    return text + (reference.path_traced ? ", or --reference-vpls, whose noise is spread more evenly" : "");
+    return text +
+           (reference.path_traced ? ", or use --reference-vpls, whose noise is spread more evenly" : "");
 }
 
 std::size_t baseline_index(const CompareSettings& settings) {

@@ -18,7 +18,7 @@ const ImageCodec& load_codec() {
         const char* const reason = dlerror();
         throw Error(ErrorKind::failure,
                     std::string("cannot load ") + kModule + ", which reads and writes image files: " +
-                        (reason == nullptr ? "it is empty" : reason) + "; install nearlight again");
+                        (reason == nullptr ? "it is empty" : reason) + "; reinstall nearlight");
     }
     return *static_cast<const ImageCodec*>(codec);
 }

@@ -69,7 +69,7 @@ ImageFormat format_of(const fs::path& file) {
     }
     throw Error(ErrorKind::invalid_argument, "cannot write image '" + file.string() +
                                                  "': unknown extension '" + extension +
-                                                 "', use .exr or .png");
+                                                 "'; use .exr or .png");
 }
 
 /// Beside the target, so that a rename never crosses file systems; no two writers share one.
@@ -231,7 +231,7 @@ void ImageWriter::write_rows(std::span<const float> values) {
         row_count > static_cast<std::size_t>(state_->height - state_->next_row)) {
         throw Error(ErrorKind::failure, "cannot write image '" + state_->target.string() +
                                             "': " + std::to_string(values.size()) +
-                                            " values are not whole rows, or too many");
+                                            " values are not whole rows, or are too many");
     }
     if (row_count > 0) {
         state_->write(static_cast<int>(row_count), values.data());

@@ -21,25 +21,27 @@ void compile_for_bidirectional(SamplerStages& stages, Policy) {
 
 constexpr std::array kSamplers{
     SamplerEntry{SamplerKind::close_range, "close-range",
-                 "evenly over surfaces close to and in front of the camera", sample_close_range,
+                 "evenly over the surfaces close to and in front of the camera", sample_close_range,
                  compile_for_close_range, false},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity, nullptr, false},
-    SamplerEntry{SamplerKind::rejection, "rejection", "where light walks land, those that the camera needs",
-                 sample_rejection, nullptr, false},
-    SamplerEntry{SamplerKind::metropolis, "metropolis", "where Markov chains find what the camera needs",
-                 sample_metropolis, compile_for_metropolis, false},
+    SamplerEntry{SamplerKind::rejection, "rejection",
+                 "where light walks land, if the light there matters to the camera", sample_rejection,
+                 nullptr, false},
+    SamplerEntry{SamplerKind::metropolis, "metropolis",
+                 "where Markov chains find light that matters to the camera", sample_metropolis,
+                 compile_for_metropolis, false},
     SamplerEntry{SamplerKind::bidirectional, "bidirectional",
-                 "where walks from lights and rays from the view land", sample_bidirectional,
+                 "where light walks land, and where rays from visible points land", sample_bidirectional,
                  compile_for_bidirectional, false},
     SamplerEntry{SamplerKind::local, "local",
-                 "wherever light walks land, smoothed, with lights of each tile for what is near",
-                 sample_local, nullptr, true},
+                 "wherever light walks land, smoothed, with extra lights near each tile", sample_local,
+                 nullptr, true},
 };
 constexpr std::array kPolicies{
-    PolicyEntry{Policy::complete, "complete", "unbiased, light of all depths on the patches"},
-    PolicyEntry{Policy::partition, "partition", "unbiased, direct light only on the patches"},
-    PolicyEntry{Policy::paper, "paper", "loses bounces"},
+    PolicyEntry{Policy::complete, "complete", "unbiased; close-range VPLs carry light of all depths"},
+    PolicyEntry{Policy::partition, "partition", "unbiased; close-range VPLs carry direct light only"},
+    PolicyEntry{Policy::paper, "paper", "as in the paper; loses light of several bounces"},
 };
 
 }  // namespace

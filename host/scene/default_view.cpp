@@ -34,7 +34,7 @@ SceneCamera default_camera(const Aabb& box) {
 
 void add_default_view(Scene& scene, NoteSink& notes) {
     scene.camera = default_camera(bounds(scene));
-    notes.remark(scene.source, 0, "the file has no camera; one that frames everything is used");
+    notes.remark(scene.source, 0, "the file has no camera; one that frames everything is added");
     add_default_light(scene, notes);
 }
 
@@ -54,7 +54,7 @@ void add_default_light(Scene& scene, NoteSink& notes) {
     const float intensity = 4.0f * radius * radius * dot({1.5f, 2.5f, 1.0f}, {1.5f, 2.5f, 1.0f});
     key.radiance = {intensity, intensity, intensity};
     scene.delta_emitters.push_back(key);
-    notes.remark(scene.source, 0, "nothing emits light; an even environment and a point light are used");
+    notes.remark(scene.source, 0, "nothing emits light; an even sky and a point light are added");
 }
 
 }  // namespace nearlight::core

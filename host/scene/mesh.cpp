@@ -40,7 +40,7 @@ void check_mesh(const Mesh& mesh) {
     };
     if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
         (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())) {
-        fail("the mesh has not as many normals or texture coordinates as vertices");
+        fail("the numbers of normals or texture coordinates differ from the number of vertices");
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const uint index : mesh.triangles[i]) {

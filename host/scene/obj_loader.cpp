@@ -236,10 +236,10 @@ Material make_material(Scene& scene, const MaterialLibrary& library, const tinyo
     Material material = diffuse_material(clamped(to_vec3(source.diffuse)));
     if (source.illum == 5 || source.illum == 3) {
         notes.approximation(library.file, line,
-                            "a reflecting material (illum 3 or 5) is taken for a perfect mirror");
+                            "a reflecting material (illum 3 or 5) is rendered as a perfect mirror");
         material = conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.specular)), 0.0f);
     } else if (source.illum == 7 || source.illum == 4 || source.illum == 6 || source.dissolve < 0.5f) {
-        notes.approximation(library.file, line, "a transparent material is taken for a thin pane of glass");
+        notes.approximation(library.file, line, "a transparent material is rendered as a thin pane of glass");
         material = glass_material(source.ior > 1.0f ? source.ior : 1.5f, true);
     } else if (!source.diffuse_texname.empty()) {
         const int image =
@@ -307,7 +307,7 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
     if (builder.short_faces() > 0) {
         notes.approximation(
             file, 0,
-            std::to_string(builder.short_faces()) + " faces of fewer than three corners are left out");
+            std::to_string(builder.short_faces()) + " faces with fewer than three corners are left out");
     }
     if (!keep_text) {
         obj.text = {};

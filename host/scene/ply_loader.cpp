@@ -210,7 +210,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
         }
     }
     if (!present[0] || !present[1] || !present[2]) {
-        fail(mesh.source, "PLY vertices have no x, y and z");
+        fail(mesh.source, "PLY vertices need x, y and z");
     }
     const bool has_normals = present[3] && present[4] && present[5];
     const bool has_uvs = present[6] && present[7];

@@ -137,25 +137,27 @@ TEST_F(BadInputOnDevice, MissingTextureIsGrey) {
 TEST_F(BadInput, Options) {
     const auto scene = good_scene();
     for (const char* size : {"0x0", "-5x5", "1000000x1"}) {
-        expect_error(render(scene, std::string("--size ") + size), 2, "is no size");
+        expect_error(render(scene, std::string("--size ") + size), 2, "is not a size");
     }
     expect_error(render(scene, "--spp 0"), 2, "--spp");
     expect_error(render(scene, "--vpls -3"), 2, "--vpls");
     expect_error(render(scene, "--max-depth 0"), 2, "--max-depth");
     expect_error(render(scene, "--range nan"), 2, "--range");
     expect_error(render(scene, "-D x"), 2, "NAME=VALUE");
-    expect_error(render(scene, "--layers nosuch"), 2, "unknown layer 'nosuch'; there are");
+    expect_error(render(scene, "--layers nosuch"), 2, "unknown layer 'nosuch'; choose from: ");
     for (const char* sampler : {"nosuch", "7", ""}) {
         expect_error(render(scene, "--sampler '" + std::string(sampler) + "'"), 2,
-                     "there are: bidirectional, close-range, instant-radiosity");
+                     "choose one of: bidirectional, close-range, instant-radiosity");
     }
     expect_error(run_program("render " + quoted(scene)), 2, "--output is required");
 }
 
 TEST_F(BadInput, Outputs) {
     const auto scene = good_scene();
-    expect_error(render(scene, "-o " + quoted(folder_ / "x.jpg")), 2, "pictures end in .exr or .png");
-    expect_error(render(scene, "-o " + quoted(folder_ / "x")), 2, "pictures end in .exr or .png");
+    expect_error(render(scene, "-o " + quoted(folder_ / "x.jpg")), 2,
+                 "the names of pictures end in .exr or .png");
+    expect_error(render(scene, "-o " + quoted(folder_ / "x")), 2,
+                 "the names of pictures end in .exr or .png");
     expect_error(render(scene, "-o " + quoted(folder_ / "none" / "x.png")), 3, "there is no folder");
     std::filesystem::create_directory(folder_ / "folder.png");
     expect_error(render(scene, "-o " + quoted(folder_ / "folder.png")), 3, "it is a folder");

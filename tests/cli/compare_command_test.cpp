@@ -92,7 +92,7 @@ TEST_F(Compare, TakesAReferenceOfTheReferenceCommand) {
 
 TEST_F(Compare, CtrlCKeepsWhatWasMeasured) {
     NEARLIGHT_NEEDS_DEVICE();
-    const char* promise = "the same command goes on";
+    const char* promise = "rerun the same command to resume";
     const ProgramResult result = run_interrupted(
         command("--size 64x48 --vpls 1000,2000 --seeds 10000 --reference-spp 8"), 2,
         [&](const ProgramResult& so_far) { return so_far.errors.find(promise) != std::string::npos; });
@@ -123,7 +123,7 @@ TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
     expect_usage_error("--crop 300,200,100,100", "--crop");
     expect_usage_error("--reference-vpls 100", "200000");
     expect_usage_error("--reference-sampler metropolis", "--reference-vpls");
-    expect_usage_error("--reference-sampler metropolise --reference-vpls 500000", "there are: ");
+    expect_usage_error("--reference-sampler metropolise --reference-vpls 500000", "choose one of: ");
     expect_usage_error(quoted(scene_), "twice");
     EXPECT_EQ(run_program("compare " + quoted(scene_)).exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(output_));

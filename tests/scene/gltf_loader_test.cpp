@@ -374,12 +374,12 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
     };
     EXPECT_THAT(with([](json& root) { root["nodes"][0]["mesh"] = 3; }),
                 HasSubstr("node 'thing' refers to mesh 3, but there are only 1"));
-    EXPECT_THAT(with([](json& root) { root["nodes"][0]["children"] = {0}; }), HasSubstr("below itself"));
+    EXPECT_THAT(with([](json& root) { root["nodes"][0]["children"] = {0}; }), HasSubstr("its own ancestor"));
     EXPECT_THAT(with([](json& root) { root["scenes"][0]["nodes"] = {9}; }), HasSubstr("node 9"));
     EXPECT_THAT(with([](json& root) {
                     root["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}};
                 }),
-                HasSubstr("there twice"));
+                HasSubstr("two parents"));
     EXPECT_THAT(with([](json& root) {
                     root["accessors"][0].erase("bufferView");
                     root["accessors"][0]["count"] = 1u << 30u;

@@ -385,7 +385,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<shape type='sphere'><string name='radius' value='1'/></shape>", "should be a number"},
         {"<shape type='cube'><float name='x' value='$x'/></shape>", "parameter '$x' has no value"},
         {"<include filename='gone.xml'/>", "cannot be read"},
-        {"<include filename='scene.xml'/>", "without end"},
+        {"<include filename='scene.xml'/>", "endlessly"},
         {"<wobble/>", "unknown element <wobble>"},
         {"<emitter type='point'><float name='power' value='1'/></emitter>", "power"},
         {"<bsdf type='twosided' id='a'><ref id='a'/></bsdf><shape type='cube'><ref id='a'/></shape>",

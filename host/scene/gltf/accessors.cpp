@@ -81,7 +81,7 @@ constexpr std::size_t kMaxZeros = std::size_t{1} << 27u;
 Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components) {
     if (accessor.bufferView < 0) {
         if (accessor.count > kMaxZeros) {
-            file.fail("an accessor has " + std::to_string(accessor.count) + " elements, and no buffer view");
+            file.fail("an accessor has " + std::to_string(accessor.count) + " elements, but no buffer view");
         }
         return {nullptr, 0, accessor.componentType, false};
     }
@@ -118,7 +118,7 @@ void for_each_number(const GltfFile& file, const tinygltf::Accessor& accessor, s
         const double place = number(places, i, 0);
         if (!(place >= 0) || !(place < static_cast<double>(accessor.count))) {
             file.fail("a sparse accessor of " + std::to_string(accessor.count) +
-                      " elements replaces another");
+                      " elements replaces an element beyond its end");
         }
         for (std::size_t c = 0; c < components; ++c) {
             visit(static_cast<std::size_t>(place), c, number(values, i, c));
@@ -129,8 +129,8 @@ void for_each_number(const GltfFile& file, const tinygltf::Accessor& accessor, s
 const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, int components) {
     const tinygltf::Accessor& accessor = file.at(file.model.accessors, index, "accessor", "a mesh");
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components) {
-        file.fail("accessor " + std::to_string(index) + " has not " + std::to_string(components) +
-                  " numbers an element");
+        file.fail("accessor " + std::to_string(index) + " does not have " + std::to_string(components) +
+                  " numbers per element");
     }
     return accessor;
 }

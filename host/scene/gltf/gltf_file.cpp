@@ -65,7 +65,8 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     }
     for (const std::string& extension : file.model.extensionsRequired) {
         if (std::ranges::find(kKnownExtensions, extension) == kKnownExtensions.end()) {
-            file.fail("needs the extension " + extension + ", which is not supported; export it without");
+            file.fail("needs the extension " + extension +
+                      ", which is not supported; export the scene without it");
         }
     }
     return file;

@@ -50,7 +50,7 @@ void visit_nodes(const GltfFile& file, int index, const Mat4& parent, std::set<i
                  const Visit& visit) {
     const tinygltf::Node& node = file.at(file.model.nodes, index, "node", "a scene or node");
     if (!visited.insert(index).second) {
-        file.fail("node " + std::to_string(index) + " is below itself, or there twice");
+        file.fail("node " + std::to_string(index) + " is its own ancestor, or has two parents");
     }
     const Mat4 to_world = parent * transform_of(file, node);
     visit(node, to_world);
@@ -76,8 +76,9 @@ void visit_scene(const GltfFile& file, const Visit& visit) {
 void check_parameters(const GltfFile& file, const LoadOptions& options) {
     for (const auto& [name, value] : options.parameters) {
         if (name != "camera") {
-            throw Error(ErrorKind::invalid_argument, file.path.string() + ": has no parameter '" + name +
-                                                         "'; of glTF files only the camera can be chosen");
+            throw Error(ErrorKind::invalid_argument,
+                        file.path.string() + ": has no parameter '" + name +
+                            "'; for glTF files, only -D camera=NAME is supported");
         }
     }
 }

@@ -66,7 +66,8 @@ Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
     for (int column = 0; column < 3; ++column) {
         const double l = std::hypot(to_world(0, column), to_world(1, column), to_world(2, column));
         if (!(l > 0)) {
-            file.fail("the transform of camera '" + placed.node + "' is flat");
+            file.fail("the transform of camera '" + placed.node +
+                      "' is singular: it maps space onto a plane, a line or a point");
         }
         for (int row = 0; row < 3; ++row) {
             to_world(row, column) /= l;
@@ -77,7 +78,7 @@ Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
 
 SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
     if (placed.camera->type != "perspective") {
-        file.fail("camera '" + placed.node + "' is not a perspective one");
+        file.fail("camera '" + placed.node + "' is not a perspective camera");
     }
     const tinygltf::PerspectiveCamera& source = placed.camera->perspective;
     if (!(source.yfov > 0) || !(source.yfov < std::numbers::pi)) {
@@ -132,7 +133,7 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
             scene.delta_emitters.push_back(spot_emitter(placed));
         } else if (placed.light->type == "directional") {
             scene.delta_emitters.push_back(directional_emitter(placed, box));
-            notes.approximation(file.path, 0, "directional lights are taken for spot lights far away");
+            notes.approximation(file.path, 0, "directional lights are replaced by distant spot lights");
         } else {
             notes.approximation(file.path, 0, "a light of type '" + placed.light->type + "' is left out");
         }
@@ -148,8 +149,9 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
         }
         names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
     }
-    throw Error(ErrorKind::invalid_argument, file.path.string() + ": has no camera '" + name + "'; " +
-                                                 (names.empty() ? "it has none" : "there are " + names));
+    throw Error(ErrorKind::invalid_argument,
+                file.path.string() + ": has no camera '" + name + "'; " +
+                    (names.empty() ? "the file has no cameras" : "choose one of: " + names));
 }
 
 }  // namespace nearlight::core::gltf

@@ -193,7 +193,7 @@ MaterialMaker::Surface MaterialMaker::surface_of(const tinygltf::Material& sourc
     if (const std::optional<Vec3> mean = mean_of(pbr.metallicRoughnessTexture)) {
         surface.roughness *= mean->y;
         surface.metallic *= mean->z;
-        approximate("textures of roughness and metal are taken by their means");
+        approximate("textures of roughness and metalness are replaced by their means");
     }
     surface.index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
     const double specular = number_of(source.extensions, "KHR_materials_specular", "specularFactor", 1);
@@ -204,7 +204,7 @@ MaterialMaker::Surface MaterialMaker::surface_of(const tinygltf::Material& sourc
         number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0) > 0.5;
     surface.is_thin = number_of(source.extensions, "KHR_materials_volume", "thicknessFactor", 0) <= 0;
     if (source.alphaMode == "BLEND" && surface.opacity < 0.5f && !surface.transmits) {
-        approximate("what blends is taken for a thin pane of glass");
+        approximate("blended surfaces are rendered as thin panes of glass");
         surface.transmits = true;
     }
     return surface;
@@ -216,7 +216,7 @@ void MaterialMaker::remark_what_is_left_out(const tinygltf::Material& source) {
     }
     if (source.alphaMode == "MASK" ||
         (source.alphaMode == "BLEND" && source.pbrMetallicRoughness.baseColorTexture.index >= 0)) {
-        approximate("holes by the alpha of textures are filled");
+        approximate("holes that the alpha of textures makes are filled");
     }
     for (const char* extension : {"KHR_materials_clearcoat", "KHR_materials_sheen"}) {
         if (source.extensions.contains(extension)) {
@@ -232,7 +232,7 @@ Vec3 MaterialMaker::emission_of(const tinygltf::Material& source) {
     Vec3 emission = static_cast<float>(strength) * max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
     if (!is_zero(emission) && source.emissiveTexture.index >= 0) {
         if (const std::optional<Vec3> mean = mean_of(source.emissiveTexture)) {
-            approximate("textures of emitted light are taken by their means");
+            approximate("textures of emitted light are replaced by their means");
             emission =
                 emission * Vec3{srgb_to_linear(mean->x), srgb_to_linear(mean->y), srgb_to_linear(mean->z)};
         }
@@ -255,7 +255,7 @@ Material MaterialMaker::make_base(const tinygltf::Material& source, const Surfac
 Material MaterialMaker::make_metal(const tinygltf::Material& source, const Surface& surface) {
     Vec3 tint = surface.color;
     if (const int texture = add_texture(source.pbrMetallicRoughness.baseColorTexture); texture >= 0) {
-        approximate("smooth metals have the mean colour of their textures");
+        approximate("colour textures of smooth metals are replaced by their means");
         const int image = scene_.textures[static_cast<std::size_t>(texture)].image;
         tint = tint * mean_color(scene_.images[static_cast<std::size_t>(image)]);
     }
@@ -271,7 +271,7 @@ Material MaterialMaker::make(const tinygltf::Material& source) {
     const bool is_smooth = surface.alpha() <= kRoughestLobe;
     const bool is_even = !is_metal && surface.alpha() >= 1;
     if (reflects && !is_smooth && !is_even && !surface.transmits) {
-        approximate("what reflects roughly is taken for matt");
+        approximate("rough reflections are rendered diffuse");
     }
     Material material;
     if (surface.transmits) {

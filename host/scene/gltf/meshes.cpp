@@ -79,10 +79,11 @@ void remark_what_is_left_out(const GltfFile& file, const tinygltf::Node& node,
         notes.approximation(file.path, 0, "points and lines are left out");
     }
     if (node.skin >= 0 || !primitive.targets.empty()) {
-        notes.approximation(file.path, 0, "meshes with a skin or morph targets stand as they were modelled");
+        notes.approximation(file.path, 0,
+                            "skins and morph targets are ignored; their meshes are shown as modelled");
     }
     if (attribute(primitive, "COLOR_0") >= 0) {
-        notes.approximation(file.path, 0, "colours of vertices are left out");
+        notes.approximation(file.path, 0, "vertex colours are left out");
     }
 }
 

@@ -89,7 +89,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures)
 void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes) {
     emitter.ignore({"sampling_weight"});
     if (emitter.has("power")) {
-        fail(emitter.where, "'power' is not supported: give 'intensity' or 'radiance'");
+        fail(emitter.where, "'power' is not supported; give 'intensity' or 'radiance'");
     }
     if (emitter.type == "point") {
         scene.delta_emitters.push_back(make_point(emitter, textures));
@@ -97,14 +97,14 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         scene.delta_emitters.push_back(make_spot(emitter, textures, notes));
     } else if (emitter.type == "constant" || emitter.type == "envmap") {
         if (scene.environment.width > 0) {
-            fail(emitter.where, "a scene has one environment at most");
+            fail(emitter.where, "a scene can have only one environment");
         }
         emitter.ignore({"cache", "gamma"});
         scene.environment = make_environment(emitter, textures);
     } else if (emitter.type == "area") {
-        fail(emitter.where, "an area light belongs within a shape");
+        fail(emitter.where, "an area light must be nested in a shape");
     } else {
-        fail_unknown_type(emitter, "area (within a shape), point, spot, constant, envmap");
+        fail_unknown_type(emitter, "area (nested in a shape), point, spot, constant, envmap");
     }
     emitter.report_unused(notes);
 }

@@ -79,7 +79,7 @@ Material MaterialMaker::make_nested(const Object& wrapper, int depth) {
 
 Material MaterialMaker::make_twosided(const Object& bsdf, int depth) {
     if (bsdf.nested("bsdf").size() > 1) {
-        note(notes_, bsdf.where, "both sides of 'twosided' get its first bsdf");
+        note(notes_, bsdf.where, "'twosided' has two bsdfs; the first one is used for both sides");
     }
     Material material = make_nested(bsdf, depth);
     material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
@@ -88,7 +88,8 @@ Material MaterialMaker::make_twosided(const Object& bsdf, int depth) {
 
 Material MaterialMaker::make_mask(const Object& bsdf, int depth) {
     const float opacity = luminance(textures_.mean_reflectance(bsdf, "opacity", {0.5f, 0.5f, 0.5f}));
-    note(notes_, bsdf.where, "'mask' is either opaque or invisible, whichever is nearer to its mean opacity");
+    note(notes_, bsdf.where,
+         "'mask' becomes either opaque or invisible, whichever is closer to its mean opacity");
     const Material opaque = make_nested(bsdf, depth);
     return opacity >= 0.5f ? opaque : glass_material(1.0, true);
 }
@@ -105,7 +106,7 @@ Material MaterialMaker::make_blend(const Object& bsdf, int depth) {
         first.base = first.base * (1.0f - weight) + second.base * weight;
         return first;
     }
-    note(notes_, bsdf.where, "'blendbsdf' is replaced by the heavier of its bsdfs");
+    note(notes_, bsdf.where, "'blendbsdf' is replaced by the bsdf that has the larger weight");
     return weight < 0.5f ? first : second;
 }
 
@@ -139,7 +140,7 @@ double MaterialMaker::index_of_refraction(const Object& bsdf, const std::string&
         index = bsdf.number(name, fallback);
     }
     if (!(index > 0.0)) {
-        fail(property->where, "'" + name + "' should be more than 0");
+        fail(property->where, "'" + name + "' should be greater than 0");
     }
     return index;
 }
@@ -149,7 +150,7 @@ float MaterialMaker::roughness(const Object& bsdf) {
         return 0.0f;
     }
     if (bsdf.string("distribution", "beckmann") != "ggx") {
-        note(notes_, bsdf.where, "rough surfaces have the GGX distribution of the same alpha");
+        note(notes_, bsdf.where, "the microfacet distribution is replaced by GGX with the same alpha");
     }
     bsdf.ignore({"sample_visible"});
     const bool anisotropic = bsdf.has("alpha_u") || bsdf.has("alpha_v");
@@ -179,7 +180,7 @@ Material MaterialMaker::make_conductor(const Object& bsdf) {
     const std::string name = bsdf.string("material", "none");
     const std::optional<Metal> metal = find_metal(name);
     if (!metal) {
-        fail(bsdf.find("material")->where, "no metal called '" + name + "' is known; give eta and k instead");
+        fail(bsdf.find("material")->where, "unknown metal '" + name + "'; give eta and k instead");
     }
     const bool given = bsdf.has("eta") || bsdf.has("k");
     Vec3 eta = given ? textures_.color(bsdf, "eta", {0, 0, 0}, false) : metal->eta;

@@ -17,7 +17,7 @@ constexpr int kUnlimitedDepth = 64;
 void apply_integrator(const Object& integrator, Scene& scene) {
     const double depth = integrator.number("max_depth", -1.0);
     if (depth < -1.0 || depth > 1e6) {
-        fail(integrator.find("max_depth")->where, "'max_depth' should be -1 (no limit), or 0 and more");
+        fail(integrator.find("max_depth")->where, "'max_depth' should be -1 (unlimited), 0 or greater");
     }
     scene.max_depth = depth < 0.0 ? kUnlimitedDepth : std::max(1, static_cast<int>(depth));
 }
@@ -27,11 +27,12 @@ void apply_sensors(const Object& root, Scene& scene, NoteSink& notes) {
     if (sensors.empty()) {
         scene.camera = default_camera(bounds(scene));
         notes.remark(scene.source, root.where.line,
-                     "the scene has no sensor; one that frames everything is used");
+                     "the scene has no sensor; a camera that frames everything is added");
         return;
     }
     if (sensors.size() > 1) {
-        notes.remark(*sensors[1]->where.file, sensors[1]->where.line, "the first of several sensors is used");
+        notes.remark(*sensors[1]->where.file, sensors[1]->where.line,
+                     "the scene has several sensors; the first one is used");
     }
     apply_sensor(*sensors.front(), scene, notes);
 }

@@ -28,7 +28,7 @@ void apply_film(const Object& film, SceneCamera& camera, NoteSink& notes) {
     camera.height = positive_integer(film, "height", 576, kMaxSide);
     for (const char* crop : {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"}) {
         if (film.has(crop)) {
-            note(notes, film.find(crop)->where, "the film's crop is ignored: the whole picture is rendered");
+            note(notes, film.find(crop)->where, "the film's crop is ignored; the whole picture is rendered");
         }
     }
 }
@@ -41,7 +41,7 @@ double fov_of_focal_length(const Object& sensor) {
     }
     const double length = parse_number(text, sensor.where);
     if (!(length > 0.0)) {
-        fail(sensor.where, "'focal_length' should be more than 0");
+        fail(sensor.where, "'focal_length' should be greater than 0");
     }
     return 2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * length)) * kRadian;
 }
@@ -64,7 +64,7 @@ Mat4 without_scale(Mat4 m, const Location& where) {
         const double l = std::sqrt(m(0, column) * m(0, column) + m(1, column) * m(1, column) +
                                    m(2, column) * m(2, column));
         if (!(l > 0.0) || !std::isfinite(l)) {
-            fail(where, "the sensor's to_world flattens space");
+            fail(where, "the sensor's to_world is singular: it maps space onto a plane, a line or a point");
         }
         for (int row = 0; row < 3; ++row) {
             m(row, column) /= l;
@@ -90,7 +90,7 @@ double horizontal_fov(double fov_degrees, const std::string& axis, double aspect
 
 void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
     if (sensor.type == "thinlens") {
-        note(notes, sensor.where, "'thinlens' is replaced by a pinhole camera: everything is in focus");
+        note(notes, sensor.where, "'thinlens' is replaced by a pinhole camera; everything is in focus");
         sensor.ignore({"aperture_radius", "focus_distance"});
     } else if (sensor.type != "perspective") {
         fail_unknown_type(sensor, "perspective, thinlens");
@@ -107,7 +107,8 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
     scene.camera.to_world = without_scale(sensor.transform("to_world"), sensor.where);
     scene.camera.fov_x_degrees = read_fov(sensor, scene.camera);
     if (sensor.has("principal_point_offset_x") || sensor.has("principal_point_offset_y")) {
-        note(notes, sensor.where, "the sensor's principal point is taken to be the middle of the picture");
+        note(notes, sensor.where,
+             "the sensor's principal point is ignored; the middle of the picture is used");
         sensor.ignore({"principal_point_offset_x", "principal_point_offset_y"});
     }
     sensor.report_unused(notes);

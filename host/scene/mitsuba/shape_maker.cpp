@@ -30,7 +30,7 @@ Mat4 cylinder_placement(const Object& shape) {
     const Vec3 axis{static_cast<float>(p1[0] - p0[0]), static_cast<float>(p1[1] - p0[1]),
                     static_cast<float>(p1[2] - p0[2])};
     if (is_zero(axis)) {
-        fail(shape.where, "cylinder has the same p0 and p1");
+        fail(shape.where, "the cylinder's p0 and p1 are the same");
     }
     const auto [x, y] = orthonormal_basis(normalize(axis));
     Mat4 placement = translation(p0[0], p0[1], p0[2]);
@@ -72,7 +72,7 @@ void ShapeMaker::add_instance(const Object& instance) {
     const Mat4 to_world = instance.transform("to_world");
     for (const Object* shape : groups[0]->nested("shape")) {
         if (shape->type == "shapegroup" || shape->type == "instance") {
-            fail(shape->where, "a shapegroup holds plain shapes only");
+            fail(shape->where, "a shapegroup may contain only plain shapes");
         }
         auto found = group_meshes_.find(shape);
         if (found == group_meshes_.end()) {
@@ -97,7 +97,7 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
                 notes_);
     if (shape.has("max_smooth_angle")) {
         note(notes_, shape.where,
-             "'max_smooth_angle' is not supported; normals are smooth, or flat with face_normals");
+             "'max_smooth_angle' is ignored; normals are smooth, or flat with face_normals");
     }
     shape.ignore({"max_smooth_angle", "collapse", "shape_index"});
     shape.report_unused(notes_);
@@ -158,7 +158,7 @@ Vec3 ShapeMaker::emission(const Object& shape) {
     emitter.ignore({"sampling_weight"});
     const Vec3 radiance = textures_.color(emitter, "radiance", {1, 1, 1}, true);
     if (radiance.x < 0.0f || radiance.y < 0.0f || radiance.z < 0.0f) {
-        fail(emitter.where, "radiance should not be negative");
+        fail(emitter.where, "'radiance' should not be negative");
     }
     emitter.report_unused(notes_);
     return radiance;

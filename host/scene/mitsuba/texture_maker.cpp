@@ -112,16 +112,17 @@ int TextureMaker::make_bitmap(const Object& texture) {
     texture.ignore({"max_anisotropy", "cache", "format", "accel"});
     const std::string filter = texture.string("filter_type", "bilinear");
     if (filter == "nearest") {
-        note(notes_, texture.where, "textures are filtered bilinearly, never 'nearest'");
+        note(notes_, texture.where,
+             "the filter 'nearest' is not supported; the texture is filtered bilinearly");
     }
     const std::string wrap = texture.string("wrap_mode", "repeat");
     if (wrap != "repeat" || texture.string("wrap_mode_u", "repeat") != "repeat" ||
         texture.string("wrap_mode_v", "repeat") != "repeat") {
-        note(notes_, texture.where, "textures repeat; other wrap modes are not supported");
+        note(notes_, texture.where, "this wrap mode is not supported; the texture repeats");
     }
     const double gamma = texture.number("gamma", -1.0);
     if (gamma > 0.0 && gamma != 1.0) {
-        note(notes_, texture.where, "textures are sRGB-encoded or linear; other gammas are not supported");
+        note(notes_, texture.where, "this gamma is not supported; the texture is read as sRGB or linear");
     }
     const bool linear = texture.boolean("raw", false) || gamma == 1.0;
     const std::filesystem::path file = resolve_path(*texture.where.file, texture.required_string("filename"));

@@ -42,7 +42,8 @@ std::string Element::text(const char* attribute) const {
         const std::string name = value.substr(at + 1, end - at - 1);
         const auto found = parameters.find(name);
         if (found == parameters.end()) {
-            fail(where, "parameter '$" + name + "' has no value: give it one, or a <default>");
+            fail(where, "parameter '$" + name + "' has no value; give it one with -D " + name +
+                            "=VALUE, or with a <default>");
         }
         value.replace(at, end - at, found->second);
         at += found->second.size();
@@ -81,7 +82,7 @@ Mat4 read_matrix(const Element& element) {
     const std::vector<double> numbers = parse_numbers(element.required("value"), element.where);
     const int size = numbers.size() == 16 ? 4 : 3;
     if (numbers.size() != 16 && numbers.size() != 9) {
-        fail(element.where, "a matrix has 16 or 9 numbers, not " + std::to_string(numbers.size()));
+        fail(element.where, "a matrix should have 16 or 9 numbers, not " + std::to_string(numbers.size()));
     }
     Mat4 matrix;
     for (int row = 0; row < size; ++row) {
@@ -98,7 +99,7 @@ Mat4 read_lookat(const Element& element) {
     const Vec3 forward{static_cast<float>(target[0] - origin[0]), static_cast<float>(target[1] - origin[1]),
                        static_cast<float>(target[2] - origin[2])};
     if (is_zero(forward)) {
-        fail(element.where, "lookat has the same origin and target");
+        fail(element.where, "the origin and the target of lookat are the same");
     }
     if (!element.has("up")) {
         const auto basis = orthonormal_basis(normalize(forward));
@@ -108,7 +109,7 @@ Mat4 read_lookat(const Element& element) {
     const Vec3 side =
         cross({static_cast<float>(up[0]), static_cast<float>(up[1]), static_cast<float>(up[2])}, forward);
     if (length(side) <= 1e-7f * length(forward)) {
-        fail(element.where, "lookat has an up vector along the line of sight");
+        fail(element.where, "the up vector of lookat is parallel to the line of sight");
     }
     return look_at(origin, target, up);
 }

@@ -99,7 +99,7 @@ class Reader {
 
     void include(const std::filesystem::path& path, const Element& element, Object& parent, int depth) {
         if (depth > kMaxXmlDepth) {
-            fail(element.where, "files include each other without end");
+            fail(element.where, "files include each other endlessly");
         }
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(path, ignored)) {
@@ -116,7 +116,7 @@ class Reader {
     void add_alias(const Element& element) {
         const auto found = by_id_.find(element.required("id"));
         if (found == by_id_.end()) {
-            fail(element.where, "alias of the unknown id '" + element.text("id") + "'");
+            fail(element.where, "this is an alias of the unknown id '" + element.text("id") + "'");
         }
         by_id_.emplace(element.required("as"), found->second);
     }
