@@ -10,6 +10,7 @@
 #include "host/cl/program_compiler.h"
 #include "host/session/band_renderer.h"
 #include "host/session/passes.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 namespace {
@@ -32,7 +33,7 @@ struct Preparation {
 
 std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
     for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
-        hash = fnv1a(std::as_bytes(rows.subspan(i, 3)), hash);
+        hash = fnv1a(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)), hash);
     }
     return hash;
 }
@@ -69,8 +70,8 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Ren
 }
 
 uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
-    const std::size_t band_bytes =
-        std::size_t{width} * plan.tile_rows_per_band * 8 * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+    const std::size_t band_bytes = std::size_t{width} * plan.tile_rows_per_band * NEARLIGHT_TILE_SIZE *
+                                   NEARLIGHT_LAYER_CHANNELS * sizeof(float);
     return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
 }
 

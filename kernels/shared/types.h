@@ -257,11 +257,6 @@ typedef struct CameraVertex {
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
 
-/// Floats a pixel while samples are added (kernels/film.cl), and channels of a finished picture: beauty,
-/// direct, indirect, albedo, N, P (three each), depth, closerange.
-#define NEARLIGHT_FILM_CHANNELS 17
-#define NEARLIGHT_LAYER_CHANNELS 20
-
 /// The close range: in the view frustum (five planes through or at the camera, inside where
 /// dot(plane.xyz, p) + w ≥ 0) and nearer to the camera than `range`.
 typedef struct CloseRange {
