@@ -2,13 +2,13 @@
 // Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the
 // G-buffer).
 //
-// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of 8 × 8
-// pixel tiles × tiles_x + column, counted from the first tile row of the band; lane = y % 8 · 8 + x % 8. Each
-// sample has branch_count (1 or 2) receivers: at the first surface with two ways on (a coat, glass), branch 0
-// takes the base or the refraction and branch 1 the reflection, each with its full weight, so that a glossy
-// floor is not made of noise; later ones choose by chance. Branch 1 of a sample that never divides is absent.
-// One work-item a sample, for all its branches; any work-group size. Random numbers depend on pixel and
-// sample only.
+// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of
+// tiles × tiles_x + column, counted from the first tile row of the band; lane = row within the tile ·
+// NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers: at the first surface with
+// two ways on (a coat, glass), branch 0 takes the base or the refraction and branch 1 the reflection, each
+// with its full weight, so that a glossy floor is not made of noise; later ones choose by chance. Branch 1 of
+// a sample that never divides is absent. One work-item a sample, for all its branches; any work-group size.
+// Random numbers depend on pixel and sample only.
 
 #include "lib/close_range.cl"
 #include "lib/emitter.cl"
@@ -261,13 +261,13 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint sample = index / NEARLIGHT_PACKET_SIZE % sample_count;
     const uint tile = index / NEARLIGHT_PACKET_SIZE / sample_count;
-    const uint tiles_x = (camera->width + 7) / 8;
+    const uint tiles_x = tiles_across(camera->width);
     if (tile >= tiles_x * tile_row_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = tile % tiles_x * 8 + lane % 8;
-    const uint y = (first_tile_row + tile / tiles_x) * 8 + lane / 8;
+    const uint x = tile % tiles_x * NEARLIGHT_TILE_SIZE + lane % NEARLIGHT_TILE_SIZE;
+    const uint y = (first_tile_row + tile / tiles_x) * NEARLIGHT_TILE_SIZE + lane / NEARLIGHT_TILE_SIZE;
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, branch_count, seed);

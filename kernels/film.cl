@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film: adds the samples of a band to its pixels, and turns sums into the layers of the picture.
 //
-// One work-item a pixel of the band; any work-group size. `sums` holds FILM_CHANNELS floats a pixel, row by
-// row. Samples are added one after the other in their order, so that batches give the same bits as one run.
+// One work-item a pixel of the band; any work-group size. `sums` holds NEARLIGHT_FILM_CHANNELS floats a
+// pixel, row by row. Samples are added one after the other in their order, so that batches give the same bits
+// as one run. shared/film_layers.h is the table of layers: film_add has a line for each of them, film_resolve
+// goes through the table.
 
 #include "lib/math.cl"
+#include "shared/film_layers.h"
 
-#define FILM_CHANNELS NEARLIGHT_FILM_CHANNELS
+inline void add_to_sum(global float* sum, float3 v) {
+    sum[0] += v.x;
+    sum[1] += v.y;
+    sum[2] += v.z;
+}
+inline void store_channels(global float* channels, float3 v) {
+    channels[0] = v.x;
+    channels[1] = v.y;
+    channels[2] = v.z;
+}
+inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
+    return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
+}
 
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
@@ -19,70 +34,73 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     }
     const uint x = index % width;
     const uint y = index / width;
-    const uint tile = y / 8 * ((width + 7) / 8) + x / 8;
-    const uint lane = y % 8 * 8 + x % 8;
-    global float* pixel = sums + (size_t)index * FILM_CHANNELS;
+    const uint tile = y / NEARLIGHT_TILE_SIZE * tiles_across(width) + x / NEARLIGHT_TILE_SIZE;
+    const uint lane = y % NEARLIGHT_TILE_SIZE * NEARLIGHT_TILE_SIZE + x % NEARLIGHT_TILE_SIZE;
+    global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
     for (uint i = 0; i < sample_count * branch_count; ++i) {
         const uint packet = tile * sample_count * branch_count + i;
+        const global ReceiverPacket* receiver = receivers + packet;
         const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);
         const float3 response = reflectance / M_PI_F;
-        const float3 e_direct =
-            (float3)(direct[packet].r[lane], direct[packet].g[lane], direct[packet].b[lane]);
-        const float3 e_indirect =
-            (float3)(indirect[packet].r[lane], indirect[packet].g[lane], indirect[packet].b[lane]);
-        const float3 direct_radiance = load3(vertex.emitted) + response * e_direct;
-        const float3 indirect_radiance = response * e_indirect;
-        pixel[0] += direct_radiance.x;
-        pixel[1] += direct_radiance.y;
-        pixel[2] += direct_radiance.z;
-        pixel[3] += indirect_radiance.x;
-        pixel[4] += indirect_radiance.y;
-        pixel[5] += indirect_radiance.z;
-        pixel[6] += reflectance.x;
-        pixel[7] += reflectance.y;
-        pixel[8] += reflectance.z;
+        add_to_sum(pixel + NEARLIGHT_SUM_DIRECT,
+                   load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
+        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * irradiance_of(indirect + packet, lane));
+        add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
         if (i % branch_count != 0) {
             continue;  // geometry layers show the way straight on
         }
-        pixel[9] += receivers[packet].nx[lane];
-        pixel[10] += receivers[packet].ny[lane];
-        pixel[11] += receivers[packet].nz[lane];
-        // Positions and depths cannot be averaged across an edge: the first sample that met something counts.
-        if (pixel[15] == 0.0f && vertex.depth > 0.0f) {
-            pixel[12] = receivers[packet].px[lane];
-            pixel[13] = receivers[packet].py[lane];
-            pixel[14] = receivers[packet].pz[lane];
-            pixel[15] = vertex.depth;
+        add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
+                   (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
+        if (pixel[NEARLIGHT_SUM_DEPTH] == 0.0f && vertex.depth > 0.0f) {
+            store_channels(pixel + NEARLIGHT_SUM_POSITION,
+                           (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]));
+            pixel[NEARLIGHT_SUM_DEPTH] = vertex.depth;
         }
-        pixel[16] += vertex.flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
+        pixel[NEARLIGHT_SUM_CLOSE_RANGE] += vertex.flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
     }
 }
 
-/// Output per pixel: beauty, direct, indirect, albedo, N, P, depth, closerange (NEARLIGHT_LAYER_CHANNELS
-/// floats).
+// How the sums of a pixel become a layer of `count` channels, a function for each word of the column
+// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples.
+
+inline void resolve_mean(const global float* sums, uint first, uint count, float scale, global float* layer) {
+    for (uint c = 0; c < count; ++c) {
+        layer[c] = sums[first + c] * scale;
+    }
+}
+inline void resolve_first(const global float* sums, uint first, uint count, float scale,
+                          global float* layer) {
+    for (uint c = 0; c < count; ++c) {
+        layer[c] = sums[first + c];
+    }
+}
+inline void resolve_direction(const global float* sums, uint first, uint count, float scale,
+                              global float* layer) {
+    const float3 n = (float3)(sums[first], sums[first + 1], sums[first + 2]);
+    const float squared = dot(n, n);
+    store_channels(layer, squared > 0.0f ? n * rsqrt(squared) : n);
+}
+inline void resolve_light(const global float* sums, uint first, uint count, float scale,
+                          global float* layer) {
+    for (uint c = 0; c < count; ++c) {
+        layer[c] = (sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c]) * scale;
+    }
+}
+
+#define RESOLVE_LAYER(constant, name, channels, samples, passes)                             \
+    resolve_##samples(pixel, NEARLIGHT_SUM_##constant, NEARLIGHT_CHANNELS_##channels, scale, \
+                      out + NEARLIGHT_LAYER_##constant);
+
+/// Output: NEARLIGHT_LAYER_CHANNELS floats a pixel, in the order of the table.
 kernel void film_resolve(const global float* restrict sums, uint pixel_count, uint sample_count,
                          global float* restrict layers) {
     const uint index = (uint)get_global_id(0);
     if (index >= pixel_count) {
         return;
     }
-    const global float* sum = sums + (size_t)index * FILM_CHANNELS;
+    const global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
     global float* out = layers + (size_t)index * NEARLIGHT_LAYER_CHANNELS;
     const float scale = 1.0f / (float)sample_count;
-    for (uint c = 0; c < 3; ++c) {
-        out[c] = (sum[c] + sum[3 + c]) * scale;
-        out[3 + c] = sum[c] * scale;
-        out[6 + c] = sum[3 + c] * scale;
-        out[9 + c] = sum[6 + c] * scale;
-        out[15 + c] = sum[12 + c];
-    }
-    const float3 n = (float3)(sum[9], sum[10], sum[11]);
-    const float squared = dot(n, n);
-    const float3 unit_n = squared > 0.0f ? n * rsqrt(squared) : n;
-    out[12] = unit_n.x;
-    out[13] = unit_n.y;
-    out[14] = unit_n.z;
-    out[18] = sum[15];
-    out[19] = sum[16] * scale;
+    NEARLIGHT_FILM_LAYERS(RESOLVE_LAYER)
 }

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes size and member offsets of every shared struct, so that a test can compare them with the host's on
-// every device. Output: one uint a fact, in the order of the list in host/cl/shared_layout.cpp.
+// Writes size and member offsets of every shared struct, where each layer of the film lies, and how tiles
+// cover pixels, so that a test can compare them with the host's on every device. Output: one uint a fact, in
+// the order of the list in host/cl/shared_layout.cpp.
 
+#include "shared/film_layers.h"
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type)
 #define OFFSET(Type, member) *out++ = (uint)(size_t)(&(((Type*)0)->member))
+#define VALUE(expression) *out++ = (uint)(expression)
+#define LAYER_PLACES(constant, name, channels, samples, passes) \
+    VALUE(NEARLIGHT_LAYER_##constant);                          \
+    VALUE(NEARLIGHT_SUM_##constant);
 
 kernel void layout_probe(global uint* out) {
     SIZE(BvhNode);
@@ -54,4 +60,12 @@ kernel void layout_probe(global uint* out) {
     OFFSET(CloseRange, range);
     SIZE(SceneInfo);
     OFFSET(SceneInfo, extent);
+    VALUE(NEARLIGHT_TILE_SIZE);
+    VALUE(tiles_across(0));
+    VALUE(tiles_across(1));
+    VALUE(tiles_across(640));
+    VALUE(tiles_across(641));
+    VALUE(NEARLIGHT_LAYER_CHANNELS);
+    VALUE(NEARLIGHT_FILM_CHANNELS);
+    NEARLIGHT_FILM_LAYERS(LAYER_PLACES)
 }

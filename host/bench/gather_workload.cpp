@@ -14,7 +14,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr int kTile = 8;  // kTile² = NEARLIGHT_PACKET_SIZE
 constexpr uint kMaxWalkDepth = 5;
 
 uint spread_bits(uint x) {
@@ -204,14 +203,14 @@ struct Tile {
 
 std::vector<Tile> tiles_in_morton_order(int width, int height) {
     std::vector<Tile> tiles;
-    for (int y = 0; y < height; y += kTile) {
-        for (int x = 0; x < width; x += kTile) {
+    for (int y = 0; y < height; y += NEARLIGHT_TILE_SIZE) {
+        for (int x = 0; x < width; x += NEARLIGHT_TILE_SIZE) {
             tiles.push_back({x, y});
         }
     }
     const auto code = [](const Tile& tile) {
-        return spread_bits(static_cast<uint>(tile.x / kTile)) |
-               (spread_bits(static_cast<uint>(tile.y / kTile)) << 1u);
+        return spread_bits(static_cast<uint>(tile.x / NEARLIGHT_TILE_SIZE)) |
+               (spread_bits(static_cast<uint>(tile.y / NEARLIGHT_TILE_SIZE)) << 1u);
     };
     std::stable_sort(tiles.begin(), tiles.end(),
                      [&](const Tile& a, const Tile& b) { return code(a) < code(b); });
@@ -227,8 +226,8 @@ std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh&
     for (const Tile& tile : tiles_in_morton_order(width, height)) {
         ReceiverPacket& packet = packets.emplace_back();
         for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
-            const int x = tile.x + i % kTile;
-            const int y = tile.y + i / kTile;
+            const int x = tile.x + i % NEARLIGHT_TILE_SIZE;
+            const int y = tile.y + i / NEARLIGHT_TILE_SIZE;
             const Vec3 direction = camera_direction(scene.camera, width, height, x, y);
             const BvhHit hit = closest_hit(bvh, origin, direction, 0.0f, kInfinity);
             if (x >= width || y >= height || hit.triangle == ~0u) {
@@ -255,8 +254,8 @@ std::vector<RayQuery> make_camera_rays(const Scene& scene, int width, int height
     std::vector<RayQuery> rays;
     for (const Tile& tile : tiles_in_morton_order(width, height)) {
         for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
-            const int x = tile.x + i % kTile;
-            const int y = tile.y + i / kTile;
+            const int x = tile.x + i % NEARLIGHT_TILE_SIZE;
+            const int y = tile.y + i / NEARLIGHT_TILE_SIZE;
             if (x < width && y < height) {
                 rays.push_back(endless_ray(origin, camera_direction(scene.camera, width, height, x, y)));
             }

@@ -18,6 +18,7 @@
 #include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
 #include "host/session/render.h"
+#include "host/stages/film_layers.h"
 #include "host/stages/gatherer.h"
 #include "nearlight/error.h"
 
@@ -139,7 +140,7 @@ bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
     bool finite = true;
     const auto take_rows = [&](std::span<const float> rows) {
         for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
-            for (const float value : rows.subspan(i, 3)) {
+            for (const float value : rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)) {
                 finite = finite && std::isfinite(value) && value >= 0.0f;
                 sum += value;
             }

@@ -34,7 +34,7 @@ struct Trial {
     std::string measured_by;
     /// Processor time tells more where others use the machine too, but not how evenly work is divided.
     bool by_processor;
-    std::uint32_t least, most;        ///< powers of two that are tried
+    std::uint32_t min, max;           ///< powers of two that are tried
     std::function<Work()> make_work;  ///< with the device set to a candidate
 };
 
@@ -88,7 +88,7 @@ Work picture_work(Device& device, const Room& room) {
               direct_light(on),
               camera(on, std::span(&of.view.camera, 1)),
               close_range(on, std::span(&of.view.close_range, 1)),
-              band{.tile_row_count = (of.view.camera.height + 7) / 8},
+              band{.tile_row_count = tiles_across(of.view.camera.height)},
               packets(packet_count(band, of.view.camera.width)),
               receivers(on, packets),
               vertices(on, packets * NEARLIGHT_PACKET_SIZE),
@@ -202,7 +202,7 @@ void check_results(const Trial& trial, std::span<const Runner> runners) {
 
 std::vector<TunerCandidate> list_candidates(const Trial& trial, std::uint32_t usual) {
     std::vector<TunerCandidate> candidates{{.value = usual}};
-    for (std::uint32_t value = trial.least; value <= trial.most; value *= 2) {
+    for (std::uint32_t value = trial.min; value <= trial.max; value *= 2) {
         if (value != usual) {
             candidates.push_back({.value = value});
         }

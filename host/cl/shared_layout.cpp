@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "kernels/shared/film_layers.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -11,6 +12,10 @@ namespace nearlight::core {
     { #Type " size", sizeof(Type) }
 #define OFFSET(Type, member) \
     { #Type "." #member, offsetof(Type, member) }
+#define VALUE(expression) \
+    { #expression, expression }
+#define LAYER_PLACES(constant, name, channels, samples, passes) \
+    , VALUE(NEARLIGHT_LAYER_##constant), VALUE(NEARLIGHT_SUM_##constant)
 
 std::vector<LayoutFact> shared_layout() {
     return {
@@ -60,7 +65,19 @@ std::vector<LayoutFact> shared_layout() {
         OFFSET(CloseRange, range),
         SIZE(SceneInfo),
         OFFSET(SceneInfo, extent),
+        VALUE(NEARLIGHT_TILE_SIZE),
+        VALUE(tiles_across(0)),
+        VALUE(tiles_across(1)),
+        VALUE(tiles_across(640)),
+        VALUE(tiles_across(641)),
+        VALUE(NEARLIGHT_LAYER_CHANNELS),
+        VALUE(NEARLIGHT_FILM_CHANNELS) NEARLIGHT_FILM_LAYERS(LAYER_PLACES),
     };
 }
+
+#undef LAYER_PLACES
+#undef VALUE
+#undef OFFSET
+#undef SIZE
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout of the structs that host and kernels share, as the host compiles them.
+// The layout of the structs and tables that host and kernels share, as the host compiles them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace nearlight::core {
 
-/// A size or a member's offset, bytes.
+/// The size of a struct or a member's offset, bytes; or the value of a shared constant or function.
 struct LayoutFact {
     std::string name;
     std::size_t value;

@@ -5,28 +5,25 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <numeric>
-#include <set>
-
-#include "host/stages/film.h"
 
 namespace nearlight::core {
 namespace {
 
-constexpr const char* kBeauty = "beauty";
-
-/// "direct.R" belongs to layer "direct"; R, G and B to the beauty.
-std::string layer_of(const std::string& channel) {
-    const std::size_t dot = channel.find('.');
-    return dot == std::string::npos ? kBeauty : channel.substr(0, dot);
+/// Names of layers, with commas between them.
+std::string listed(std::span<const FilmLayer> layers) {
+    std::string list;
+    for (const FilmLayer& layer : layers) {
+        list += (list.empty() ? "" : ", ") + std::string(layer.name);
+    }
+    return list;
 }
 
-std::set<std::string> known_layers() {
-    std::set<std::string> layers;
-    for (const std::string& channel : layer_channels()) {
-        layers.insert(layer_of(channel));
-    }
-    return layers;
+/// The layers besides the beauty, which every picture has.
+constexpr std::span<const FilmLayer> optional_layers() {
+    static_assert(kFilmLayers.front().is_beauty());
+    return std::span(kFilmLayers).subspan(1);
 }
 
 std::string extension_of(const std::string& file) {
@@ -36,16 +33,15 @@ std::string extension_of(const std::string& file) {
     return extension;
 }
 
-/// The beauty is always there, first.
-std::vector<std::size_t> channels_for(const PictureOptions& options, const std::string& file) {
-    const std::vector<std::string> all = layer_channels();
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::string layer = layer_of(all[i]);
-        const bool wanted = options.layers.empty() || std::find(options.layers.begin(), options.layers.end(),
-                                                                layer) != options.layers.end();
-        if (layer == kBeauty || (wanted && extension_of(file) == ".exr")) {
-            chosen.push_back(i);
+/// The layers that a file gets, in the order of the table.
+std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::string& file) {
+    const bool takes_more = extension_of(file) == ".exr";
+    std::vector<FilmLayer> chosen;
+    for (const FilmLayer& layer : kFilmLayers) {
+        const bool wanted =
+            options.layers.empty() || std::ranges::find(options.layers, layer.name) != options.layers.end();
+        if (layer.is_beauty() || (takes_more && wanted)) {
+            chosen.push_back(layer);
         }
     }
     return chosen;
@@ -98,8 +94,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->required();
     command
         .add_option("--layers,--aov", options.layers,
-                    "Layers of EXR pictures besides beauty, comma-separated (default: all): direct, "
-                    "indirect, albedo, N, P, depth, closerange")
+                    "Layers of EXR pictures besides beauty, comma-separated (default: all): " +
+                        listed(optional_layers()))
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -109,14 +105,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
 }
 
 void check_outputs(const PictureOptions& options) {
-    const std::set<std::string> known = known_layers();
     for (const std::string& layer : options.layers) {
-        if (!known.contains(layer)) {
-            std::string list;
-            for (const std::string& name : known) {
-                list += (list.empty() ? "" : ", ") + name;
-            }
-            throw Error(ErrorKind::invalid_argument, "unknown layer '" + layer + "'; choose from: " + list);
+        if (std::ranges::find(kFilmLayers, layer, &FilmLayer::name) == kFilmLayers.end()) {
+            throw Error(ErrorKind::invalid_argument,
+                        "unknown layer '" + layer + "'; choose from: " + listed(kFilmLayers));
         }
     }
     for (const std::string& file : options.outputs) {
@@ -135,29 +127,28 @@ Metadata camera_metadata(const SceneCamera& camera) {
 }
 
 void PictureFiles::open(int width, int height, const Metadata& metadata) {
-    const std::vector<std::string> all = layer_channels();
     ImageWriterOptions writer_options{metadata, options_.exposure};
     writer_options.metadata["renderTimeSeconds"] = 0.0f;
     for (const std::string& file : options_.outputs) {
-        std::vector<std::size_t> channels = channels_for(options_, file);
+        std::vector<FilmLayer> layers = layers_for(options_, file);
         std::vector<std::string> names;
-        for (const std::size_t channel : channels) {
-            names.push_back(all[channel]);
+        for (const FilmLayer& layer : layers) {
+            std::ranges::move(channel_names(layer), std::back_inserter(names));
         }
         files_.push_back(
-            {ImageWriter(file, width, height, std::move(names), writer_options), std::move(channels)});
+            {ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});
     }
 }
 
 void PictureFiles::write_rows(std::span<const float> rows) {
-    constexpr std::size_t kChannels = NEARLIGHT_LAYER_CHANNELS;
-    const std::size_t pixel_count = rows.size() / kChannels;
     for (File& file : files_) {
         selected_.clear();
-        selected_.reserve(pixel_count * file.channels.size());
-        for (std::size_t pixel = 0; pixel < pixel_count; ++pixel) {
-            for (const std::size_t channel : file.channels) {
-                selected_.push_back(rows[pixel * kChannels + channel]);
+        for (std::size_t first = 0; first < rows.size(); first += NEARLIGHT_LAYER_CHANNELS) {
+            const std::span<const float> pixel = rows.subspan(first, NEARLIGHT_LAYER_CHANNELS);
+            for (const FilmLayer& layer : file.layers) {
+                const std::span<const float> channels =
+                    pixel.subspan(layer.first_channel, layer.channel_count);
+                selected_.insert(selected_.end(), channels.begin(), channels.end());
             }
         }
         file.writer.write_rows(selected_);

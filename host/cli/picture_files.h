@@ -9,6 +9,7 @@
 #include "host/cli/command.h"
 #include "host/image/image_io.h"
 #include "host/scene/scene.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 
@@ -43,7 +44,7 @@ class PictureFiles {
   private:
     struct File {
         ImageWriter writer;
-        std::vector<std::size_t> channels;  ///< which of a row's channels go there
+        std::vector<FilmLayer> layers;  ///< those that go there
     };
 
     PictureOptions options_;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "host/scene/emitters.h"
+#include "kernels/shared/film_layers.h"
 
 namespace nearlight::core {
 namespace {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/compare/scene_bench.h"
 
-#include <algorithm>
-
 #include "host/base/message.h"
 #include "host/compare/pictures.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 #include "host/scene/emitters.h"
-#include "host/stages/film.h"
+#include "host/stages/film_layers.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -16,11 +14,6 @@ namespace {
 
 /// Seeds of references are far from those that anybody gives.
 constexpr uint kReferenceSeed = 0x5eed0000u;
-
-std::size_t channel_index(const std::string& name) {
-    const std::vector<std::string> channels = layer_channels();
-    return static_cast<std::size_t>(std::ranges::find(channels, name) - channels.begin());
-}
 
 /// Copies `count` neighbouring channels out of finished rows.
 void append_channels(std::span<const float> rows, std::size_t first, std::size_t count,
@@ -83,8 +76,8 @@ SceneBench::FirstLook SceneBench::look() {
             found.close_vpls = settings.sampling.sampler != SamplerKind::close_range || vpls.close_count > 0;
         },
         [&](std::span<const float> rows) {
-            append_channels(rows, channel_index("R"), 3, overview_.values);
-            append_channels(rows, channel_index("depth.Z"), 1, depths_);
+            append_channels(rows, NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB, overview_.values);
+            append_channels(rows, NEARLIGHT_LAYER_DEPTH, NEARLIGHT_CHANNELS_Z, depths_);
         },
         go_on);
     facts_.range = report.range;
@@ -137,10 +130,11 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
 std::optional<Shot> SceneBench::render_indirect(const RenderSettings& settings, const Progress& progress) {
     Shot shot{make_picture(settings_.width, settings_.height), {}};
     shot.indirect.values.clear();
-    const std::size_t first = channel_index("indirect.R");
     shot.report = render(
         session_, settings, [](const RenderReport&, const View&, const VplSet&) {},
-        [&](std::span<const float> rows) { append_channels(rows, first, 3, shot.indirect.values); },
+        [&](std::span<const float> rows) {
+            append_channels(rows, NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_CHANNELS_RGB, shot.indirect.values);
+        },
         [&](const std::string&, double fraction) { return progress(fraction); });
     return shot.report.interrupted ? std::nullopt : std::optional(std::move(shot));
 }

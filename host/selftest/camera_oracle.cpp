@@ -61,13 +61,14 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
                                      std::span<const CameraVertex> vertices) {
     const EmbreeScene embree(scene);
     const float extent = max_component(bounds(scene).size());
-    const uint tiles_x = (camera.width + 7) / 8;
+    constexpr uint kTile = NEARLIGHT_TILE_SIZE;
+    const uint tiles_x = (camera.width + kTile - 1) / kTile;
     CameraComparison comparison;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::size_t packet = i / NEARLIGHT_PACKET_SIZE;
         const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
-        const uint x = static_cast<uint>(packet % tiles_x * 8 + lane % 8);
-        const uint y = static_cast<uint>(packet / tiles_x * 8 + lane / 8);
+        const uint x = static_cast<uint>(packet % tiles_x * kTile + lane % kTile);
+        const uint y = static_cast<uint>(packet / tiles_x * kTile + lane / kTile);
         const Found found{receiver_at(receivers, i), vertices[i]};
         const RayQuery ray = pixel_ray(camera, x, y);
         const BvhHit hit = x < camera.width && y < camera.height

@@ -13,8 +13,9 @@ namespace {
 /// Packet and lane of a sample of a pixel.
 std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
                                              uint branch) {
-    const std::size_t tile = y / 8 * layout.tile_columns() + x / 8;
-    return {(tile * layout.samples + sample) * layout.branches + branch, y % 8 * 8 + x % 8};
+    constexpr uint kTile = NEARLIGHT_TILE_SIZE;
+    const std::size_t tile = y / kTile * layout.tile_columns() + x / kTile;
+    return {(tile * layout.samples + sample) * layout.branches + branch, y % kTile * kTile + x % kTile};
 }
 
 }  // namespace
@@ -67,23 +68,26 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const double direct =
                 channel(vertex.emitted, axis) + reflectance / kPi * (&samples.direct[packet].r[0])[at];
             const double indirect = reflectance / kPi * (&samples.indirect[packet].r[0])[at];
-            out[3 + c] += direct / layout.samples;
-            out[6 + c] += indirect / layout.samples;
-            out[c] = out[3 + c] + out[6 + c];
-            out[9 + c] += reflectance / layout.samples;
+            out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
+            out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
+            out[NEARLIGHT_LAYER_BEAUTY + c] =
+                out[NEARLIGHT_LAYER_DIRECT + c] + out[NEARLIGHT_LAYER_INDIRECT + c];
+            out[NEARLIGHT_LAYER_ALBEDO + c] += reflectance / layout.samples;
             normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
-            if (s % layout.branches == 0 && out[18] == 0.0 && vertex.depth > 0) {
-                out[15 + c] = (&receiver.px[0])[at];
+            if (s % layout.branches == 0 && out[NEARLIGHT_LAYER_DEPTH] == 0.0 && vertex.depth > 0) {
+                out[NEARLIGHT_LAYER_POSITION + c] = (&receiver.px[0])[at];
             }
         }
         if (s % layout.branches == 0) {
-            out[18] = out[18] == 0.0 ? vertex.depth : out[18];
-            out[19] += static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
+            out[NEARLIGHT_LAYER_DEPTH] =
+                out[NEARLIGHT_LAYER_DEPTH] == 0.0 ? vertex.depth : out[NEARLIGHT_LAYER_DEPTH];
+            out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
+                static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
         }
     }
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (std::size_t c = 0; c < 3; ++c) {
-        out[12 + c] = normal[c] / length;
+        out[NEARLIGHT_LAYER_NORMAL + c] = normal[c] / length;
     }
     return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/math.h"
+#include "kernels/shared/film_layers.h"
 
 namespace nearlight::core {
 
@@ -16,8 +17,12 @@ struct FilmLayout {
     uint samples = 3;   ///< a pixel
     uint branches = 2;  ///< a sample
 
-    [[nodiscard]] std::size_t tile_columns() const { return (width + 7) / 8; }
-    [[nodiscard]] std::size_t tile_rows() const { return (height + 7) / 8; }
+    [[nodiscard]] std::size_t tile_columns() const {
+        return (width + NEARLIGHT_TILE_SIZE - 1) / NEARLIGHT_TILE_SIZE;
+    }
+    [[nodiscard]] std::size_t tile_rows() const {
+        return (height + NEARLIGHT_TILE_SIZE - 1) / NEARLIGHT_TILE_SIZE;
+    }
 };
 
 /// What the camera pass and both kinds of light leave of the whole picture.

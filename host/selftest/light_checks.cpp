@@ -127,7 +127,7 @@ void check_camera_pass(Device& device, CheckResult& result) {
     const Scene scene = make_sphere_room(kLightTriangles);
     const PinholeCamera camera = make_pinhole_camera(scene.camera, 150, 101);
     const CloseRange region = make_close_range(camera, 4.0f);
-    const CameraBand band{.tile_row_count = (camera.height + 7) / 8};
+    const CameraBand band{.tile_row_count = tiles_across(camera.height)};
     const std::size_t packets = packet_count(band, camera.width);
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
     Buffer<ReceiverPacket> receivers(device, packets);

@@ -12,7 +12,8 @@ uint direct_samples_per_sample(const GatherSettings& settings) {
 }
 
 std::size_t pixels_per_band(const Picture& picture) {
-    return static_cast<std::size_t>(picture.view.camera.width) * picture.plan.tile_rows_per_band * 8;
+    return static_cast<std::size_t>(picture.view.camera.width) * picture.plan.tile_rows_per_band *
+           NEARLIGHT_TILE_SIZE;
 }
 
 }  // namespace
@@ -90,9 +91,9 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
 std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
     const uint width = picture_.view.camera.width;
     const auto batches = picture_.plan.batches(index);
-    const uint first_row = batches.front().first_tile_row * 8;
-    const uint row_count =
-        std::min(batches.front().tile_row_count * 8, picture_.view.camera.height - first_row);
+    const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE;
+    const uint row_count = std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE,
+                                    picture_.view.camera.height - first_row);
     FinishedBand band;
     const std::size_t lights_before = picture_.vpls.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();

@@ -5,12 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "host/stages/film_layers.h"
+
 namespace nearlight::core {
-namespace {
-
-constexpr std::size_t kAveragedChannels = 9;  // beauty, direct, indirect
-
-}  // namespace
 
 uint pass_seed(uint seed, uint pass) {
     // SplitMix64 [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
@@ -43,6 +40,7 @@ PassAverage::PassAverage(uint width, uint height)
       row_passes_(height) {}
 
 void PassAverage::add_rows(std::span<const float> rows) {
+    const auto rules = pass_rules();
     for (const std::size_t end = end_ + rows.size(); end_ < end; end_ += row_size_) {
         const std::span<const float> row = rows.last(end - end_).first(row_size_);
         const std::span<float> sums = std::span(sums_).subspan(end_, row_size_);
@@ -50,7 +48,7 @@ void PassAverage::add_rows(std::span<const float> rows) {
         for (std::size_t i = 0; i < row_size_; ++i) {
             if (is_first) {
                 sums[i] = row[i];
-            } else if (i % NEARLIGHT_LAYER_CHANNELS < kAveragedChannels) {
+            } else if (rules[i % rules.size()] == PassRule::mean) {
                 sums[i] += row[i];
             }
         }
@@ -58,12 +56,13 @@ void PassAverage::add_rows(std::span<const float> rows) {
 }
 
 void PassAverage::send(const std::function<void(std::span<const float> rows)>& sink) const {
+    const auto rules = pass_rules();
     std::vector<float> row(row_size_);
     for (std::size_t y = 0; y < row_passes_.size() && row_passes_[y] > 0; ++y) {
         const std::span<const float> sums = std::span(sums_).subspan(y * row_size_, row_size_);
         const float scale = 1.0f / static_cast<float>(row_passes_[y]);
         for (std::size_t i = 0; i < row_size_; ++i) {
-            row[i] = i % NEARLIGHT_LAYER_CHANNELS < kAveragedChannels ? sums[i] * scale : sums[i];
+            row[i] = rules[i % rules.size()] == PassRule::mean ? sums[i] * scale : sums[i];
         }
         sink(row);
     }

@@ -36,8 +36,8 @@ class PassClock {
     uint done_ = 0;
 };
 
-/// Keeps the whole picture. What light makes of it (beauty, direct, indirect) is averaged; the other layers
-/// are those of pass 0, because positions and depths have no mean.
+/// Keeps the whole picture. Which layers are averaged and which are those of pass 0 is a column of the
+/// table in kernels/shared/film_layers.h.
 class PassAverage {
   public:
     PassAverage(uint width, uint height);

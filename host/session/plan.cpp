@@ -45,7 +45,7 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
 
 uint RenderPlan::run_packets(const CameraBand& batch, uint width) const {
     const uint tile_packets = batch.sample_count * branch_count;
-    return samples_per_pixel * branch_count < NEARLIGHT_BUNDLE_PACKETS ? tile_packets * ((width + 7) / 8)
+    return samples_per_pixel * branch_count < NEARLIGHT_BUNDLE_PACKETS ? tile_packets * tiles_across(width)
                                                                        : tile_packets;
 }
 
@@ -63,9 +63,9 @@ RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint he
         budget = std::min(budget, receivers_per_batch(*device));
     }
     const std::size_t per_row_sample =
-        static_cast<std::size_t>((width + 7) / 8) * NEARLIGHT_PACKET_SIZE * branch_count;
+        std::size_t{tiles_across(width)} * NEARLIGHT_PACKET_SIZE * branch_count;
     RenderPlan plan;
-    plan.tile_row_count = (height + 7) / 8;
+    plan.tile_row_count = tiles_across(height);
     plan.samples_per_pixel = samples_per_pixel;
     plan.branch_count = branch_count;
     const uint bundled = samples_per_bundle(samples_per_pixel, branch_count);

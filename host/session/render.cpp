@@ -6,6 +6,7 @@
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
 #include "host/session/passes.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 namespace {
@@ -19,7 +20,7 @@ struct Prepared {
 
 std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
     for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
-        hash = fnv1a(std::as_bytes(rows.subspan(i, 3)), hash);
+        hash = fnv1a(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)), hash);
     }
     return hash;
 }

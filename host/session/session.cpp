@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
 
 uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
-    const std::size_t band_bytes =
-        std::size_t{width} * plan.tile_rows_per_band * 8 * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+    const std::size_t band_bytes = std::size_t{width} * plan.tile_rows_per_band * NEARLIGHT_TILE_SIZE *
+                                   NEARLIGHT_LAYER_CHANNELS * sizeof(float);
     return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
 }
 

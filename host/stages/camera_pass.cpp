@@ -4,7 +4,7 @@
 namespace nearlight::core {
 
 std::size_t packet_count(const CameraBand& band, uint image_width) {
-    return static_cast<std::size_t>((image_width + 7) / 8) * band.tile_row_count * band.sample_count *
+    return std::size_t{tiles_across(image_width)} * band.tile_row_count * band.sample_count *
            band.branch_count;
 }
 

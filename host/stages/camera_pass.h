@@ -10,7 +10,7 @@ namespace nearlight::core {
 /// Which tile rows and samples of the picture one launch covers.
 struct CameraBand {
     uint first_tile_row = 0;
-    uint tile_row_count = 0;  ///< of 8 pixel rows each; the last may reach below the picture
+    uint tile_row_count = 0;  ///< the last may reach below the picture
     uint first_sample = 0;
     uint sample_count = 1;
     uint samples_per_pixel = 1;  ///< in all; a single one goes through the pixel's centre

@@ -18,10 +18,4 @@ void Film::resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samp
     film_resolve_.launch_items(pixel_count, sums, static_cast<uint>(pixel_count), samples_per_pixel, layers);
 }
 
-std::vector<std::string> layer_channels() {
-    return {"R",          "G",          "B",        "direct.R", "direct.G", "direct.B",    "indirect.R",
-            "indirect.G", "indirect.B", "albedo.R", "albedo.G", "albedo.B", "N.X",         "N.Y",
-            "N.Z",        "P.X",        "P.Y",      "P.Z",      "depth.Z",  "closerange.Y"};
-}
-
 }  // namespace nearlight::core

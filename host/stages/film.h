@@ -4,6 +4,7 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/camera_pass.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 
@@ -25,8 +26,5 @@ class Film {
     Kernel film_add_;
     Kernel film_resolve_;
 };
-
-/// Names of a finished picture's channels: R, G, B, direct.R, …, closerange.Y.
-std::vector<std::string> layer_channels();
 
 }  // namespace nearlight::core

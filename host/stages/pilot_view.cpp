@@ -113,7 +113,7 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
     const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
     const PinholeCamera pinhole = make_pinhole_camera(camera, width, height);
-    const CameraBand band{.tile_row_count = static_cast<uint>(height + 7) / 8, .samples_per_pixel = 2};
+    const CameraBand band{.tile_row_count = tiles_across(pinhole.height), .samples_per_pixel = 2};
 
     PilotView view;
     view.device = &device;

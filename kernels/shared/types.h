@@ -12,6 +12,9 @@
 #include <type_traits>
 namespace nearlight::core {
 using uint = std::uint32_t;
+#define NEARLIGHT_SHARED_FUNCTION constexpr
+#else
+#define NEARLIGHT_SHARED_FUNCTION inline
 #endif
 
 /// Three packed floats. Points and vectors in metres of the scene's world space, or linear sRGB colours.
@@ -214,15 +217,24 @@ typedef struct SurfaceSample {
     float pad0, pad1, pad2;
 } SurfaceSample;
 
-/// Receivers travel in packets of 64 (a tile of 8 × 8 pixels, or 64 neighbours on a curve), component by
-/// component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
-/// position stands off its surface by the ray epsilon.
+/// Receivers travel in packets of 64 (a tile of pixels, or 64 neighbours on a curve), component by component,
+/// so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The position
+/// stands off its surface by the ray epsilon.
 #define NEARLIGHT_PACKET_SIZE 64
 #define NEARLIGHT_BUNDLE_PACKETS 4  // that go through the tree together (lib/bundle.cl)
 typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
 } ReceiverPacket;
+
+/// A tile is a square of pixels, this many on each side, that fills a packet row by row. Tiles cover the
+/// picture from its top left corner; those at the right and the bottom may reach beyond it.
+#define NEARLIGHT_TILE_SIZE 8
+
+/// How many tiles cover this many pixels of a row or a column of the picture.
+NEARLIGHT_SHARED_FUNCTION uint tiles_across(uint pixels) {
+    return (pixels + NEARLIGHT_TILE_SIZE - 1) / NEARLIGHT_TILE_SIZE;
+}
 
 /// Irradiance (W/m²) of the receivers of a packet.
 typedef struct IrradiancePacket {
@@ -244,11 +256,6 @@ typedef struct CameraVertex {
     float pad0;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
-
-/// Floats a pixel while samples are added (kernels/film.cl), and channels of a finished picture: beauty,
-/// direct, indirect, albedo, N, P (three each), depth, closerange.
-#define NEARLIGHT_FILM_CHANNELS 17
-#define NEARLIGHT_LAYER_CHANNELS 20
 
 /// The close range: in the view frustum (five planes through or at the camera, inside where
 /// dot(plane.xyz, p) + w ≥ 0) and nearer to the camera than `range`.
@@ -273,6 +280,7 @@ typedef struct SceneInfo {
     static_assert(sizeof(Type) == (bytes) && alignof(Type) == 4, #Type " size"); \
     static_assert(std::is_trivially_copyable_v<Type>, #Type " must be plain data")
 static_assert(sizeof(Vec3) == 12);
+static_assert(NEARLIGHT_TILE_SIZE * NEARLIGHT_TILE_SIZE == NEARLIGHT_PACKET_SIZE, "a tile fills a packet");
 NEARLIGHT_CHECK_SHARED(BvhNode, 64);
 NEARLIGHT_CHECK_SHARED(BvhTriangle, 48);
 NEARLIGHT_CHECK_SHARED(WideNode, 224);

@@ -2,15 +2,33 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "host/image/image_io.h"
+#include "host/stages/film_layers.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
 
 namespace nearlight::core {
 namespace {
+
+/// Whether the channel is anything but zero somewhere.
+bool has_content(const Image& image, const std::string& name) {
+    const auto channel = static_cast<std::size_t>(image.find_channel(name));
+    for (std::size_t i = channel; i < image.values.size(); i += image.channel_count()) {
+        if (image.values[i] != 0.0f) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_word_of(const std::string& text, const std::string& word) {
+    return std::regex_search(text, std::regex("\\b" + word + "\\b"));
+}
 
 class Render : public testing::Test {
   protected:
@@ -120,6 +138,48 @@ TEST_F(Render, AnInterruptedOneSavesItsPasses) {
 TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
     for (const char* options : {"--passes 0", "--passes many", "--time -1", "--time soon"}) {
         EXPECT_EQ(render(options, output_).exit_code, 2) << options;
+    }
+}
+
+TEST_F(Render, EveryLayerIsInTheFileInTheHelpAndInTheReadme) {
+    NEARLIGHT_NEEDS_DEVICE();
+    ASSERT_EQ(render("", output_).exit_code, 0);
+    const Image all = read_image(output_);
+    EXPECT_EQ(all.channels, layer_channels());
+    const std::string help = run_program("render --help").output;
+    const std::string option =
+        help.substr(help.find("--layers"), help.find("--exposure") - help.find("--layers"));
+    const std::string readme = file_text(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "README.md");
+    const std::string of_layers = readme.substr(readme.find("EXR files hold the layers"), 120);
+    for (const FilmLayer& layer : kFilmLayers) {
+        const std::string name(layer.name);
+        for (std::size_t c = 0; c < layer.channel_count; ++c) {
+            EXPECT_TRUE(has_content(all, channel_names(layer)[c])) << channel_names(layer)[c];
+        }
+        if (!layer.is_beauty()) {
+            EXPECT_TRUE(is_word_of(option, name)) << help;
+        }
+        EXPECT_TRUE(is_word_of(of_layers, name)) << of_layers;
+    }
+}
+
+TEST_F(Render, LayersThatWereAskedForComeBesidesTheBeauty) {
+    NEARLIGHT_NEEDS_DEVICE();
+    ASSERT_EQ(render("", output_).exit_code, 0);
+    const Image all = read_image(output_);
+    for (const FilmLayer& layer : kFilmLayers) {
+        const std::filesystem::path file = folder_ / (std::string(layer.name) + ".exr");
+        ASSERT_EQ(render("--layers " + std::string(layer.name), file).exit_code, 0);
+        const Image some = read_image(file);
+        std::vector<std::string> expected{"R", "G", "B"};
+        if (!layer.is_beauty()) {
+            std::ranges::copy(channel_names(layer), std::back_inserter(expected));
+        }
+        ASSERT_EQ(some.channels, expected);
+        for (std::size_t c = 0; c < expected.size(); ++c) {
+            const auto same = static_cast<std::size_t>(all.find_channel(expected[c]));
+            EXPECT_EQ(some.at(20, 30, c), all.at(20, 30, same)) << expected[c];
+        }
     }
 }
 

@@ -37,18 +37,23 @@ RenderSettings with_passes(RenderSettings settings, uint passes) {
     return settings;
 }
 
+/// Whether passes average what stands at `index` in finished rows.
+bool is_averaged(std::size_t index) {
+    return pass_rules()[index % NEARLIGHT_LAYER_CHANNELS] == PassRule::mean;
+}
+
 /// Of those layers that passes average, and of the others.
 struct Differences {
     double light = 0;
     double geometry = 0;
 };
 Differences largest_differences(const Image& a, const Image& b) {
-    Differences most;
+    Differences largest;
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-        double& largest = i % NEARLIGHT_LAYER_CHANNELS < 9 ? most.light : most.geometry;
-        largest = std::max(largest, std::abs(double{a.values[i]} - b.values[i]));
+        double& difference = is_averaged(i) ? largest.light : largest.geometry;
+        difference = std::max(difference, std::abs(double{a.values[i]} - b.values[i]));
     }
-    return most;
+    return largest;
 }
 
 TEST(PassSeed, NoTwoPassesOfNeighbouringSeedsAreAlike) {
@@ -100,11 +105,11 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
                     continue;
                 }
                 for (std::size_t i = 0; i < expected.values.size(); ++i) {
-                    expected.values[i] += i % NEARLIGHT_LAYER_CHANNELS < 9 ? single.image.values[i] : 0.0f;
+                    expected.values[i] += is_averaged(i) ? single.image.values[i] : 0.0f;
                 }
             }
             for (std::size_t i = 0; i < expected.values.size(); ++i) {
-                expected.values[i] /= i % NEARLIGHT_LAYER_CHANNELS < 9 ? kPasses : 1.0f;
+                expected.values[i] /= is_averaged(i) ? kPasses : 1.0f;
             }
             const Differences differences = largest_differences(expected, averaged.image);
             EXPECT_LT(differences.light, 1e-5) << to_string(sampler);
@@ -160,8 +165,7 @@ TEST(PassAverage, DividesEachRowByThePassesThatReachedIt) {
     average.send([&](std::span<const float> row) { sent.insert(sent.end(), row.begin(), row.end()); });
     ASSERT_EQ(sent.size(), rows.size());
     for (std::size_t i = 0; i < sent.size(); ++i) {
-        const bool is_light = i % NEARLIGHT_LAYER_CHANNELS < 9;
-        EXPECT_EQ(sent[i], is_light && i < 2 * NEARLIGHT_LAYER_CHANNELS ? 2.5f : 1.0f) << i;
+        EXPECT_EQ(sent[i], is_averaged(i) && i < 2 * NEARLIGHT_LAYER_CHANNELS ? 2.5f : 1.0f) << i;
     }
 }
 

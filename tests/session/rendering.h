@@ -6,7 +6,7 @@
 
 #include "host/image/image.h"
 #include "host/session/render.h"
-#include "host/stages/film.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core::test {
 

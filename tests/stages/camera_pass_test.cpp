@@ -20,6 +20,8 @@ namespace {
 using namespace small_scenes;
 using test::SceneOnDevice;
 
+constexpr std::size_t kTile = NEARLIGHT_TILE_SIZE;
+
 struct GBuffer {
     std::vector<ReceiverPacket> receivers;
     std::vector<CameraVertex> vertices;
@@ -46,7 +48,7 @@ class Shooting {
     }
     /// All rows, `samples` samples of as many.
     GBuffer shoot_all(uint samples, uint branches, uint seed = 1) {
-        return shoot({.tile_row_count = (camera.height + 7) / 8,
+        return shoot({.tile_row_count = tiles_across(camera.height),
                       .sample_count = samples,
                       .samples_per_pixel = samples,
                       .branch_count = branches},
@@ -117,8 +119,8 @@ TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
         // top.
         for (std::size_t i = 0; i < found.vertices.size(); ++i) {
             const std::size_t tile = i / NEARLIGHT_PACKET_SIZE;
-            const std::size_t x = tile % 2 * 8 + i % 8;
-            const std::size_t y = tile / 2 * 8 + i % NEARLIGHT_PACKET_SIZE / 8;
+            const std::size_t x = tile % 2 * kTile + i % kTile;
+            const std::size_t y = tile / 2 * kTile + i % NEARLIGHT_PACKET_SIZE / kTile;
             const bool on_lamp = x >= 4 && x <= 5 && y >= 4 && y <= 5;
             EXPECT_EQ(found.vertices[i].emitted.x, on_lamp ? 1.0f : 0.0f) << x << ", " << y;
         }
@@ -220,8 +222,8 @@ TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
             const std::size_t tile = i / NEARLIGHT_PACKET_SIZE;
             const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
             const Branches b = branches_of(found, tile, lane);
-            const uint x = static_cast<uint>(tile % 3 * 8 + lane % 8);
-            const uint y = static_cast<uint>(tile / 3 * 8 + lane / 8);
+            const uint x = static_cast<uint>(tile % 3 * kTile + lane % kTile);
+            const uint y = static_cast<uint>(tile / 3 * kTile + lane / kTile);
             const Vec3 d = pixel_ray(shooting.camera, x, y).direction;
             const auto f = static_cast<float>(dielectric_reflectance(-d.y, 1.5));
             const Vec3 base = camera_albedo(scene, scene.materials[coat], 0, 0);

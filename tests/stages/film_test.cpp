@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/film.h"
 
+#include <cmath>
+
 #include "host/selftest/film_oracle.h"
 #include "tests/support/device_fixture.h"
 
@@ -35,7 +37,7 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
         const Buffer<IrradiancePacket> direct(device, batch.direct);
         const Buffer<IrradiancePacket> indirect(device, batch.indirect);
         film.add(receivers, vertices, direct, indirect,
-                 {.tile_row_count = 2,
+                 {.tile_row_count = static_cast<uint>(kLayout.tile_rows()),
                   .sample_count = count,
                   .samples_per_pixel = kLayout.samples,
                   .branch_count = kLayout.branches},
@@ -49,7 +51,6 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
 }
 
 TEST_F(FilmTest, LayersAreSumsOverSamplesAndBranches) {
-    ASSERT_EQ(layer_channels().size(), static_cast<std::size_t>(NEARLIGHT_LAYER_CHANNELS));
     const FilmSamples samples = random_film_samples(kLayout);
     on_each_device([&](Device& device) {
         const std::vector<float> layers = develop(device, samples, {kLayout.samples});
@@ -61,6 +62,25 @@ TEST_F(FilmTest, LayersAreSumsOverSamplesAndBranches) {
                                 2e-6)
                         << layer_channels()[c] << " of pixel " << x << ", " << y;
                 }
+            }
+        }
+    });
+}
+
+TEST_F(FilmTest, EveryLayerOfTheTableIsWritten) {
+    const FilmSamples samples = random_film_samples(kLayout);
+    on_each_device([&](Device& device) {
+        const std::vector<float> layers = develop(device, samples, {kLayout.samples});
+        for (const FilmLayer& layer : kFilmLayers) {
+            for (std::size_t c = 0; c < layer.channel_count; ++c) {
+                std::size_t lit = 0;
+                for (std::size_t at = layer.first_channel + c; at < layers.size();
+                     at += NEARLIGHT_LAYER_CHANNELS) {
+                    ASSERT_LT(std::abs(layers[at]), 100.0f)
+                        << channel_names(layer)[c] << " was never written";
+                    lit += layers[at] > 0.0f;
+                }
+                EXPECT_GT(lit, kLayout.width * kLayout.height / 2) << channel_names(layer)[c];
             }
         }
     });

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/film_layers.h"
+
+#include <algorithm>
+
+namespace nearlight::core {
+
+static_assert(std::ranges::all_of(kFilmLayers, [](const FilmLayer& layer) {
+    return layer.suffixes.size() == layer.channel_count;
+}));
+
+std::vector<std::string> channel_names(const FilmLayer& layer) {
+    const std::string prefix = layer.is_beauty() ? "" : std::string(layer.name) + ".";
+    std::vector<std::string> names;
+    for (const char suffix : layer.suffixes) {
+        names.push_back(prefix + suffix);
+    }
+    return names;
+}
+
+std::vector<std::string> layer_channels() {
+    std::vector<std::string> all;
+    for (const FilmLayer& layer : kFilmLayers) {
+        for (std::string& name : channel_names(layer)) {
+            all.push_back(std::move(name));
+        }
+    }
+    return all;
+}
+
+std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> pass_rules() {
+    std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> rules;
+    for (const FilmLayer& layer : kFilmLayers) {
+        std::fill_n(rules.begin() + layer.first_channel, layer.channel_count, layer.passes);
+    }
+    return rules;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of the picture's layers, compiled by host and kernels. The kernel of the film, the average of
+// passes, the EXR files and the help text of --layers come from it; CONTRIBUTING.md says how to add a row.
+//
+// A row is LAYER(constant, name, channels, samples, passes).
+//   constant   is what NEARLIGHT_LAYER_… and NEARLIGHT_SUM_… end in.
+//   name       stands before the channel in files, as in "direct.R"; the beauty's channels have no prefix.
+//   channels   is one letter for each channel.
+//   samples    says how the samples of a pixel become the layer:
+//     mean       their mean;
+//     direction  the unit vector along their sum;
+//     first      the value of the first sample that met something, because positions and depths cannot be
+//                averaged across an edge;
+//     light      the sum of the layers direct and indirect, for which nothing is added up separately.
+//   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first.
+// The order of the rows is the order of the channels in a picture and in its files.
+#ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
+#define NEARLIGHT_SHARED_FILM_LAYERS_H
+
+#define NEARLIGHT_FILM_LAYERS(LAYER)             \
+    LAYER(BEAUTY, "beauty", RGB, light, mean)    \
+    LAYER(DIRECT, "direct", RGB, mean, mean)     \
+    LAYER(INDIRECT, "indirect", RGB, mean, mean) \
+    LAYER(ALBEDO, "albedo", RGB, mean, first)    \
+    LAYER(NORMAL, "N", XYZ, direction, first)    \
+    LAYER(POSITION, "P", XYZ, first, first)      \
+    LAYER(DEPTH, "depth", Z, first, first)       \
+    LAYER(CLOSE_RANGE, "closerange", Y, mean, first)
+
+// How many channels each word of the column `channels` stands for.
+#define NEARLIGHT_CHANNELS_RGB 3
+#define NEARLIGHT_CHANNELS_XYZ 3
+#define NEARLIGHT_CHANNELS_Y 1
+#define NEARLIGHT_CHANNELS_Z 1
+
+// How many floats a pixel needs to add up samples for a layer of `count` channels.
+#define NEARLIGHT_SUMS_mean(count) count
+#define NEARLIGHT_SUMS_direction(count) count
+#define NEARLIGHT_SUMS_first(count) count
+#define NEARLIGHT_SUMS_light(count) 0
+
+#define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes) +NEARLIGHT_CHANNELS_##channels
+#define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes) \
+    +NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels)
+
+/// Channels of a finished picture.
+#define NEARLIGHT_LAYER_CHANNELS (0 NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_SIZE))
+/// Floats a pixel while samples are added.
+#define NEARLIGHT_FILM_CHANNELS (0 NEARLIGHT_FILM_LAYERS(NEARLIGHT_SUM_SIZE))
+
+#ifdef __cplusplus
+namespace nearlight::core {
+#endif
+
+// Each row names its first and its last channel, so that the first one of the next row follows.
+#define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes) \
+    NEARLIGHT_LAYER_##constant,                                          \
+        NEARLIGHT_LAYER_##constant##_LAST = NEARLIGHT_LAYER_##constant + NEARLIGHT_CHANNELS_##channels - 1,
+#define NEARLIGHT_SUM_PLACE(constant, name, channels, samples, passes) \
+    NEARLIGHT_SUM_##constant,                                          \
+        NEARLIGHT_SUM_##constant##_LAST =                              \
+            NEARLIGHT_SUM_##constant + NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels) - 1,
+
+/// NEARLIGHT_LAYER_DIRECT is the first channel of the layer "direct" in a finished picture, and so on.
+enum { NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_PLACE) };
+/// NEARLIGHT_SUM_DIRECT is the first of the floats in which a pixel adds up the samples of the layer
+/// "direct", and so on. A layer for which nothing is added up has no place of its own.
+enum { NEARLIGHT_FILM_LAYERS(NEARLIGHT_SUM_PLACE) };
+
+#ifdef __cplusplus
+}  // namespace nearlight::core
+#endif
+
+#endif
