@@ -62,7 +62,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
 }
 
 // How the sums of a pixel become a layer of `count` channels, a function for each word of the column
-// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples.
+// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples; all have the
+// same parameters, used or not.
 
 inline void resolve_mean(const global float* sums, uint first, uint count, float scale, global float* layer) {
     for (uint c = 0; c < count; ++c) {
@@ -71,18 +72,21 @@ inline void resolve_mean(const global float* sums, uint first, uint count, float
 }
 inline void resolve_first(const global float* sums, uint first, uint count, float scale,
                           global float* layer) {
+    (void)scale;
     for (uint c = 0; c < count; ++c) {
         layer[c] = sums[first + c];
     }
 }
 inline void resolve_direction(const global float* sums, uint first, uint count, float scale,
                               global float* layer) {
+    (void)count, (void)scale;
     const float3 n = (float3)(sums[first], sums[first + 1], sums[first + 2]);
     const float squared = dot(n, n);
     store_channels(layer, squared > 0.0f ? n * rsqrt(squared) : n);
 }
 inline void resolve_light(const global float* sums, uint first, uint count, float scale,
                           global float* layer) {
+    (void)first;
     for (uint c = 0; c < count; ++c) {
         layer[c] = (sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c]) * scale;
     }
