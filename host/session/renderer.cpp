@@ -7,7 +7,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/bvh_cache.h"
-#include "host/cl/program_compiler.h"
+#include "host/cl/compile/program_compiler.h"
 #include "host/session/band_renderer.h"
 #include "host/session/passes.h"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <functional>
 
+#include "host/cl/compile/program_cache.h"
+#include "host/cl/compile/program_compiler.h"
 #include "host/cl/kernel.h"
-#include "host/cl/program_cache.h"
-#include "host/cl/program_compiler.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"

@@ -7,8 +7,8 @@
 
 #include "host/base/files.h"
 #include "host/base/hash.h"
+#include "host/cl/devices/tunables.h"
 #include "host/cl/kernel_source.h"
-#include "host/cl/tunables.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {

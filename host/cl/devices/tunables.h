@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 
 namespace nearlight::core {
 
