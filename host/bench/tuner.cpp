@@ -266,6 +266,8 @@ TunerResult tune(Device& device, const TunerConfig& config) {
     TunerResult result;
     result.device = device.entry().label();
     result.usual = result.chosen = tunables_row(device.entry().kind).values;
+    result.kernels = {"gather_packets.cl", "gather_rays.cl", "camera_pass.cl",
+                      "direct_light.cl",   "morton_sort.cl", "prefix_scan.cl"};
     device.set_tunables(result.usual);
     const Room room(device, config);
     for (const Trial& trial : make_trials(device, room, config)) {
