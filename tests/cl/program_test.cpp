@@ -194,6 +194,22 @@ TEST_F(ProgramTest, AllOfManyProgramsAreReadyAndNobodyWaitsForThoseNotUsed) {
     });
 }
 
+TEST_F(ProgramTest, OnCpusAJointProgramIsCompiledOnceForAllItsStages) {
+    write_kernel("question.cl", "kernel void question(global uint* out) { out[0] = 6 * 9; }\n");
+    write_kernel("joint.cl", "#define ANSWER 54\n#include \"answer.cl\"\n#include \"question.cl\"\n");
+    constexpr JointProgram kJoint{"joint.cl"};
+    on_each_own_device([&](Device& device) {
+        Kernel answer(Program(device, "answer.cl", kJoint), "answer");
+        Kernel question(Program(device, "question.cl", kJoint), "question");
+        Buffer<uint> out(device, 1);
+        answer.launch(1, 1, out);
+        EXPECT_EQ(out.download_one(0), device.is_cpu() ? 54u : 42u);
+        question.launch(1, 1, out);
+        EXPECT_EQ(out.download_one(0), 54u);
+        EXPECT_EQ(cached_files().size(), device.is_cpu() ? 1u : 2u);
+    });
+}
+
 TEST_F(ProgramTest, DevicesThatShareACompilerCompileOnce) {
     on_each_own_device([&](Device& device) {
         DeviceOptions options{.kernel_dir = kernel_dir(), .cache_dir = cache_dir()};
