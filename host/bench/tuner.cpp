@@ -9,7 +9,7 @@
 #include "host/base/hash.h"
 #include "host/base/random.h"
 #include "host/bench/gather_segments.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/session/view.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/direct_light.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/film.h"
 
-#include "host/selftest/film_oracle.h"
+#include "host/reference/film_oracle.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core {
