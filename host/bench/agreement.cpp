@@ -7,11 +7,11 @@
 
 #include "host/base/receivers.h"
 #include "host/bvh/segment_distance.h"
+#include "host/reference/edge_excuse.h"
 
 namespace nearlight::core {
 namespace {
 
-constexpr double kEdgeShare = 1e-5;        // of the scene's extent
 constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign
 constexpr double kMaxShare = 1e-5;         // of all rays
 constexpr std::uint64_t kMaxItems = 100;   // of a tracer: each costs a look at every edge
@@ -27,7 +27,7 @@ double cosine(Vec3 normal, Vec3 direction) {
 Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges)
     : segments_(&segments),
       edges_(edges),
-      edge_tolerance_(kEdgeShare * max_component(bounds(segments.geometry).size())) {}
+      edge_tolerance_(kSegmentEdgeTolerance * max_component(bounds(segments.geometry).size())) {}
 
 /// Fills in where the pair lies and how close it comes to what excuses.
 bool Agreement::is_excused(Disagreement& item) const {

@@ -7,8 +7,8 @@
 
 #include "host/base/stopwatch.h"
 #include "host/bench/embree_trees.h"
-#include "host/bench/gather_workload.h"
 #include "host/bench/statistics.h"
+#include "host/reference/gather_workload.h"
 
 namespace nearlight::core {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/base/receivers.h"
-#include "host/bench/gather_workload.h"
+#include "host/reference/gather_workload.h"
 #include "host/session/session.h"
 
 namespace nearlight::core {

@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "host/bench/embree_rays.h"
-#include "host/bench/gather_workload.h"
 #include "host/bench/statistics.h"
 #include "host/bvh/bvh.h"
+#include "host/reference/gather_workload.h"
 #include "host/stages/ray_caster.h"
 
 namespace nearlight::core {

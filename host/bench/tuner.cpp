@@ -9,7 +9,7 @@
 #include "host/base/hash.h"
 #include "host/base/random.h"
 #include "host/bench/gather_segments.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/session/session.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/direct_light.h"
@@ -263,6 +263,8 @@ TunerResult tune(Device& device, const TunerConfig& config) {
     TunerResult result;
     result.device = device.entry().label();
     result.usual = result.chosen = tunables_row(device.entry().kind).values;
+    result.kernels = {"gather_packets.cl", "gather_rays.cl", "camera_pass.cl",
+                      "direct_light.cl",   "morton_sort.cl", "prefix_scan.cl"};
     device.set_tunables(result.usual);
     const Room room(device, config);
     for (const Trial& trial : make_trials(device, room, config)) {

@@ -40,6 +40,7 @@ struct TunerResult {
     Tunables usual{};
     Tunables chosen{};
     std::vector<TunerTrial> trials;
+    std::vector<std::string> kernels;  ///< files under kernels/ on which the choice depends
 };
 
 /// Tries one tunable after the other, all candidates of one by turns. The table's value stays unless another

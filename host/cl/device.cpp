@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "host/base/message.h"
+#include "host/cl/compile/program_compiler.h"
 #include "host/cl/opencl_error.h"
-#include "host/cl/program_compiler.h"
 
 namespace nearlight::core {
 

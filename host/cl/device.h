@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
+#include "host/cl/devices/tunables.h"
 #include "host/cl/profiler.h"
-#include "host/cl/tunables.h"
 
 namespace nearlight::core {
 

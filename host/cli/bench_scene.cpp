@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {

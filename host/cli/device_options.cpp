@@ -2,7 +2,7 @@
 #include "host/cli/device_options.h"
 
 #include "host/base/log.h"
-#include "host/cl/program_compiler.h"
+#include "host/cl/compile/program_compiler.h"
 
 namespace nearlight::core {
 

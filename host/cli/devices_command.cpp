@@ -5,7 +5,7 @@
 
 #include "host/base/log.h"
 #include "host/cl/device.h"
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
 

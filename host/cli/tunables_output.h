@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "host/cl/tunables.h"
+#include "host/cl/devices/tunables.h"
 
 namespace nearlight::core {
 

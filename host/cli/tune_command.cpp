@@ -91,7 +91,7 @@ ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
     spdlog::info("measuring {}, which takes about half a minute", device->entry().label());
     const TunerResult result = tune(*device, options.config);
     if (!file.empty()) {
-        store_tunables(result.chosen, device->entry(), device->options().cache_dir,
+        store_tunables(result.chosen, result.kernels, device->entry(), device->options().cache_dir,
                        device->options().kernel_dir);
     }
     if (global.json) {

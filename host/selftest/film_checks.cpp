@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
+#include "host/reference/film_oracle.h"
 #include "host/selftest/checks.h"
-#include "host/selftest/film_oracle.h"
 #include "host/stages/film.h"
 
 namespace nearlight::core {

@@ -2,11 +2,11 @@
 #include "host/selftest/checks.h"
 
 #include "host/base/receivers.h"
-#include "host/bench/gather_workload.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
+#include "host/reference/gather_workload.h"
 #include "host/reference/reference_gather.h"
-#include "host/selftest/edge_excuse.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/stages/gatherer.h"
 
 namespace nearlight::core {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "host/base/receivers.h"
-#include "host/bench/gather_workload.h"
+#include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
+#include "host/reference/gather_workload.h"
 #include "host/reference/light_sampler.h"
 #include "host/reference/surface.h"
+#include "host/reference/test_rooms.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/selftest/edge_excuse.h"
-#include "host/selftest/test_rooms.h"
 #include "host/stages/bounce_tracer.h"
 #include "host/stages/local_lights.h"
 

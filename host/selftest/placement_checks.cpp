@@ -3,12 +3,12 @@
 
 #include <numeric>
 
+#include "host/reference/close_range_oracle.h"
 #include "host/reference/light_sampler.h"
+#include "host/reference/test_rays.h"
+#include "host/reference/test_rooms.h"
 #include "host/scene/pinhole_camera.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/selftest/close_range_oracle.h"
-#include "host/selftest/test_rays.h"
-#include "host/selftest/test_rooms.h"
 #include "host/stages/close_range.h"
 #include "host/stages/light_visibility.h"
 #include "host/stages/triangle_classifier.h"

@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "host/selftest/ray_comparison.h"
-#include "host/selftest/test_rays.h"
+#include "host/reference/ray_comparison.h"
+#include "host/reference/test_rays.h"
 #include "host/stages/ray_caster.h"
 
 namespace nearlight::core {

@@ -3,10 +3,10 @@
 #include <numeric>
 #include <vector>
 
-#include "host/bench/gather_workload.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/gather_workload.h"
+#include "host/reference/roulette_oracle.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/selftest/checks.h"
-#include "host/selftest/roulette_oracle.h"
 #include "host/stages/gatherer.h"
 
 namespace nearlight::core {

@@ -7,7 +7,7 @@
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/bvh_cache.h"
-#include "host/cl/program_compiler.h"
+#include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/bounce_tracer.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 BounceTracer::BounceTracer(Device& device)
-    : program_(device, "bounce_tracer.cl"), bounce_tracer_(program_, "bounce_tracer") {}
+    : program_(device, "bounce_tracer.cl", kWalksProgram), bounce_tracer_(program_, "bounce_tracer") {}
 
 void BounceTracer::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                        std::size_t packet_count, const BouncePaths& paths,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/camera_pass.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 std::size_t packet_count(const CameraBand& band, uint image_width) {
@@ -9,7 +11,7 @@ std::size_t packet_count(const CameraBand& band, uint image_width) {
 }
 
 CameraPass::CameraPass(Device& device)
-    : program_(device, "camera_pass.cl"), camera_pass_(program_, "camera_pass") {}
+    : program_(device, "camera_pass.cl", kViewProgram), camera_pass_(program_, "camera_pass") {}
 
 void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,

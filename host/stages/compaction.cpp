@@ -2,12 +2,13 @@
 #include "host/stages/compaction.h"
 
 #include "host/stages/chunks.h"
+#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 
 Compaction::Compaction(Device& device)
     : device_(&device),
-      program_(device, "compaction.cl"),
+      program_(device, "compaction.cl", kVplsProgram),
       count_(program_, "compaction_count"),
       write_(program_, "compaction_write"),
       gather_(program_, "compaction_gather"),

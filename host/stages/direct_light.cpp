@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/direct_light.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 DirectLight::DirectLight(Device& device)
-    : program_(device, "direct_light.cl"), direct_light_(program_, "direct_light") {}
+    : program_(device, "direct_light.cl", kViewProgram), direct_light_(program_, "direct_light") {}
 
 void DirectLight::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                       std::size_t packet_count, uint sample_count, uint seed,

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/film.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 Film::Film(Device& device)
-    : program_(device, "film.cl"), film_add_(program_, "film_add"), film_resolve_(program_, "film_resolve") {}
+    : program_(device, "film.cl", kViewProgram),
+      film_add_(program_, "film_add"),
+      film_resolve_(program_, "film_resolve") {}
 
 void Film::add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
                const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect,

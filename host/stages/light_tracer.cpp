@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/random.h"
+#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 namespace {
@@ -26,7 +27,7 @@ std::vector<float> walks_at_each_depth(const LightWalks& walks) {
 
 LightTracer::LightTracer(Device& device)
     : device_(&device),
-      program_(device, "light_tracer.cl"),
+      program_(device, "light_tracer.cl", kWalksProgram),
       light_tracer_(program_, "light_tracer"),
       compaction_(device) {}
 

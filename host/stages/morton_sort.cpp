@@ -2,6 +2,7 @@
 #include "host/stages/morton_sort.h"
 
 #include "host/stages/chunks.h"
+#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 namespace {
@@ -28,7 +29,7 @@ void ensure_room(Buffer<T>& buffer, Device& device, std::size_t count) {
 
 MortonSort::MortonSort(Device& device)
     : device_(&device),
-      program_(device, "morton_sort.cl"),
+      program_(device, "morton_sort.cl", kVplsProgram),
       bounds_(program_, "morton_bounds"),
       codes_kernel_(program_, "morton_codes"),
       count_(program_, "sort_count"),

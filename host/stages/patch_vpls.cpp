@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/patch_vpls.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 PatchVpls::PatchVpls(Device& device)
-    : program_(device, "patch_vpls.cl"), patch_vpls_(program_, "patch_vpls") {}
+    : program_(device, "patch_vpls.cl", kVplsProgram), patch_vpls_(program_, "patch_vpls") {}
 
 void PatchVpls::run(const DeviceScene& scene, const Buffer<SurfaceSample>& samples, std::size_t sample_count,
                     const CloseRegion& region, float area_per_sample, Buffer<Vpl>& vpls,

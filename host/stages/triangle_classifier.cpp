@@ -2,11 +2,12 @@
 #include "host/stages/triangle_classifier.h"
 
 #include "host/stages/chunks.h"
+#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 
 TriangleClassifier::TriangleClassifier(Device& device)
-    : program_(device, "triangle_classifier.cl"),
+    : program_(device, "triangle_classifier.cl", kVplsProgram),
       classify_(program_, "classify_triangles"),
       centroids_(program_, "triangle_centroids") {}
 

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 VplContribution::VplContribution(Device& device, Gatherer& gatherer)
     : device_(&device),
       gatherer_(&gatherer),
       vpl_light_(device),
-      program_(device, "vpl_contribution.cl"),
+      program_(device, "vpl_contribution.cl", kVplsProgram),
       vpl_contribution_(program_, "vpl_contribution"),
       vpl_group_contribution_(program_, "vpl_group_contribution"),
       vpl_least_importance_(program_, "vpl_least_importance") {}

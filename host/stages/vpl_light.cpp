@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/vpl_light.h"
 
+#include "host/stages/joint_programs.h"
+
 namespace nearlight::core {
 
 VplLight::VplLight(Device& device)
-    : program_(device, "vpl_light.cl"),
+    : program_(device, "vpl_light.cl", kVplsProgram),
       vpl_receivers_(program_, "vpl_receivers"),
       vpl_light_(program_, "vpl_light"),
       add_irradiance_(program_, "add_irradiance") {}

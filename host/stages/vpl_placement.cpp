@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/stages/chunks.h"
+#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 
@@ -16,7 +17,7 @@ float area_units_per_square_metre(double total_area) {
 
 VplPlacement::VplPlacement(Device& device)
     : device_(&device),
-      program_(device, "vpl_placement.cl"),
+      program_(device, "vpl_placement.cl", kVplsProgram),
       areas_(program_, "placement_areas"),
       place_(program_, "place_samples"),
       scan_(device) {}

@@ -6,8 +6,8 @@
 
 #include "host/base/receivers.h"
 #include "host/bench/embree_trees.h"
-#include "host/bench/gather_workload.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/gather_workload.h"
+#include "host/reference/synthetic_scene.h"
 
 namespace nearlight::core {
 namespace {

@@ -9,10 +9,10 @@
 #include "host/base/receivers.h"
 #include "host/bench/agreement.h"
 #include "host/bench/embree_occlusion.h"
-#include "host/bench/gather_workload.h"
-#include "host/bench/synthetic_scene.h"
 #include "host/bvh/segment_distance.h"
+#include "host/reference/gather_workload.h"
 #include "host/reference/reference_gather.h"
+#include "host/reference/synthetic_scene.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core::test {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "host/base/files.h"
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/error_matchers.h"
 

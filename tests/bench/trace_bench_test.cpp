@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "host/bench/embree_rays.h"
-#include "host/bench/gather_workload.h"
-#include "host/bench/synthetic_scene.h"
 #include "host/bvh/bvh.h"
+#include "host/reference/gather_workload.h"
+#include "host/reference/synthetic_scene.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core::test {

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <functional>
 
+#include "host/cl/compile/program_cache.h"
+#include "host/cl/compile/program_compiler.h"
 #include "host/cl/kernel.h"
-#include "host/cl/program_cache.h"
-#include "host/cl/program_compiler.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
@@ -191,6 +191,22 @@ TEST_F(ProgramTest, AllOfManyProgramsAreReadyAndNobodyWaitsForThoseNotUsed) {
         for (uint i = 100; i < 112; ++i) {
             const Program never_used(device, "answer.cl", {{"ANSWER", std::to_string(i)}});
         }
+    });
+}
+
+TEST_F(ProgramTest, OnCpusAJointProgramIsCompiledOnceForAllItsStages) {
+    write_kernel("question.cl", "kernel void question(global uint* out) { out[0] = 6 * 9; }\n");
+    write_kernel("joint.cl", "#define ANSWER 54\n#include \"answer.cl\"\n#include \"question.cl\"\n");
+    constexpr JointProgram kJoint{"joint.cl"};
+    on_each_own_device([&](Device& device) {
+        Kernel answer(Program(device, "answer.cl", kJoint), "answer");
+        Kernel question(Program(device, "question.cl", kJoint), "question");
+        Buffer<uint> out(device, 1);
+        answer.launch(1, 1, out);
+        EXPECT_EQ(out.download_one(0), device.is_cpu() ? 54u : 42u);
+        question.launch(1, 1, out);
+        EXPECT_EQ(out.download_one(0), 54u);
+        EXPECT_EQ(cached_files().size(), device.is_cpu() ? 1u : 2u);
     });
 }
 

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 

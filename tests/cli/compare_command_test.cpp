@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "host/reference/close_range_oracle.h"
 #include "host/scene/pinhole_camera.h"
-#include "host/selftest/close_range_oracle.h"
 #include "host/stages/close_range.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"

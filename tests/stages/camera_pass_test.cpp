@@ -5,10 +5,10 @@
 
 #include "host/base/random.h"
 #include "host/base/receivers.h"
+#include "host/reference/camera_oracle.h"
 #include "host/reference/lobe.h"
 #include "host/scene/material_model.h"
 #include "host/scene/pinhole_camera.h"
-#include "host/selftest/camera_oracle.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"

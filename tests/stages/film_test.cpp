@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "host/selftest/film_oracle.h"
+#include "host/reference/film_oracle.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core {

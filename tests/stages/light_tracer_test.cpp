@@ -7,6 +7,7 @@
 
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
+#include "host/stages/joint_programs.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
@@ -232,7 +233,7 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
         const SceneOnDevice on_device(device, scene);
         const CloseRegion region = make_region(device, on_device.buffers, {}, 0);
         const Buffer<float> walks_at_depth(device, std::vector<float>{1000.0f, 700.5f, 490.25f});
-        const Program program(device, "light_tracer.cl");
+        const Program program(device, "light_tracer.cl", kWalksProgram);
         Kernel kernel(program, "light_tracer");
         const auto run = [&](uint first, uint count) {
             Buffer<Vpl> vpls(device, std::size_t{count} * kBounces);

@@ -10,8 +10,8 @@
 #include <memory>
 #include <numeric>
 
-#include "host/selftest/ray_comparison.h"
-#include "host/selftest/test_rays.h"
+#include "host/reference/ray_comparison.h"
+#include "host/reference/test_rays.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core {

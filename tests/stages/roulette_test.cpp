@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "host/selftest/roulette_oracle.h"
+#include "host/reference/roulette_oracle.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
 #include "tests/support/spread.h"

@@ -3,8 +3,8 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
+#include "host/reference/close_range_oracle.h"
 #include "host/scene/pinhole_camera.h"
-#include "host/selftest/close_range_oracle.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 
 namespace nearlight::core::test {
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "host/cl/program_build.h"
+#include "host/cl/compile/program_build.h"
 
 namespace nearlight::core {
 

@@ -14,6 +14,9 @@ namespace nearlight::core {
 /// roundings of the products that decide on which side of the edge it passes.
 inline constexpr double kEdgeTolerance = 2e-6;
 
+/// m between the ray, as far as the scene (of that extent) reaches, and the nearest edge of a triangle.
+double distance_to_triangle_edges(const Scene& scene, uint triangle, const RayQuery& ray, float extent);
+
 /// A ray on which two casters differ.
 struct RayDispute {
     RayQuery ray{};

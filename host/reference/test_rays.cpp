@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/test_rays.h"
+#include "host/reference/test_rays.h"
 
 #include "host/base/math.h"
 #include "host/base/random.h"

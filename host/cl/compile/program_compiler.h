@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "host/base/stopwatch.h"
-#include "host/cl/compile_worker.h"
-#include "host/cl/program_build.h"
+#include "host/cl/compile/compile_worker.h"
+#include "host/cl/compile/program_build.h"
 
 namespace nearlight::core {
 

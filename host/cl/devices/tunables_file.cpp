@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tunables on disk: lines of "name value", for people to read and to change.
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include "host/base/files.h"
 #include "host/base/hash.h"
+#include "host/cl/devices/tunables.h"
 #include "host/cl/kernel_source.h"
-#include "host/cl/tunables.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
 
-constexpr const char* kHead = "nearlight tunables 1";
+constexpr const char* kHead = "nearlight tunables 2";
 
-/// Of the kernels that were measured: others may want other values.
-std::string kernels_key(const std::filesystem::path& kernel_dir) {
+/// A hash of the text of kernel files, followed by their names, so that whoever reads it can make it anew.
+std::string kernels_key(std::span<const std::string> files, const std::filesystem::path& kernel_dir) {
     std::uint64_t hash = kFnvSeed;
-    for (const char* file : {"gather_packets.cl", "gather_rays.cl", "camera_pass.cl", "direct_light.cl",
-                             "morton_sort.cl", "prefix_scan.cl"}) {
+    std::string names;
+    for (const std::string& file : files) {
         hash = fnv1a(expand_kernel_source(file, kernel_dir), hash);
+        names += " " + file;
     }
-    return hex_digits(hash);
+    return hex_digits(hash) + names;
+}
+
+/// Whether the kernels that `key` names are still what they were when kernels_key() made it.
+bool is_current(const std::string& key, const std::filesystem::path& kernel_dir) {
+    std::istringstream words(key);
+    std::string hash;
+    words >> hash;
+    const std::vector<std::string> files{std::istream_iterator<std::string>(words), {}};
+    try {
+        return !files.empty() && kernels_key(files, kernel_dir) == key;
+    } catch (const Error&) {
+        return false;  // one of the files is gone
+    }
 }
 
 std::string device_key(const DeviceEntry& entry) {
@@ -84,7 +100,8 @@ Tunables read_tunables(std::istream& file, const DeviceEntry& entry,
     if (!is("device", device_key(entry))) {
         throw Complaint{"is of another device or driver"};
     }
-    if (!is("kernels", kernels_key(kernel_dir))) {
+    if (const auto found = lines.find("kernels");
+        found == lines.end() || !is_current(found->second, kernel_dir)) {
         throw Complaint{"was found with other kernels"};
     }
     Tunables tunables{};
@@ -119,14 +136,14 @@ ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::
     return {row.values, std::string("table for ") + row.name, false, std::move(warning)};
 }
 
-void store_tunables(const Tunables& tunables, const DeviceEntry& entry,
+void store_tunables(const Tunables& tunables, std::span<const std::string> kernels, const DeviceEntry& entry,
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir) {
     const std::filesystem::path path = tunables_file(entry, cache_dir);
     if (path.empty()) {
         throw Error(ErrorKind::invalid_argument, "no folder to keep tunables in: give one with --cache-dir");
     }
     make_folder(cache_dir);
-    write_text(path, to_text(tunables, entry, kernels_key(kernel_dir)));
+    write_text(path, to_text(tunables, entry, kernels_key(kernels, kernel_dir)));
 }
 
 }  // namespace nearlight::core

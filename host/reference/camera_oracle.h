@@ -4,8 +4,8 @@
 
 #include <span>
 
+#include "host/base/math.h"
 #include "host/reference/embree_scene.h"
-#include "host/stages/camera_pass.h"
 
 namespace nearlight::core {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/tunables.h"
+#include "host/cl/devices/tunables.h"
 
 #include <algorithm>
 #include <array>

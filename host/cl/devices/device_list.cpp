@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/film_oracle.h"
+#include "host/reference/film_oracle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/camera_oracle.h"
+#include "host/reference/camera_oracle.h"
 
 #include "host/base/receivers.h"
-#include "host/bvh/segment_distance.h"
+#include "host/reference/close_range_oracle.h"
+#include "host/reference/ray_comparison.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/selftest/close_range_oracle.h"
-#include "host/selftest/ray_comparison.h"
 
 namespace nearlight::core {
 namespace {
@@ -39,13 +38,7 @@ bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, con
 }
 
 bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, float extent) {
-    const Triangle& t = scene.triangles[hit.triangle];
-    const Vec3 a = scene.vertices[t.v0].position;
-    const Vec3 b = scene.vertices[t.v1].position;
-    const Vec3 c = scene.vertices[t.v2].position;
-    const Vec3 end = ray.origin + ray.direction * (2.0f * (extent + length(ray.origin - a)));
-    return std::min({segment_distance(ray.origin, end, a, b), segment_distance(ray.origin, end, b, c),
-                     segment_distance(ray.origin, end, c, a)}) <= kEdgeTolerance * extent;
+    return distance_to_triangle_edges(scene, hit.triangle, ray, extent) <= kEdgeTolerance * extent;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/compile_worker.h"
+#include "host/cl/compile/compile_worker.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <thread>
 
+#include "host/cl/compile/program_compiler.h"
 #include "host/cl/kernel.h"
-#include "host/cl/program_compiler.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 
 #include <algorithm>
 #include <cmath>

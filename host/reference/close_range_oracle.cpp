@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/close_range_oracle.h"
+#include "host/reference/close_range_oracle.h"
 
 #include <algorithm>
 #include <array>

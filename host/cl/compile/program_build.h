@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 
 namespace nearlight::core {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/program_build.h"
+#include "host/cl/compile/program_build.h"
 
 #include <fstream>
 #include <optional>
@@ -8,9 +8,9 @@
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
-#include "host/cl/compile_worker.h"
+#include "host/cl/compile/compile_worker.h"
+#include "host/cl/compile/program_cache.h"
 #include "host/cl/opencl_error.h"
-#include "host/cl/program_cache.h"
 
 namespace nearlight::core {
 namespace {

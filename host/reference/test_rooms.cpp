@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/test_rooms.h"
+#include "host/reference/test_rooms.h"
 
-#include "host/bench/synthetic_scene.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/scene/material_model.h"
 
 namespace nearlight::core {

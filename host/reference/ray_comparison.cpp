@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/ray_comparison.h"
+#include "host/reference/ray_comparison.h"
 
 #include <algorithm>
 #include <sstream>
@@ -27,15 +27,6 @@ double cosine_to(const Scene& scene, uint id, Vec3 direction) {
     return std::abs(dot(normalize(cross(b - a, c - a)), normalize(direction)));
 }
 
-/// Of the ray, as far as the scene reaches, from the edges of a triangle.
-double edge_distance(const Scene& scene, uint id, const RayQuery& ray, float extent) {
-    const auto [a, b, c] = corners(scene, id);
-    const float reach = 2.0f * (extent + length(ray.origin - a));
-    const Vec3 end = ray.origin + normalize(ray.direction) * reach;
-    return std::min({segment_distance(ray.origin, end, a, b), segment_distance(ray.origin, end, b, c),
-                     segment_distance(ray.origin, end, c, a)});
-}
-
 bool agree(const Scene& scene, const RayQuery& ray, const BvhHit& expected, const BvhHit& found) {
     if (expected.triangle != found.triangle) {
         return false;
@@ -53,7 +44,7 @@ RayDispute judge(const Scene& scene, float extent, const RayQuery& ray, const Bv
                  const BvhHit& found) {
     RayDispute dispute{.ray = ray, .expected = expected, .found = found};
     const BvhHit& nearer = found.t < expected.t ? found : expected;
-    dispute.edge_distance = edge_distance(scene, nearer.triangle, ray, extent);
+    dispute.edge_distance = distance_to_triangle_edges(scene, nearer.triangle, ray, extent);
     const double gap = std::abs(double{found.t} - expected.t) * length(ray.direction);
     const bool equally_far =
         expected.triangle != ~0u && found.triangle != ~0u && gap <= kDistanceTolerance * extent;
@@ -67,6 +58,14 @@ std::string to_string(const BvhHit& hit) {
 }
 
 }  // namespace
+
+double distance_to_triangle_edges(const Scene& scene, uint triangle, const RayQuery& ray, float extent) {
+    const auto [a, b, c] = corners(scene, triangle);
+    const float reach = 2.0f * (extent + length(ray.origin - a));
+    const Vec3 end = ray.origin + normalize(ray.direction) * reach;
+    return std::min({segment_distance(ray.origin, end, a, b), segment_distance(ray.origin, end, b, c),
+                     segment_distance(ray.origin, end, c, a)});
+}
 
 std::string to_string(const RayDispute& dispute) {
     std::ostringstream text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/roulette_oracle.h"
+#include "host/reference/roulette_oracle.h"
 
 #include <numeric>
 

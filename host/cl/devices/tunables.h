@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "host/cl/device_list.h"
+#include "host/cl/devices/device_list.h"
 
 namespace nearlight::core {
 
@@ -62,9 +62,11 @@ ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::
 
 /// Where they are stored; empty where nothing is kept ("" and "none").
 std::filesystem::path tunables_file(const DeviceEntry& entry, const std::filesystem::path& cache_dir);
-/// Throws Error(ErrorKind::file) where it cannot be written, Error(ErrorKind::invalid_argument) where nothing
-/// is kept.
-void store_tunables(const Tunables& tunables, const DeviceEntry& entry,
+/// `kernels` are the files under kernels/ that were measured, one at least: once the text of any has changed,
+/// choose_tunables() passes the stored tunables over. Throws Error(ErrorKind::file) where they cannot be
+/// written, Error(ErrorKind::kernel_build) where there is no such kernel, Error(ErrorKind::invalid_argument)
+/// where nothing is kept.
+void store_tunables(const Tunables& tunables, std::span<const std::string> kernels, const DeviceEntry& entry,
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir);
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/bench/gather_workload.h"
+#include "host/reference/gather_workload.h"
 
 #include <algorithm>
 #include <cmath>

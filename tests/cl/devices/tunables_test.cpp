@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/tunables.h"
+#include "host/cl/devices/tunables.h"
 
 #include <gtest/gtest.h>
 
@@ -26,6 +26,10 @@ Tunables unusual() {
     tunables.packet_width = 32;
     tunables.runs_per_unit = 7;
     return tunables;
+}
+
+std::vector<std::string> measured_kernels() {
+    return {"prefix_scan.cl", "film.cl"};
 }
 
 std::string text_of(const std::filesystem::path& file) {
@@ -58,12 +62,12 @@ TEST(Tunables, WithoutAFileTheyAreTheTables) {
         EXPECT_FALSE(chosen.is_tuned);
         EXPECT_EQ(chosen.warning, "");
     }
-    EXPECT_THROW(store_tunables(unusual(), make_entry(), "none", {}), Error);
+    EXPECT_THROW(store_tunables(unusual(), measured_kernels(), make_entry(), "none", {}), Error);
 }
 
 TEST(Tunables, WhatWasStoredIsUsedForThatDeviceAndDriverOnly) {
     const TemporaryFolder folder;
-    store_tunables(unusual(), make_entry(), folder.path() / "new", {});
+    store_tunables(unusual(), measured_kernels(), make_entry(), folder.path() / "new", {});
     const ChosenTunables chosen = choose_tunables(make_entry(), folder.path() / "new", {});
     EXPECT_EQ(chosen.values, unusual());
     EXPECT_TRUE(chosen.is_tuned);
@@ -80,7 +84,7 @@ TEST(Tunables, WhatWasStoredIsUsedForThatDeviceAndDriverOnly) {
 
 TEST(Tunables, FoundWithOtherKernelsTheyAreOld) {
     const TemporaryFolder folder;
-    store_tunables(unusual(), make_entry(), folder.path(), {});
+    store_tunables(unusual(), measured_kernels(), make_entry(), folder.path(), {});
     const std::filesystem::path file = tunables_file(make_entry(), folder.path());
     std::string text = text_of(file);
     char& digit = text[text.find("kernels ") + 8];
@@ -92,9 +96,34 @@ TEST(Tunables, FoundWithOtherKernelsTheyAreOld) {
     EXPECT_NE(chosen.warning.find("nearlight tune"), std::string::npos) << chosen.warning;
 }
 
+TEST(Tunables, OnlyTheKernelsThatWereMeasuredMakeThemOld) {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        std::ofstream(folder / name) << text;
+    };
+    write("measured.cl", "#include \"included.cl\"\n");
+    write("included.cl", "// one\n");
+    write("other.cl", "// one\n");
+    const std::vector<std::string> kernels{"measured.cl"};
+    store_tunables(unusual(), kernels, make_entry(), folder.path(), folder.path());
+    const auto is_tuned = [&] {
+        return choose_tunables(make_entry(), folder.path(), folder.path()).is_tuned;
+    };
+    EXPECT_TRUE(is_tuned());
+    write("other.cl", "// two\n");
+    EXPECT_TRUE(is_tuned());
+    write("included.cl", "// two\n");
+    EXPECT_FALSE(is_tuned());
+    write("included.cl", "// one\n");
+    EXPECT_TRUE(is_tuned());
+    std::filesystem::remove(folder / "measured.cl");
+    EXPECT_FALSE(is_tuned());
+    EXPECT_THROW(store_tunables(unusual(), kernels, make_entry(), folder.path(), folder.path()), Error);
+}
+
 TEST(Tunables, DamagedFilesAreRefusedWithAWarning) {
     const TemporaryFolder folder;
-    store_tunables(unusual(), make_entry(), folder.path(), {});
+    store_tunables(unusual(), measured_kernels(), make_entry(), folder.path(), {});
     const std::filesystem::path file = tunables_file(make_entry(), folder.path());
     const std::string whole = text_of(file);
     const auto with = [&](const std::string& from, const std::string& to) {
@@ -107,7 +136,7 @@ TEST(Tunables, DamagedFilesAreRefusedWithAWarning) {
           with("packet_width 32", "packet_width -32"), with("packet_width 32", "packet_width 32 or so"),
           with("packet_width 32", "packet_width"),
           with("runs_per_unit 7", "runs_per_unit 99999999999999999999"),
-          with("runs_per_unit 7", "local_size 8"), with("tunables 1", "tunables 0")}) {
+          with("runs_per_unit 7", "local_size 8"), with("tunables 2", "tunables 1")}) {
         std::ofstream(file) << text;
         const ChosenTunables chosen = choose_tunables(make_entry(), folder.path(), {});
         EXPECT_EQ(chosen.values, tunables_row(DeviceKind::cpu).values) << text;

@@ -8,12 +8,15 @@
 
 namespace nearlight::core {
 
-/// Excuses segments that pass an edge within 10⁻⁵ of the scene's extent, but only so many: where everything
+/// How near an edge a segment must pass to go either way, as a fraction of the scene's extent.
+inline constexpr double kSegmentEdgeTolerance = 1e-5;
+
+/// Excuses segments that pass an edge that closely, but only so many: where everything
 /// is wrong, looking closely at each segment would take minutes and excuse nothing.
 class EdgeExcuse {
   public:
     EdgeExcuse(std::span<const BvhTriangle> triangles, float extent)
-        : triangles_(triangles), tolerance_(1e-5 * extent) {}
+        : triangles_(triangles), tolerance_(kSegmentEdgeTolerance * extent) {}
 
     bool excuses(Vec3 from, Vec3 to) {
         return looks_left_ > 0 && (--looks_left_, distance_to_edges(triangles_, from, to) <= tolerance_);

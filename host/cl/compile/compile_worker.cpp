@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/compile_worker.h"
+#include "host/cl/compile/compile_worker.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cl/program_cache.h"
+#include "host/cl/compile/program_cache.h"
 
 #include <unistd.h>
 #include <fstream>
