@@ -88,65 +88,69 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 /// there are packets, so that each thread has one.
 ///
 /// Each chunk of VPLs (GATHER_CHUNK, or a group), counted from VPL 0, is summed by itself and then added to
-/// the irradiance, so that the result does not depend on how launches divide the work; first_vpl must begin a
+/// `sums`, so that the result does not depend on how launches divide the work; params->first_vpl must begin a
 /// chunk. Launches over the VPLs of one bundle must follow one another in order, from 0.
 ///
-/// A group_size other than 0 asks for sums of each group of so many VPLs: `irradiance` then has packet_count
-/// packets for the sums of squares over all VPLs, and as many for each group.
+/// Without groups, `sums` gets the light of all VPLs, and `group_sums` is not touched. With groups, `sums`
+/// gets the squares of all pairs' light, and packet_count packets of `group_sums` for each group its light.
 ///
-/// With `has_least`, pairs count for nothing whose light, squared, would be less than the receiver's number
-/// in `least`.
+/// With thresholds, pairs are left out whose light, squared, would be less than the receiver's number in
+/// `thresholds` (64 · packet + lane) if nothing were in the way.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
-    const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* packets, uint packet_count, uint run_packets,
-    uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
-    const global float* least, uint has_least, global IrradiancePacket* irradiance,
-    volatile global uint* next_packet GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
+    const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls,
+    const global ReceiverPacket* packets, const global GatherParams* launch_params,
+    const global float* thresholds, global IrradiancePacket* sums, global IrradiancePacket* group_sums,
+    volatile global uint* next_packet GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
     PacketBounds bounds;
     Segments segments;
     Accumulator sum, squares;
-    const uint chunk_size = gather_chunk_size(group_size);
-    const uint count = (end_bundle - first_bundle) * ITEMS_PER_BUNDLE;
+    const GatherParams params = *launch_params;
+    const uint chunk_size = gather_chunk_size(params.group_size);
+    const uint count = (params.end_bundle - params.first_bundle) * ITEMS_PER_BUNDLE;
     for (uint item = atomic_inc(next_packet); item < count; item = atomic_inc(next_packet)) {
-        const uint index = first_bundle + item / ITEMS_PER_BUNDLE;
-        const Bundle bundle = bundle_at(index, packet_count, run_packets);
+        const uint index = params.first_bundle + item / ITEMS_PER_BUNDLE;
+        const Bundle bundle = bundle_at(index, params.packet_count, params.run_packets);
         const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
         if (first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
             continue;
         }
         gather_receivers(&receivers, &bounds, packets, &bundle, first);
-        if (has_least) {
-            load_least(&receivers, least, &bundle, first);
+        if (params.has_thresholds) {
+            load_thresholds(&receivers, thresholds, &bundle, first);
         }
-        const uint end = GATHER_END(index, end_vpl);
-        for (uint chunk = first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
+        const uint end = GATHER_END(index, &params);
+        for (uint chunk = params.first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
             clear(&sum);
             clear(&squares);
             for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
-                const uint i = GATHER_VPL(index, k);
-                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, k);
-                connect(&segments, vpls + i, &receivers, clamp_radius_squared);
-                if (has_least) {
-                    leave_out_least(&segments, &receivers, gather_square_scale(vpls + i, scale));
+                const uint i = GATHER_VPL(index, &params, k);
+                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, &params, k);
+                connect(&segments, vpls + i, &receivers, params.clamp_radius_squared);
+                if (params.has_thresholds) {
+                    leave_out_small(&segments, &receivers, gather_square_scale(vpls + i, scale));
                 }
 #ifdef GATHER_RECORD
-                record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, true);
+                record_open(record, i, params.recorded_vpls, &bundle, first, receivers.order, &segments,
+                            true);
 #endif
                 trace_segments(&segments, &bounds, nodes, blocks);
 #ifdef GATHER_RECORD
-                record_open(record, i, record_vpl_count, &bundle, first, receivers.order, &segments, false);
+                record_open(record, i, params.recorded_vpls, &bundle, first, receivers.order, &segments,
+                            false);
 #endif
                 add_visible(&sum, &segments, scale, gather_squared(vpls + i));
-                if (group_size != 0) {
+                if (params.group_size != 0) {
                     add_visible(&squares, &segments, scale * scale, true);
                 }
             }
-            if (group_size != 0) {
-                add_to_irradiance(irradiance, &bundle, first, receivers.order, &squares, chunk == 0);
+            if (params.group_size != 0) {
+                add_to_irradiance(sums, &bundle, first, receivers.order, &squares, chunk == 0);
+                add_to_irradiance(group_sums + (size_t)(chunk / params.group_size) * params.packet_count,
+                                  &bundle, first, receivers.order, &sum, true);
+            } else {
+                add_to_irradiance(sums, &bundle, first, receivers.order, &sum, chunk == 0);
             }
-            add_to_irradiance(irradiance + gather_slot(chunk, group_size, packet_count), &bundle, first,
-                              receivers.order, &sum, chunk == 0 || group_size != 0);
         }
     }
 }

@@ -25,56 +25,58 @@ inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum)
     to->b[lane] = sum.z;
 }
 
-/// One work-item for each receiver of the bundles [first_bundle, end_bundle), over the VPLs [first_vpl,
-/// end_vpl). Chunks, groups, what is left out, and launches as in gather_packets.
-kernel void gather_rays(
-    const global BvhNode* nodes, const global BvhTriangle* triangles, const global Vpl* vpls, uint first_vpl,
-    uint end_vpl, const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
-    uint first_bundle, uint end_bundle, float clamp_radius_squared, uint group_size,
-    const global float* least, uint has_least,
-    global IrradiancePacket* irradiance GATHER_ROULETTE_PARAMETERS GATHER_RECORD_PARAMETERS) {
+/// One work-item for each receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
+/// thresholds and launches are those of gather_packets.
+kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
+                        const global Vpl* vpls, const global ReceiverPacket* receivers,
+                        const global GatherParams* launch_params, const global float* thresholds,
+                        global IrradiancePacket* sums,
+                        global IrradiancePacket* group_sums GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
+    const GatherParams params = *launch_params;
     const uint item = (uint)get_global_id(0);
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
-    const uint index = first_bundle + item / NEARLIGHT_PACKET_SIZE / NEARLIGHT_BUNDLE_PACKETS;
+    const uint index = params.first_bundle + item / NEARLIGHT_PACKET_SIZE / NEARLIGHT_BUNDLE_PACKETS;
     const uint member = item / NEARLIGHT_PACKET_SIZE % NEARLIGHT_BUNDLE_PACKETS;
-    const Bundle bundle = bundle_at(index, packet_count, run_packets);
-    if (index >= end_bundle || member >= bundle.count) {
+    const Bundle bundle = bundle_at(index, params.packet_count, params.run_packets);
+    if (index >= params.end_bundle || member >= bundle.count) {
         return;
     }
     const uint packet = bundle.first + member;
     const global ReceiverPacket* from = receivers + packet;
     const float3 position = receiver_position(from, lane);
     const float3 normal = receiver_normal(from, lane);
-    global IrradiancePacket* to = irradiance + packet;
-    float3 total = first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
-    const uint end = GATHER_END(index, end_vpl);
-    const uint chunk_size = gather_chunk_size(group_size);
-    const float least_square = has_least ? least[packet * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
-    for (uint chunk = first_vpl; chunk < end; chunk += chunk_size) {
+    global IrradiancePacket* to = sums + packet;
+    float3 total = params.first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
+    const uint end = GATHER_END(index, &params);
+    const uint chunk_size = gather_chunk_size(params.group_size);
+    const float threshold = params.has_thresholds ? thresholds[packet * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
+    for (uint chunk = params.first_vpl; chunk < end; chunk += chunk_size) {
         float3 sum = (float3)0.0f;
         float3 squares = (float3)0.0f;
         for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
-            const uint i = GATHER_VPL(index, k);
+            const uint i = GATHER_VPL(index, &params, k);
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
-            const float term = geometry_term(segment, load3(vpl->normal), normal, clamp_radius_squared);
-            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, k);
-            const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < least_square);
+            const float term =
+                geometry_term(segment, load3(vpl->normal), normal, params.clamp_radius_squared);
+            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, &params, k);
+            const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < threshold);
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
             sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
             squares += visible ? scale * scale * (term * term) : (float3)0.0f;
 #ifdef GATHER_RECORD
-            record[gather_record_index(packet, i, record_vpl_count, lane)] = !open ? 0
-                                                                             : visible
-                                                                                 ? GATHER_RECORD_VISIBLE
-                                                                                 : GATHER_RECORD_OCCLUDED;
+            record[gather_record_index(packet, i, params.recorded_vpls, lane)] = !open ? 0
+                                                                                 : visible
+                                                                                     ? GATHER_RECORD_VISIBLE
+                                                                                     : GATHER_RECORD_OCCLUDED;
 #endif
         }
-        total += group_size != 0 ? squares : sum;
-        if (group_size != 0) {
-            store_irradiance(to + gather_slot(chunk, group_size, packet_count), lane, sum);
+        total += params.group_size != 0 ? squares : sum;
+        if (params.group_size != 0) {
+            store_irradiance(group_sums + (size_t)(chunk / params.group_size) * params.packet_count + packet,
+                             lane, sum);
         }
     }
     store_irradiance(to, lane, total);

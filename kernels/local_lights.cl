@@ -80,19 +80,19 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
 }
 
 kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count, float widest,
-                              float least, float at_unit_light, uint seed, global float* restrict radii) {
+                              float narrowest, float at_unit_light, uint seed, global float* restrict radii) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const GatherRadius law = {widest, least, at_unit_light, seed};
+    const GatherRadius law = {widest, narrowest, at_unit_light, seed};
     radii[index] = gather_radius(&scene, &law, load3(vpls[index].position), load3(vpls[index].normal));
 }
 
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
                              uint first_packet, uint slot_count, uint rays_per_receiver, float widest,
-                             float least, float at_unit_light, const global Vpl* restrict vpls,
+                             float narrowest, float at_unit_light, const global Vpl* restrict vpls,
                              const global float* restrict vpl_radii, uint vpl_count, uint connections,
                              uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights,
                              global float* restrict light_radii, global uint* restrict flags) {
@@ -121,7 +121,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
-    const GatherRadius law = {widest, least, at_unit_light, seed};
+    const GatherRadius law = {widest, narrowest, at_unit_light, seed};
     const float radius = gather_radius(&scene, &law, light.position, light.normal);
     if (is_black(albedo) || !(local_geometry(&scene, &receiver, &light, radius) > 0.0f)) {
         return;

@@ -15,7 +15,7 @@
 #include "lib/sampling.cl"
 #include "lib/vpl.cl"
 
-kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, uint point_count,
+kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict points, uint point_count,
                          uint rays_per_point, uint seed, global Vpl* restrict vpls,
                          global uint* restrict flags) {
     const uint ray = (uint)get_global_id(0);
@@ -24,7 +24,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Vpl* restrict points, ui
     }
     flags[ray] = 0;
     const SceneView scene = SCENE_VIEW;
-    const global Vpl* point = points + ray / rays_per_point;
+    const global Importon* point = points + ray / rays_per_point;
     const float3 origin = load3(point->position);
     // One sequence for all points: neighbours of it, which look the same way, share the directions among
     // them.

@@ -12,20 +12,20 @@
 //   Σ response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
 // One work-item a VPL, or a VPL and group, from the importance that arrived; any work-group size.
 //
-// `vpl_least_importance` says before the gather which importons are not worth a ray: few make up nearly all
+// `importance_thresholds` says before the gather which importons are not worth a ray: few make up nearly all
 // of the error that a VPL would leave.
 
 #include "lib/gather.cl"
 #include "lib/math.cl"
 
-inline float3 arrived_importance(const global IrradiancePacket* importance, uint vpl) {
-    const global IrradiancePacket* packet = importance + vpl / NEARLIGHT_PACKET_SIZE;
+inline float3 arrived_importance(const global ImportancePacket* importance, uint vpl) {
+    const global ImportancePacket* packet = importance + vpl / NEARLIGHT_PACKET_SIZE;
     const uint lane = vpl % NEARLIGHT_PACKET_SIZE;
     return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
 }
 
 kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
-                             const global IrradiancePacket* restrict importance, uint squared,
+                             const global ImportancePacket* restrict importance, uint squared,
                              global float* restrict contribution) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
@@ -38,7 +38,7 @@ kernel void vpl_contribution(const global Vpl* restrict vpls, uint vpl_count,
 }
 
 kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_count,
-                                   const global IrradiancePacket* restrict importance, uint group_count,
+                                   const global ImportancePacket* restrict group_importance, uint group_count,
                                    float scale, global float* restrict contribution) {
     const size_t slot = get_global_id(0);
     const uint index = (uint)(slot / group_count);
@@ -47,16 +47,16 @@ kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_cou
         return;
     }
     const uint packet_count = (vpl_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
-    const global IrradiancePacket* of_group = importance + (size_t)(1 + group) * packet_count;
+    const global ImportancePacket* of_group = group_importance + (size_t)group * packet_count;
     const float3 brought = arrived_importance(of_group, index) * load3(vpls[index].power);
     vstore3(brought * (scale * M_1_PI_F), slot, contribution);
 }
 
-/// least[i] = `part` of the mean, over importons, of the squares of the importance that would arrive at
+/// thresholds[i] = `part` of the mean, over importons, of the squares of the importance that would arrive at
 /// receiver i of the packets if nothing were in the way. One work-item for each 16 receivers.
-kernel void vpl_least_importance(const global Vpl* restrict importons, uint importon_count,
-                                 const global ReceiverPacket* restrict receivers, uint packet_count,
-                                 float clamp_radius_squared, float part, global float* restrict least) {
+kernel void importance_thresholds(const global Importon* restrict importons, uint importon_count,
+                                  const global ReceiverPacket* restrict receivers, uint packet_count,
+                                  float clamp_radius_squared, float part, global float* restrict thresholds) {
     const uint item = (uint)get_global_id(0);
     const uint packet = item / (NEARLIGHT_PACKET_SIZE / 16);
     const uint group = item % (NEARLIGHT_PACKET_SIZE / 16);
@@ -65,9 +65,9 @@ kernel void vpl_least_importance(const global Vpl* restrict importons, uint impo
     }
     float16 squares = (float16)0.0f;
     for (uint i = 0; i < importon_count; ++i) {
-        const float square_scale = gather_square_scale(importons + i, gather_scale(importons + i));
-        squares +=
-            square_scale * squared_terms(importons + i, receivers + packet, group, clamp_radius_squared);
+        const global Vpl* importon = as_source(importons + i);
+        const float square_scale = gather_square_scale(importon, gather_scale(importon));
+        squares += square_scale * squared_terms(importon, receivers + packet, group, clamp_radius_squared);
     }
-    vstore16(squares * (part / (float)importon_count), item, least);
+    vstore16(squares * (part / (float)importon_count), item, thresholds);
 }

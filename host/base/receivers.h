@@ -36,11 +36,15 @@ inline void set_receiver(ReceiverPacket& packet, std::size_t lane, const Receive
     packet.nz[lane] = receiver.normal.z;
 }
 
-/// W/m² at lane number `index` of all packets.
-inline Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t index) {
-    const IrradiancePacket& packet = packets[index / NEARLIGHT_PACKET_SIZE];
+/// What arrives at lane number `index` of all packets, R, G and B: W/m² of irradiance packets.
+template <typename Packet>
+Vec3 arrived_at(std::span<const Packet> packets, std::size_t index) {
+    const Packet& packet = packets[index / NEARLIGHT_PACKET_SIZE];
     const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
     return {packet.r[lane], packet.g[lane], packet.b[lane]};
+}
+inline Vec3 irradiance_at(std::span<const IrradiancePacket> packets, std::size_t index) {
+    return arrived_at(packets, index);
 }
 
 }  // namespace nearlight::core

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/bench/embree_occlusion.h"
+#include "host/stages/roulette.h"
 
 namespace nearlight::core {
 namespace {
@@ -28,17 +29,37 @@ struct DeviceSegments {
                                                  : upload_tree(device, bvh, kernel)),
           vpls(device, segments.vpls),
           receivers(device, segments.receivers),
-          irradiance(device, segments.receivers.size()),
+          sums(device, segments.receivers.size()),
+          roulette(device),
           clamp_radius(segments.clamp_radius) {}
 
-    [[nodiscard]] GatherInput input(float roulette) const {
-        return {tree, vpls, vpls.count(), receivers, receivers.count(), clamp_radius, roulette};
+    [[nodiscard]] GatherInput<Vpl> input(const std::optional<VplSelection>& selection) const {
+        return {.tree = tree,
+                .vpls = vpls,
+                .vpl_count = vpls.count(),
+                .receivers = receivers,
+                .packet_count = receivers.count(),
+                .clamp_radius = clamp_radius,
+                .selection = selection ? &*selection : nullptr};
+    }
+    /// Nothing for a threshold of 0: every bundle asks about all VPLs.
+    [[nodiscard]] std::optional<VplSelection> select(float threshold) {
+        const auto count = static_cast<uint>(receivers.count());
+        return threshold > 0.0f ? std::optional(roulette.select({.vpls = vpls,
+                                                                 .vpl_count = vpls.count(),
+                                                                 .receivers = receivers,
+                                                                 .bundles = {count, std::max(count, 1u)},
+                                                                 .clamp_radius = clamp_radius,
+                                                                 .threshold = threshold,
+                                                                 .seed = 0}))
+                                : std::nullopt;
     }
 
     DeviceTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
-    Buffer<IrradiancePacket> irradiance;
+    GatherSums<Vpl> sums;
+    Roulette roulette;
     float clamp_radius;
 };
 
@@ -60,11 +81,11 @@ Tracer make_own_tracer(Device& device, const std::shared_ptr<DeviceSegments>& jo
     const auto gatherer = std::make_shared<Gatherer>(device, GatherConfig{.kernel = kernel});
     const auto time = [gatherer, job, roulette] {
         const TwoClocks clocks(TwoClocks::Of::process);
-        gatherer->gather(job->input(roulette), job->irradiance);
+        gatherer->gather(job->input(job->select(roulette)), job->sums);
         return clocks.seconds();
     };
     const auto answer = [gatherer, job, roulette] {
-        return to_masks(gatherer->gather_recorded(job->input(roulette), job->irradiance));
+        return to_masks(gatherer->gather_recorded(job->input(job->select(roulette)), job->sums));
     };
     std::string name = kernel == GatherKernel::packets ? "nearlight packets" : "nearlight rays";
     name += roulette > 0.0f ? ", roulette" : "";

@@ -76,22 +76,22 @@ struct GatherJob {
         : tree(upload_tree(device, work.bvhs.opaque, kernel)),
           vpls(device, std::span(work.vpls).first(std::min(vpl_count, work.vpls.size()))),
           receivers(device, work.receivers),
-          irradiance(device, work.receivers.size()) {}
+          sums(device, work.receivers.size()) {}
 
-    [[nodiscard]] GatherInput input() const {
+    [[nodiscard]] GatherInput<Vpl> input() const {
         return {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius};
     }
 
     DeviceTree tree;
     Buffer<Vpl> vpls;
     Buffer<ReceiverPacket> receivers;
-    Buffer<IrradiancePacket> irradiance;
+    GatherSums<Vpl> sums;
 };
 
 /// True if the kernel sees what the host sees.
 bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
     GatherJob job(device, work, gatherer.kernel(), kCheckedVpls);
-    const std::vector<GatherPair> pairs = gatherer.gather_recorded(job.input(), job.irradiance);
+    const std::vector<GatherPair> pairs = gatherer.gather_recorded(job.input(), job.sums);
     std::size_t rays = 0;
     std::size_t blocked = 0;
     std::size_t disagreements = 0;
@@ -120,7 +120,7 @@ void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
     std::vector<double> seconds;
     for (int i = 0; i <= kRepeats; ++i) {
         const Stopwatch watch;
-        gatherer.gather(job.input(), job.irradiance);
+        gatherer.gather(job.input(), job.sums);
         device.finish();
         seconds.push_back(watch.seconds());
     }

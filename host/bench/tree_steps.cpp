@@ -15,7 +15,6 @@
 namespace nearlight::core {
 namespace {
 
-
 struct Counts {
     std::uint64_t rays = 0;
     std::uint64_t occluded = 0;

@@ -64,20 +64,20 @@ Work gather_work(Device& device, const Room& room) {
             : gatherer(on),
               vpls(on, of.segments.vpls),
               receivers(on, of.segments.receivers),
-              irradiance(on, of.segments.receivers.size()) {}
+              sums(on, of.segments.receivers.size()) {}
         Gatherer gatherer;
         Buffer<Vpl> vpls;
         Buffer<ReceiverPacket> receivers;
-        Buffer<IrradiancePacket> irradiance;
+        GatherSums<Vpl> sums;
     };
     const auto state = std::make_shared<State>(device, room);
     return {[state, &room] {
                 state->gatherer.gather(
                     {room.session.device_scene().tree, state->vpls, state->vpls.count(), state->receivers,
                      state->receivers.count(), room.segments.clamp_radius},
-                    state->irradiance);
+                    state->sums);
             },
-            [state] { return hash_of(state->irradiance); }};
+            [state] { return hash_of(state->sums.light); }};
 }
 
 /// Kernels of the picture: rays from the camera and to the lights.

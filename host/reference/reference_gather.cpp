@@ -61,6 +61,20 @@ void gather_reference(const EmbreeScene& embree, std::span<const Vpl> vpls, floa
     });
 }
 
+std::vector<Vpl> as_vpls(std::span<const Importon> importons) {
+    std::vector<Vpl> vpls;
+    vpls.reserve(importons.size());
+    for (const Importon& importon : importons) {
+        vpls.push_back({.position = importon.position,
+                        .depth = 0,
+                        .normal = importon.normal,
+                        .flags = importon.flags,
+                        .power = importon.response,
+                        .pad0 = 0.0f});
+    }
+    return vpls;
+}
+
 void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads) {

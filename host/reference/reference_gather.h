@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "host/reference/embree_scene.h"
 #include "kernels/shared/types.h"
@@ -18,6 +19,9 @@ namespace nearlight::core {
 void gather_reference(const EmbreeScene& embree, std::span<const Vpl> vpls, float clamp_radius,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads = 0);
+
+/// Importons as the senders that a gather makes of them, for gather_reference().
+std::vector<Vpl> as_vpls(std::span<const Importon> importons);
 
 /// E = Σ intensity · max0(cosθ) / r² · V over point and spot lights; other lights in the span are left out.
 void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,

@@ -48,12 +48,12 @@ uint multiple_of_budget(double factor, const SamplingTask& task) {
 
 /// The points that send reverse rays: an even part of the importons, from a random one on.
 CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& task, uint wanted_rays) {
-    const std::vector<Vpl> importons = task.view.importons.vpls.download();
+    const std::vector<Importon> importons = task.view.importons.importons.download();
     const std::size_t count =
         std::min({task.view.importons.count, kMaxCameraPoints, std::size_t{wanted_rays}});
     const double step = static_cast<double>(task.view.importons.count) / static_cast<double>(count);
     const double shift = Pcg32(task.seed, kPointStream).uniform();
-    std::vector<Vpl> points;
+    std::vector<Importon> points;
     for (std::size_t i = 0; i < count; ++i) {
         points.push_back(importons[static_cast<std::size_t>((static_cast<double>(i) + shift) * step)]);
     }
@@ -85,10 +85,10 @@ ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Bala
 
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
-    Buffer<IrradiancePacket> density(stages.device, packets);
+    GatherSums<Importon> density(stages.device, packets);
     stages.vpl_light.make_receivers(sorted.buffer(), vpls.size(), receivers);
     stages.reverse_vpls().measure_density(task.scene, balance.points, receivers, packets, density);
-    for (const Vec3 n : unpack(density, vpls.size())) {
+    for (const Vec3 n : unpack(density.light, vpls.size())) {
         candidates.reverse_density.push_back(n.x);
     }
     for (const Vec3 e : candidates.rough_light) {

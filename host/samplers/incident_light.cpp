@@ -15,6 +15,17 @@ constexpr uint kSparseSeed = 0x5ba5e5u;
 /// beside a point would make that point's power an outlier, and the paths that make up for it are cheap.
 constexpr float kClampRadiusToRange = 0.1f;
 
+template <typename Packet>
+std::vector<Vec3> first_lanes(const Buffer<Packet>& buffer, std::size_t count) {
+    const std::vector<Packet> packets = buffer.download();
+    std::vector<Vec3> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        values.push_back(arrived_at(std::span<const Packet>(packets), i));
+    }
+    return values;
+}
+
 }  // namespace
 
 SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed) {
@@ -40,7 +51,7 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
         return;
     }
     if (!sources.vpls.empty()) {
-        Buffer<IrradiancePacket> gathered(stages.device, packet_count);
+        GatherSums<Vpl> gathered(stages.device, packet_count);
         stages.gatherer.gather({.tree = scene.tree,
                                 .vpls = sources.vpls.buffer(),
                                 .vpl_count = sources.vpls.count(),
@@ -48,7 +59,7 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                 .packet_count = packet_count,
                                 .clamp_radius = sources.clamp_radius},
                                gathered);
-        stages.vpl_light.add(gathered, packet_count, irradiance);
+        stages.vpl_light.add(gathered.light, packet_count, irradiance);
         stages.device.finish();  // `gathered` must outlive the kernel
     }
     const BouncePaths paths{.sample_count = quality.paths,
@@ -58,14 +69,11 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
     stages.bounce_tracer.run(scene, receivers, packet_count, paths, irradiance);
 }
 
-std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& buffer, std::size_t count) {
-    const std::vector<IrradiancePacket> packets = buffer.download();
-    std::vector<Vec3> values;
-    values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        values.push_back(irradiance_at(packets, i));
-    }
-    return values;
+std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count) {
+    return first_lanes(packets, count);
+}
+std::vector<Vec3> unpack(const Buffer<ImportancePacket>& packets, std::size_t count) {
+    return first_lanes(packets, count);
 }
 
 std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,

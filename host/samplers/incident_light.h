@@ -42,5 +42,6 @@ std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& t
 void illuminate(std::span<Vpl> vpls, std::span<const Vec3> irradiance);
 /// The first `count` lanes.
 std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count);
+std::vector<Vec3> unpack(const Buffer<ImportancePacket>& packets, std::size_t count);
 
 }  // namespace nearlight::core

@@ -26,17 +26,16 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const DeviceTree tree = upload_tree(device, bvh, kernel);
     const Buffer<Vpl> vpl_buffer(device, vpls);
     const Buffer<ReceiverPacket> receiver_buffer(device, receivers);
-    Buffer<IrradiancePacket> irradiance(device, receivers.size());
+    GatherSums<Vpl> sums(device, receivers.size());
     const std::vector<GatherPair> pairs =
         Gatherer(device, {.kernel = kernel})
             .gather_recorded(
-                {tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kGatherRadius},
-                irradiance);
+                {tree, vpl_buffer, vpls.size(), receiver_buffer, receivers.size(), kGatherRadius}, sums);
 
     const EmbreeScene embree(scene);
     std::vector<IrradiancePacket> expected(receivers.size());
     gather_reference(embree, vpls, kGatherRadius, receivers, expected);
-    const std::vector<IrradiancePacket> found = irradiance.download();
+    const std::vector<IrradiancePacket> found = sums.light.download();
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
         const std::size_t packet = r / NEARLIGHT_PACKET_SIZE;
         const std::size_t lane = r % NEARLIGHT_PACKET_SIZE;

@@ -94,7 +94,7 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
     const Scene scene = make_even_room({kAlbedo, kAlbedo, kAlbedo});
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
     PilotView blind;
-    blind.importons.vpls = Buffer<Vpl>(device, 0);
+    blind.importons.importons = Buffer<Importon>(device, 0);
     Gatherer gatherer(device);
     VplContribution contribution(device, gatherer);
     MetropolisChains metropolis(device, contribution);

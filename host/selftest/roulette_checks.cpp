@@ -8,6 +8,7 @@
 #include "host/reference/synthetic_scene.h"
 #include "host/selftest/checks.h"
 #include "host/stages/gatherer.h"
+#include "host/stages/roulette.h"
 
 namespace nearlight::core {
 namespace {
@@ -26,16 +27,23 @@ struct RouletteCase {
     Buffer<Vpl> vpl_buffer;
     Buffer<ReceiverPacket> receiver_buffer;
 
-    [[nodiscard]] GatherInput input(float roulette, uint seed) const {
+    [[nodiscard]] GatherInput<Vpl> input(const VplSelection* selection) const {
         return {.tree = tree,
                 .vpls = vpl_buffer,
                 .vpl_count = vpls.size(),
                 .receivers = receiver_buffer,
                 .packet_count = receivers.size(),
                 .clamp_radius = kRouletteRadius,
-                .roulette = roulette,
-                .seed = seed,
-                .run_packets = kRunPackets};
+                .selection = selection};
+    }
+    [[nodiscard]] RouletteTask task(uint seed) const {
+        return {.vpls = vpl_buffer,
+                .vpl_count = vpls.size(),
+                .receivers = receiver_buffer,
+                .bundles = {static_cast<uint>(receivers.size()), kRunPackets},
+                .clamp_radius = kRouletteRadius,
+                .threshold = kThreshold,
+                .seed = seed};
     }
 };
 
@@ -56,22 +64,16 @@ RouletteCase make_case(Device& device) {
 
 /// Bundle by bundle, VPL by VPL.
 void check_choices(Device& device, const RouletteCase& data, CheckResult& result) {
-    const BundleLayout layout = data.input(kThreshold, 0).bundles();
+    const BundleLayout layout = data.task(0).bundles;
     std::vector<uint> chosen(layout.bundle_count() * data.vpls.size());
     std::vector<float> chosen_weights(chosen.size());
     Roulette roulette(device);
     for (uint seed = 0; seed < kSeeds; ++seed) {
-        const RouletteLists& lists = roulette.choose({.vpls = data.vpl_buffer,
-                                                      .vpl_count = data.vpls.size(),
-                                                      .receivers = data.receiver_buffer,
-                                                      .bundles = layout,
-                                                      .clamp_radius = kRouletteRadius,
-                                                      .threshold = kThreshold,
-                                                      .seed = seed},
-                                                     0, layout.bundle_count());
+        const VplSelection selection = roulette.select(data.task(seed));
+        const VplLists& lists = selection.lists(0, layout.bundle_count());
         const std::vector<uint> vpls = lists.vpls.download();
         const std::vector<float> weights = lists.weights.download();
-        const std::vector<uint> counts = lists.counts.download();
+        const std::vector<uint> counts = lists.lengths.download();
         for (uint bundle = 0; bundle < layout.bundle_count(); ++bundle) {
             const std::size_t first = bundle * data.vpls.size();
             for (std::size_t k = first; k < first + counts[bundle]; ++k) {
@@ -106,14 +108,16 @@ std::vector<double> sums_of_packets(const Buffer<IrradiancePacket>& irradiance) 
 
 void check_expectation(Device& device, const RouletteCase& data, CheckResult& result) {
     Gatherer gatherer(device);
-    Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
-    gatherer.gather(data.input(0.0f, 0), irradiance);
-    const std::vector<double> full = sums_of_packets(irradiance);
+    Roulette roulette(device);
+    GatherSums<Vpl> sums(device, data.receivers.size());
+    gatherer.gather(data.input(nullptr), sums);
+    const std::vector<double> full = sums_of_packets(sums.light);
     std::vector<double> deviation(full.size());  // summed over the seeds
     std::vector<double> squares(full.size());
     for (uint seed = 0; seed < kSeeds; ++seed) {
-        gatherer.gather(data.input(kThreshold, seed), irradiance);
-        const std::vector<double> some = sums_of_packets(irradiance);
+        const VplSelection selection = roulette.select(data.task(seed));
+        gatherer.gather(data.input(&selection), sums);
+        const std::vector<double> some = sums_of_packets(sums.light);
         for (std::size_t packet = 0; packet < full.size(); ++packet) {
             deviation[packet] += some[packet] - full[packet];
             squares[packet] += (some[packet] - full[packet]) * (some[packet] - full[packet]);

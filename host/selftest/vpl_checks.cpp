@@ -143,7 +143,7 @@ bool any_excused(EdgeExcuse& edges, const Vpl& vpl, std::span<const ReceiverPack
 }
 
 /// Whether `vpl` is what Embree's ray from `point` through it meets.
-bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, const Vpl& point,
+bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, const Importon& point,
                   const Vpl& vpl) {
     const Vec3 on_surface = vpl.position - vpl.normal * ray_epsilon(vpl.position, extent);
     const Vec3 direction = normalize(on_surface - point.position);
@@ -269,10 +269,10 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const SceneBvhs bvhs = build_scene_bvhs(scene);
     const DeviceScene on_device = upload_scene(device, scene, bvhs);
     const float extent = on_device.host_info.extent;
-    std::vector<Vpl> importons;
+    std::vector<Importon> importons;
     for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
         const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one of each tile
-        Vpl& importon = importons.emplace_back();
+        Importon& importon = importons.emplace_back();
         importon.position = x.position;
         importon.normal = x.normal;
     }
@@ -288,24 +288,25 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const EmbreeScene embree(scene);
     EdgeExcuse edges(bvhs.opaque.triangles, extent);
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const Vpl& point = importons[i / kRaysPerPoint];
+        const Importon& point = importons[i / kRaysPerPoint];
         result.expect(landed_right(scene, embree, extent, point, found[i]) ||
                       edges.excuses(point.position, found[i].position));
     }
     const std::size_t packets = receiver_packet_count(found.size());
     Buffer<ReceiverPacket> receivers(device, packets);
-    Buffer<IrradiancePacket> density(device, packets);
+    GatherSums<Importon> density(device, packets);
     VplLight(device).make_receivers(Buffer<Vpl>(device, found), found.size(), receivers);
     stage.measure_density(on_device, points, receivers, packets, density);
     std::vector<IrradiancePacket> expected(packets);
     const std::vector<ReceiverPacket> places = receivers.download();
-    gather_reference(embree, points.points.download(), 0.0f, places, expected);
-    const std::vector<IrradiancePacket> densities = density.download();
+    gather_reference(embree, as_vpls(points.points.download()), 0.0f, places, expected);
+    const std::vector<ImportancePacket> densities = density.light.download();
     for (std::size_t i = 0; i < found.size(); ++i) {
         const float want = irradiance_at(expected, i).y;
         const ReceiverPoint y = receiver_at(places, i);
-        const bool right = std::abs(irradiance_at(densities, i).y - want) <= 2e-4f * want;
-        result.expect(right || std::ranges::any_of(importons, [&](const Vpl& point) {
+        const bool right =
+            std::abs(arrived_at(std::span<const ImportancePacket>(densities), i).y - want) <= 2e-4f * want;
+        result.expect(right || std::ranges::any_of(importons, [&](const Importon& point) {
                           return edges.excuses(point.position, y.position);
                       }));
     }

@@ -47,6 +47,25 @@ const VplBuffer& BandRenderer::vpls() const {
     return picture_.vpls.vpls.is_on(stages_.device) ? picture_.vpls.vpls : own_vpls_;
 }
 
+/// By Russian roulette, if that was asked for; else every bundle asks about all VPLs.
+std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
+    if (!(picture_.settings.roulette > 0.0f)) {
+        return std::nullopt;
+    }
+    if (!stages_.roulette) {
+        stages_.roulette.emplace(stages_.device);
+    }
+    const uint width = picture_.view.camera.width;
+    return stages_.roulette->select(
+        {.vpls = vpls().buffer(),
+         .vpl_count = vpls().count(),
+         .receivers = buffers_.receivers,
+         .bundles = {static_cast<uint>(packet_count(batch, width)), picture_.plan.run_packets(batch, width)},
+         .clamp_radius = picture_.view.clamp_radius,
+         .threshold = picture_.settings.roulette,
+         .seed = picture_.seed});
+}
+
 /// Indirect light of a batch's receivers. False if cancelled.
 bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
     const uint width = picture_.view.camera.width;
@@ -55,15 +74,14 @@ bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
                                          buffers_.indirect, progress);
     }
+    const std::optional<VplSelection> selection = select_vpls(batch);
     return stages_.gatherer.gather({.tree = scene_.tree,
                                     .vpls = vpls().buffer(),
                                     .vpl_count = vpls().count(),
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
                                     .clamp_radius = picture_.view.clamp_radius,
-                                    .roulette = picture_.settings.roulette,
-                                    .seed = picture_.seed,
-                                    .run_packets = picture_.plan.run_packets(batch, width)},
+                                    .selection = selection ? &*selection : nullptr},
                                    buffers_.indirect, progress);
 }
 
@@ -82,8 +100,8 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
     }
     const bool finished = gather_indirect(batch, progress);
     if (finished) {
-        stages_.film.add(buffers_.receivers, buffers_.vertices, buffers_.direct, buffers_.indirect, batch,
-                         width, row_count, buffers_.sums);
+        stages_.film.add(buffers_.receivers, buffers_.vertices, buffers_.direct, buffers_.indirect.light,
+                         batch, width, row_count, buffers_.sums);
     }
     return finished;
 }

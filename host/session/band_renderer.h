@@ -14,6 +14,7 @@
 #include "host/stages/direct_light.h"
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
+#include "host/stages/roulette.h"
 
 namespace nearlight::core {
 
@@ -31,7 +32,9 @@ struct BandStages {
     DirectLight direct_light;
     Gatherer gatherer;
     Film film;
-    std::optional<LocalGather> local_gather{};  ///< made when first wanted
+    // Made when first wanted:
+    std::optional<LocalGather> local_gather{};
+    std::optional<Roulette> roulette{};
 };
 
 /// What is the same for all bands and devices.
@@ -59,13 +62,14 @@ class BandRenderer {
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
         Buffer<IrradiancePacket> direct;
-        Buffer<IrradiancePacket> indirect;
+        GatherSums<Vpl> indirect;
         Buffer<float> sums;
         Buffer<float> layers;
     };
 
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_indirect(const CameraBand& batch, const GatherProgress& progress);
+    std::optional<VplSelection> select_vpls(const CameraBand& batch);
     [[nodiscard]] const VplBuffer& vpls() const;
 
     BandStages& stages_;

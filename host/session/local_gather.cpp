@@ -10,10 +10,9 @@ void LocalGather::set_vpls(const DeviceScene& scene, const VplBuffer& vpls, cons
 }
 
 bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                      std::size_t packet_count, Buffer<IrradiancePacket>& irradiance,
-                      const GatherProgress& progress) {
-    Buffer<IrradiancePacket> part(*device_, packet_count);
-    irradiance.fill_zero();
+                      std::size_t packet_count, GatherSums<Vpl>& sums, const GatherProgress& progress) {
+    GatherSums<Vpl> part(*device_, packet_count);
+    sums.light.fill_zero();
     std::uint64_t pairs_before = 0;
     const std::uint64_t receiver_count = packet_count * NEARLIGHT_PACKET_SIZE;
     for (const LocalVpls::Group& group : vpls_.groups) {
@@ -30,10 +29,10 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
         if (!finished) {
             return false;
         }
-        vpl_light_.add(part, packet_count, irradiance);
+        vpl_light_.add(part.light, packet_count, sums.light);
         pairs_before += group.count * receiver_count;
     }
-    light_count_ += lights_.add(scene, vpls_, receivers, packet_count, plan_, irradiance);
+    light_count_ += lights_.add(scene, vpls_, receivers, packet_count, plan_, sums.light);
     return true;  // add() has waited, so `part` is no longer in use
 }
 

@@ -20,7 +20,7 @@ class LocalGather {
 
     /// Irradiance of the receivers in the first packet_count packets. False if cancelled.
     bool run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-             std::size_t packet_count, Buffer<IrradiancePacket>& irradiance, const GatherProgress& progress);
+             std::size_t packet_count, GatherSums<Vpl>& sums, const GatherProgress& progress);
 
     /// That were made since set_vpls().
     [[nodiscard]] std::size_t light_count() const { return light_count_; }

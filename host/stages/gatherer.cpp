@@ -15,7 +15,8 @@ namespace {
 /// launches end at multiples of it.
 constexpr std::size_t kChunk = 256;
 
-std::size_t chunk_of(const GatherInput& input) {
+template <typename Source>
+std::size_t chunk_of(const GatherInput<Source>& input) {
     return input.group_size != 0 ? input.group_size : kChunk;
 }
 
@@ -69,23 +70,24 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
     : device_(&device),
       config_(resolved(config, device)),
       launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMaxLaunchPairs)),
+      params_(device, 1),
       next_packet_(device, 1),
-      no_least_(device, 0) {
+      no_thresholds_(device, 0) {
     kernel_of(false, false);
 }
 
-Kernel& Gatherer::kernel_of(bool roulette, bool recording) {
-    std::optional<Kernel>& kernel = kernels_[(roulette ? 2 : 0) + (recording ? 1 : 0)];
+Kernel& Gatherer::kernel_of(bool lists, bool recording) {
+    std::optional<Kernel>& kernel = kernels_[(lists ? 2 : 0) + (recording ? 1 : 0)];
     if (!kernel) {
-        kernel = make_kernel(roulette, recording);
+        kernel = make_kernel(lists, recording);
     }
     return *kernel;
 }
 
-Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
+Kernel Gatherer::make_kernel(bool lists, bool recording) const {
     Defines defines{{"GATHER_CHUNK", std::to_string(kChunk)}};
-    if (roulette) {
-        defines.emplace("GATHER_ROULETTE", "1");
+    if (lists) {
+        defines.emplace("GATHER_LISTS", "1");
     }
     if (recording) {
         defines.emplace("GATHER_RECORD", "1");
@@ -98,7 +100,8 @@ Kernel Gatherer::make_kernel(bool roulette, bool recording) const {
 }
 
 /// The part after `done`: the same bundles against further VPLs, or, when those are through, further bundles.
-Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done, std::size_t end_bundle,
+template <typename Source>
+Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part& done, std::size_t end_bundle,
                                    std::uint64_t pair_budget) const {
     const std::uint64_t chunk = chunk_of(input);
     const std::uint64_t chunk_pairs = chunk * kBundleSize;
@@ -117,20 +120,40 @@ Gatherer::Part Gatherer::next_part(const GatherInput& input, const Part& done, s
     return part;
 }
 
-template <typename... More>
-void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part,
-                      Buffer<IrradiancePacket>& irradiance, const More&... more) {
+/// Without lists all bundles ask about all VPLs.
+template <typename Source, typename... More>
+void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Part& part,
+                      const VplLists* lists, GatherSums<Source>& sums, const More&... more) {
     const BundleLayout layout = input.bundles();
+    const GatherParams params{.first_vpl = static_cast<uint>(part.first_vpl),
+                              .end_vpl = static_cast<uint>(part.end_vpl),
+                              .packet_count = layout.packet_count,
+                              .run_packets = layout.run_packets,
+                              .first_bundle = static_cast<uint>(part.first_bundle),
+                              .end_bundle = static_cast<uint>(part.end_bundle),
+                              .clamp_radius_squared = input.clamp_radius * input.clamp_radius,
+                              .group_size = input.group_size,
+                              .has_thresholds = input.thresholds != nullptr ? 1u : 0u,
+                              .first_listed_bundle = lists != nullptr ? lists->first_bundle : 0,
+                              .list_stride = lists != nullptr ? lists->stride : 0,
+                              .recorded_vpls = static_cast<uint>(input.vpl_count)};
+    params_.upload(std::span(&params, 1));
+    if (lists != nullptr) {
+        launch_with(kernel, input, part, sums, lists->vpls, lists->weights, lists->lengths, more...);
+    } else {
+        launch_with(kernel, input, part, sums, more...);
+    }
+}
+
+template <typename Source, typename... More>
+void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, const Part& part,
+                           GatherSums<Source>& sums, const More&... more) {
     const std::size_t receivers = (part.end_bundle - part.first_bundle) * kBundleSize;
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
-        kernel.launch(items, local_size, nodes, triangles, input.vpls, static_cast<cl_uint>(part.first_vpl),
-                      static_cast<cl_uint>(part.end_vpl), input.receivers, layout.packet_count,
-                      layout.run_packets, static_cast<cl_uint>(part.first_bundle),
-                      static_cast<cl_uint>(part.end_bundle), input.clamp_radius * input.clamp_radius,
-                      static_cast<cl_uint>(input.group_size),
-                      input.least != nullptr ? *input.least : no_least_,
-                      static_cast<cl_uint>(input.least != nullptr ? 1 : 0), irradiance, rest...);
+        kernel.launch(items, local_size, nodes, triangles, input.vpls, input.receivers, params_,
+                      input.thresholds != nullptr ? *input.thresholds : no_thresholds_,
+                      input.group_size == 0 ? sums.light : sums.squares, sums.groups, rest...);
     };
     if (config_.kernel == GatherKernel::rays) {
         launch_on(receivers, device_->tunables().local_size, input.tree.nodes, input.tree.triangles, more...);
@@ -142,17 +165,17 @@ void Gatherer::launch(Kernel& kernel, const GatherInput& input, const Part& part
 }
 
 /// Bundles [first_bundle, end_bundle), launch by launch. False if cancelled.
-template <typename... More>
-bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::size_t first_bundle,
-                              std::size_t end_bundle, Buffer<IrradiancePacket>& irradiance, Course& course,
-                              const More&... more) {
+template <typename Source>
+bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, std::size_t first_bundle,
+                              std::size_t end_bundle, const VplLists* lists, GatherSums<Source>& sums,
+                              Course& course) {
     Part part;
     part.end_bundle = first_bundle;
     part.end_vpl = input.vpl_count;
     while (part.end_bundle < end_bundle || part.end_vpl < input.vpl_count) {
         part = next_part(input, part, end_bundle, static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
-        launch(kernel, input, part, irradiance, more...);
+        launch(kernel, input, part, lists, sums);
         device_->finish();
         // At most four times as much, because neighbouring parts may differ in cost.
         const std::uint64_t pairs = part.pairs(input.bundles());
@@ -167,65 +190,52 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput& input, std::siz
     return true;
 }
 
-/// Calls work(kernel, first_bundle, end_bundle, further arguments of the kernel …) for all bundles in turn,
-/// in runs as long as the roulette's lists fit into memory. False as soon as `work` is.
-template <typename Work>
-bool Gatherer::for_each_run(const GatherInput& input, bool recording, const Work& work) {
+/// Calls work(kernel, first_bundle, end_bundle, lists or null) for all bundles in turn, in runs as long as
+/// the selection makes lists for. False as soon as `work` is.
+template <typename Source, typename Work>
+bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, const Work& work) {
     if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
         throw Error(ErrorKind::failure, "gather_packets needs a wide tree: upload the tree for that kernel");
     }
-    const bool roulette = input.roulette > 0.0f;
-    if (roulette && input.group_size != 0) {
-        throw Error(ErrorKind::invalid_argument, "the gather has no roulette where it sums by groups");
+    if (input.selection != nullptr && input.group_size != 0) {
+        throw Error(ErrorKind::invalid_argument, "a gather that sums by groups takes no selection of VPLs");
     }
     const std::size_t bundle_count = input.bundles().bundle_count();
-    Kernel& kernel = kernel_of(roulette, recording);
-    if (!roulette) {
-        return work(kernel, 0, bundle_count);
+    Kernel& kernel = kernel_of(input.selection != nullptr, recording);
+    if (input.selection == nullptr) {
+        return work(kernel, 0, bundle_count, nullptr);
     }
-    if (!roulette_) {
-        roulette_.emplace(*device_);
-    }
-    const RouletteTask task{.vpls = input.vpls,
-                            .vpl_count = input.vpl_count,
-                            .receivers = input.receivers,
-                            .bundles = input.bundles(),
-                            .clamp_radius = input.clamp_radius,
-                            .threshold = input.roulette,
-                            .seed = input.seed};
-    const std::size_t most = Roulette::max_bundles(input.vpl_count);
-    for (std::size_t first = 0; first < bundle_count; first += most) {
-        const std::size_t end = std::min(bundle_count, first + most);
-        const RouletteLists& lists = roulette_->choose(task, first, end);
-        if (!work(kernel, first, end, lists.vpls, lists.weights, lists.counts, lists.first_bundle,
-                  lists.stride)) {
+    for (std::size_t first = 0; first < bundle_count; first += input.selection->max_bundles) {
+        const std::size_t end = std::min(bundle_count, first + input.selection->max_bundles);
+        if (!work(kernel, first, end, &input.selection->lists(first, end))) {
             return false;
         }
     }
     return true;
 }
 
-bool Gatherer::gather(const GatherInput& input, Buffer<IrradiancePacket>& irradiance,
+template <typename Source>
+bool Gatherer::gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                       const GatherProgress& progress) {
     Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
                   launch_pairs_};
     const bool whole = for_each_run(
-        input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
-            return gather_bundles(kernel, input, first, end, irradiance, course, lists...);
+        input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const VplLists* lists) {
+            return gather_bundles(kernel, input, first, end, lists, sums, course);
         });
     // Gathers may differ in cost more than the parts of one.
     launch_pairs_ = std::max(course.budget / 4.0, std::min(launch_pairs_, course.budget));
     return whole;
 }
+template bool Gatherer::gather(const GatherInput<Vpl>&, GatherSums<Vpl>&, const GatherProgress&);
+template bool Gatherer::gather(const GatherInput<Importon>&, GatherSums<Importon>&, const GatherProgress&);
 
-std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput& input,
-                                                  Buffer<IrradiancePacket>& irradiance) {
+std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput<Vpl>& input, GatherSums<Vpl>& sums) {
     const std::size_t pairs = input.packet_count * input.vpl_count * NEARLIGHT_PACKET_SIZE;
     Buffer<std::uint8_t> record(*device_, pairs);
     record.fill_zero();
-    const auto vpl_count = static_cast<cl_uint>(input.vpl_count);
-    for_each_run(input, true, [&](Kernel& kernel, std::size_t first, std::size_t end, const auto&... lists) {
-        launch(kernel, input, {first, end, 0, input.vpl_count}, irradiance, lists..., record, vpl_count);
+    for_each_run(input, true, [&](Kernel& kernel, std::size_t first, std::size_t end, const VplLists* lists) {
+        launch(kernel, input, {first, end, 0, input.vpl_count}, lists, sums, record);
         return true;
     });
     std::vector<GatherPair> result(pairs);

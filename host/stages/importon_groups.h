@@ -11,6 +11,6 @@ namespace nearlight::core {
 
 /// Splits them into `wanted` groups of nearly equal size (fewer if there are fewer importons; none is empty),
 /// again and again at the median of what spreads most, position or normal.
-std::vector<std::vector<Vpl>> group_importons(std::vector<Vpl> importons, std::size_t wanted);
+std::vector<std::vector<Importon>> group_importons(std::vector<Importon> importons, std::size_t wanted);
 
 }  // namespace nearlight::core

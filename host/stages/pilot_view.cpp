@@ -34,64 +34,64 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
 }
 
 /// `wanted` of them, evenly spread.
-std::vector<Vpl> some_of(std::span<const Vpl> importons, std::size_t wanted) {
+std::vector<Importon> some_of(std::span<const Importon> importons, std::size_t wanted) {
     const std::size_t count = std::min(importons.size(), wanted);
-    std::vector<Vpl> some;
+    std::vector<Importon> some;
     for (std::size_t i = 0; i < count; ++i) {
         some.push_back(importons[i * importons.size() / count]);
     }
     return some;
 }
 
-Importons upload(Device& device, std::span<const Vpl> importons) {
-    return {.vpls = Buffer<Vpl>(device, importons), .count = importons.size()};
+Importons upload(Device& device, std::span<const Importon> importons) {
+    return {.importons = Buffer<Importon>(device, importons), .count = importons.size()};
 }
 
-Importons squared(Device& device, std::vector<Vpl> importons) {
-    for (Vpl& importon : importons) {
-        importon.power = importon.power * importon.power * (1.0f / kPi);
-        importon.flags = NEARLIGHT_VPL_SQUARED;
+Importons squared(Device& device, std::vector<Importon> importons) {
+    for (Importon& importon : importons) {
+        importon.response = importon.response * importon.response * (1.0f / kPi);
+        importon.flags = NEARLIGHT_IMPORTON_SQUARED;
     }
     return upload(device, importons);
 }
 
-ImportonGroups grouped(Device& device, std::vector<Vpl> importons) {
+ImportonGroups grouped(Device& device, std::vector<Importon> importons) {
     ImportonGroups result;
     result.importon_count = importons.size();
-    const std::vector<std::vector<Vpl>> groups = group_importons(std::move(importons), kImportonGroups);
-    for (const std::vector<Vpl>& group : groups) {
+    const std::vector<std::vector<Importon>> groups = group_importons(std::move(importons), kImportonGroups);
+    for (const std::vector<Importon>& group : groups) {
         result.group_size = std::max(result.group_size, static_cast<uint>(group.size()));
     }
-    std::vector<Vpl> in_order;
-    for (const std::vector<Vpl>& group : groups) {
+    std::vector<Importon> in_order;
+    for (const std::vector<Importon>& group : groups) {
         in_order.insert(in_order.end(), group.begin(), group.end());
         in_order.resize(++result.group_count * result.group_size);  // without a normal, so none is reached
     }
-    result.vpls = Buffer<Vpl>(device, std::span<const Vpl>(in_order));
+    result.importons = Buffer<Importon>(device, std::span<const Importon>(in_order));
     return result;
 }
 
 }  // namespace
 
-std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
-                                const std::vector<CameraVertex>& vertices) {
-    std::vector<Vpl> importons;
+std::vector<Importon> make_importons(const std::vector<ReceiverPacket>& packets,
+                                     const std::vector<CameraVertex>& vertices) {
+    std::vector<Importon> importons;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const auto [position, normal] = receiver_at(packets, i);
         const Vec3 response = vertices[i].throughput * vertices[i].albedo;
         if (!is_zero(normal) && luminance(response) > 0.0f) {
             importons.push_back({.position = position,
-                                 .depth = 0,
+                                 .pad0 = 0,
                                  .normal = normal,
                                  .flags = 0,
-                                 .power = response,
-                                 .pad0 = 0.0f});
+                                 .response = response,
+                                 .pad1 = 0.0f});
         }
     }
     return importons;
 }
 
-void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons) {
+void set_importons(Device& device, PilotView& view, std::span<const Importon> importons) {
     view.importons = upload(device, importons);
     view.few_squared_importons = squared(device, some_of(importons, kFewSquaredImportons));
     view.importon_groups = grouped(device, some_of(importons, kGroupedImportons));

@@ -16,18 +16,16 @@ enum class ContributionNorm {
     rough_mean_square,  ///< what it would add to the error of the picture if chosen by chance; few importons
 };
 
-/// Receivers as senders of importance: power is the response of the camera to what they reflect (the albedo
-/// times the weight of the camera path), so that a gather from them tells what a VPL would bring to the
-/// camera. For rough mean squares, powers are squares, and they are marked for squared geometry terms.
+/// For rough mean squares, responses are squares, and the importons are marked for squared geometry terms.
 struct Importons {
-    Buffer<Vpl> vpls;
+    Buffer<Importon> importons;
     std::size_t count = 0;
 };
 
 /// Importons by parts of the picture: groups of `group_size` that follow one another. Where a group has
 /// fewer, it is filled up with some that nothing reaches.
 struct ImportonGroups {
-    Buffer<Vpl> vpls;
+    Buffer<Importon> importons;
     std::size_t importon_count = 0;  ///< without those that fill up
     uint group_size = 0;
     uint group_count = 0;
@@ -48,11 +46,11 @@ struct PilotView {
 };
 
 /// What the camera sees of light, one importon for each receiver that reflects any of it.
-std::vector<Vpl> make_importons(const std::vector<ReceiverPacket>& packets,
-                                const std::vector<CameraVertex>& vertices);
+std::vector<Importon> make_importons(const std::vector<ReceiverPacket>& packets,
+                                     const std::vector<CameraVertex>& vertices);
 
 /// Uploads them, the squares of some, and groups.
-void set_importons(Device& device, PilotView& view, std::span<const Vpl> importons);
+void set_importons(Device& device, PilotView& view, std::span<const Importon> importons);
 
 /// About a thousand receivers, evenly spread over the view.
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,

@@ -3,14 +3,14 @@
 
 namespace nearlight::core {
 
-CameraPoints make_camera_points(Device& device, std::span<const Vpl> importons, uint rays_per_point) {
-    std::vector<Vpl> points(importons.begin(), importons.end());
+CameraPoints make_camera_points(Device& device, std::span<const Importon> importons, uint rays_per_point) {
+    std::vector<Importon> points(importons.begin(), importons.end());
     const auto rays = static_cast<float>(rays_per_point);
-    for (Vpl& point : points) {
+    for (Importon& point : points) {
         point.flags = 0;
-        point.power = {rays, rays, rays};
+        point.response = {rays, rays, rays};
     }
-    return {.points = Buffer<Vpl>(device, std::span<const Vpl>(points)),
+    return {.points = Buffer<Importon>(device, std::span<const Importon>(points)),
             .count = static_cast<uint>(points.size()),
             .rays_per_point = rays_per_point};
 }
@@ -39,7 +39,7 @@ std::vector<Vpl> ReverseVpls::trace(const DeviceScene& scene, const CameraPoints
 
 void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& points,
                                   const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-                                  Buffer<IrradiancePacket>& density) {
+                                  GatherSums<Importon>& density) {
     gatherer_->gather({.tree = scene.tree,
                        .vpls = points.points,
                        .vpl_count = points.count,

@@ -14,13 +14,13 @@ namespace nearlight::core {
 
 /// Where reverse VPLs are made from.
 struct CameraPoints {
-    Buffer<Vpl> points;  ///< as VPLs of power rays_per_point: so a gather sums their density
+    Buffer<Importon> points;  ///< of response rays_per_point, so that a gather sums their density
     uint count = 0;
     uint rays_per_point = 1;
 };
 
 /// The surfaces' points that `importons` stand on, each to send so many rays.
-CameraPoints make_camera_points(Device& device, std::span<const Vpl> importons, uint rays_per_point);
+CameraPoints make_camera_points(Device& device, std::span<const Importon> importons, uint rays_per_point);
 
 class ReverseVpls {
   public:
@@ -32,10 +32,10 @@ class ReverseVpls {
     std::vector<Vpl> trace(const DeviceScene& scene, const CameraPoints& points, uint seed);
 
     /// How many of those VPLs there are a square metre around each receiver, in expectation: all three
-    /// channels of `density`. Exact for these very points, whatever rays they sent.
+    /// channels of density.light. Exact for these very points, whatever rays they sent.
     void measure_density(const DeviceScene& scene, const CameraPoints& points,
                          const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-                         Buffer<IrradiancePacket>& density);
+                         GatherSums<Importon>& density);
 
   private:
     Device* device_;

@@ -10,6 +10,11 @@ namespace {
 constexpr std::size_t kListBytes = std::size_t{96} << 20u;
 constexpr std::size_t kEntryBytes = 2 * sizeof(float) + sizeof(uint);
 
+/// Bundles whose lists fit into memory together; at least 1.
+std::size_t max_bundles(std::size_t vpl_count) {
+    return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
+}
+
 }  // namespace
 
 Roulette::Roulette(Device& device)
@@ -18,19 +23,22 @@ Roulette::Roulette(Device& device)
       bounds_kernel_(program_, "roulette_bounds"),
       choose_kernel_(program_, "roulette_choose") {}
 
-std::size_t Roulette::max_bundles(std::size_t vpl_count) {
-    return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
+VplSelection Roulette::select(const RouletteTask& task) {
+    return {.bundles = task.bundles,
+            .max_bundles = max_bundles(task.vpl_count),
+            .lists = [this, task](std::size_t first_bundle, std::size_t end_bundle) -> const VplLists& {
+                return choose(task, first_bundle, end_bundle);
+            }};
 }
 
-const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t first_bundle,
-                                      std::size_t end_bundle) {
+const VplLists& Roulette::choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle) {
     const std::size_t bundles = end_bundle - first_bundle;
     const std::size_t entries = bundles * task.vpl_count;
-    if (bounds_.count() < entries || lists_.counts.count() < bundles) {
+    if (bounds_.count() < entries || lists_.lengths.count() < bundles) {
         bounds_ = Buffer<float>(*device_, entries);
         lists_.vpls = Buffer<uint>(*device_, entries);
         lists_.weights = Buffer<float>(*device_, entries);
-        lists_.counts = Buffer<uint>(*device_, bundles);
+        lists_.lengths = Buffer<uint>(*device_, bundles);
     }
     const BundleLayout& layout = task.bundles;
     const auto vpl_count = lists_.stride = static_cast<uint>(task.vpl_count);
@@ -42,7 +50,7 @@ const RouletteLists& Roulette::choose(const RouletteTask& task, std::size_t firs
                                 task.clamp_radius * task.clamp_radius, bounds_);
     choose_kernel_.launch_items(bundles, bounds_, vpl_count, task.receivers, layout.packet_count,
                                 layout.run_packets, first, end, task.threshold, task.seed, lists_.vpls,
-                                lists_.weights, lists_.counts);
+                                lists_.weights, lists_.lengths);
     return lists_;
 }
 

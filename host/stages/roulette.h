@@ -3,23 +3,10 @@
 // roulette.cl.
 #pragma once
 
-#include "host/base/receiver_bundles.h"
-#include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
-#include "kernels/shared/types.h"
+#include "host/stages/vpl_selection.h"
 
 namespace nearlight::core {
-
-/// Which VPLs each bundle of [first_bundle, end_bundle) asks about. Entry k of a bundle, k < counts[bundle −
-/// first_bundle], is at (bundle − first_bundle)·stride + k of `vpls` (an index) and `weights` (1/p, what the
-/// VPL counts).
-struct RouletteLists {
-    Buffer<uint> vpls;
-    Buffer<float> weights;
-    Buffer<uint> counts;
-    uint first_bundle = 0;
-    uint stride = 0;
-};
 
 struct RouletteTask {
     const Buffer<Vpl>& vpls;
@@ -38,20 +25,19 @@ class Roulette {
   public:
     explicit Roulette(Device& device);
 
-    /// Bundles whose lists fit into memory together, for so many VPLs; at least 1.
-    [[nodiscard]] static std::size_t max_bundles(std::size_t vpl_count);
-
-    /// The lists of bundles [first_bundle, end_bundle), at most max_bundles() of them; valid until the next
-    /// call.
-    const RouletteLists& choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle);
+    /// The lists that the task's bundles get by chance; each VPL in a list weighs 1/p. Refers to the roulette
+    /// and the task's buffers.
+    [[nodiscard]] VplSelection select(const RouletteTask& task);
 
   private:
+    const VplLists& choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle);
+
     Device* device_;
     Program program_;
     Kernel bounds_kernel_;
     Kernel choose_kernel_;
     Buffer<float> bounds_;
-    RouletteLists lists_;
+    VplLists lists_;
 };
 
 }  // namespace nearlight::core

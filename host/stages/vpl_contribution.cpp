@@ -15,7 +15,7 @@ VplContribution::VplContribution(Device& device, Gatherer& gatherer)
       program_(device, "vpl_contribution.cl", kVplsProgram),
       vpl_contribution_(program_, "vpl_contribution"),
       vpl_group_contribution_(program_, "vpl_group_contribution"),
-      vpl_least_importance_(program_, "vpl_least_importance") {}
+      importance_thresholds_(program_, "importance_thresholds") {}
 
 void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                           const PilotView& view, float clamp_radius, Buffer<float>& contribution,
@@ -24,16 +24,16 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
     const Importons& importons = view.importons_of(norm);
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
-    Buffer<IrradiancePacket> importance(*device_, packets);
+    GatherSums<Importon> importance(*device_, packets);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
     gatherer_->gather({.tree = scene.tree,
-                       .vpls = importons.vpls,
+                       .vpls = importons.importons,
                        .vpl_count = importons.count,
                        .receivers = receivers,
                        .packet_count = packets,
                        .clamp_radius = clamp_radius},
                       importance);
-    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance,
+    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.light,
                                    squared ? 1u : 0u, contribution);
     device_->finish();  // the buffers of this function must outlive the kernel
 }
@@ -44,30 +44,31 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
     const ImportonGroups& groups = view.importon_groups;
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
-    Buffer<IrradiancePacket> importance(*device_, packets * (1 + groups.group_count));
+    GatherSums<Importon> importance(*device_, packets, groups.group_count);
     Buffer<float> errors(*device_, vpl_count);
     Buffer<float> rows(*device_, 3 * groups.group_count * vpl_count);
-    Buffer<float> least(*device_, packets * NEARLIGHT_PACKET_SIZE);
+    Buffer<float> thresholds(*device_, packets * NEARLIGHT_PACKET_SIZE);
     vpl_light_.make_receivers(vpls, vpl_count, receivers);
     const std::size_t importon_slots = std::size_t{groups.group_count} * groups.group_size;
-    vpl_least_importance_.launch_items(
-        packets * (NEARLIGHT_PACKET_SIZE / 16), groups.vpls, static_cast<uint>(importon_slots), receivers,
-        static_cast<uint>(packets), clamp_radius * clamp_radius, kNegligiblePart, least);
+    importance_thresholds_.launch_items(
+        packets * (NEARLIGHT_PACKET_SIZE / 16), groups.importons, static_cast<uint>(importon_slots),
+        receivers, static_cast<uint>(packets), clamp_radius * clamp_radius, kNegligiblePart, thresholds);
     gatherer_->gather({.tree = scene.tree,
-                       .vpls = groups.vpls,
+                       .vpls = groups.importons,
                        .vpl_count = importon_slots,
                        .receivers = receivers,
                        .packet_count = packets,
                        .clamp_radius = clamp_radius,
                        .group_size = groups.group_size,
-                       .least = &least},
+                       .thresholds = &thresholds},
                       importance);
-    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance, 1u, errors);
+    vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.squares, 1u,
+                                   errors);
     // So that squares of sums over a group compare with sums of squares.
     const float scale = std::sqrt(static_cast<float>(groups.group_count) /
                                   static_cast<float>(std::max<std::size_t>(groups.importon_count, 1)));
     vpl_group_contribution_.launch_items(vpl_count * groups.group_count, vpls, static_cast<uint>(vpl_count),
-                                         importance, groups.group_count, scale, rows);
+                                         importance.groups, groups.group_count, scale, rows);
     return {.errors = errors.download(), .rows = rows.download()};
 }
 

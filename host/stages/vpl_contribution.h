@@ -43,7 +43,7 @@ class VplContribution {
     Program program_;
     Kernel vpl_contribution_;
     Kernel vpl_group_contribution_;
-    Kernel vpl_least_importance_;
+    Kernel importance_thresholds_;
 };
 
 }  // namespace nearlight::core

@@ -17,7 +17,7 @@
 #define GATHER_RECORD_VISIBLE 1
 #define GATHER_RECORD_OCCLUDED 2
 #ifdef GATHER_RECORD
-#define GATHER_RECORD_PARAMETERS , global uchar *record, uint record_vpl_count
+#define GATHER_RECORD_PARAMETERS , global uchar* record
 inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint lane) {
     return ((size_t)packet * vpl_count + vpl) * NEARLIGHT_PACKET_SIZE + lane;
 }
@@ -25,33 +25,38 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_RECORD_PARAMETERS
 #endif
 
-// With GATHER_ROULETTE defined, each bundle of packets goes through a list of VPLs instead of all of them
-// (roulette.cl). Below, `k` is a place in that list, or simply a VPL.
-#ifdef GATHER_ROULETTE
-#define GATHER_ROULETTE_PARAMETERS                                                                     \
-    , const global uint *chosen, const global float *chosen_weights, const global uint *chosen_counts, \
-        uint first_listed, uint list_stride
-#define GATHER_END(bundle, end) min(end, chosen_counts[(bundle)-first_listed])
-#define GATHER_VPL(bundle, k) chosen[(size_t)((bundle)-first_listed) * list_stride + (k)]
-#define GATHER_WEIGHT(bundle, k) chosen_weights[(size_t)((bundle)-first_listed) * list_stride + (k)]
+// With GATHER_LISTS defined, each bundle of packets asks about a list of VPLs instead of all of them
+// (host/stages/vpl_selection.h). Below, `k` is a place in that list, or simply a VPL.
+#ifdef GATHER_LISTS
+#define GATHER_LIST_PARAMETERS \
+    , const global uint *listed_vpls, const global float *list_weights, const global uint *list_lengths
+inline size_t gather_list(uint bundle, const GatherParams* params) {
+    return (size_t)(bundle - params->first_listed_bundle) * params->list_stride;
+}
+#define GATHER_END(bundle, params) \
+    min((params)->end_vpl, list_lengths[(bundle) - (params)->first_listed_bundle])
+#define GATHER_VPL(bundle, params, k) listed_vpls[gather_list(bundle, params) + (k)]
+#define GATHER_WEIGHT(bundle, params, k) list_weights[gather_list(bundle, params) + (k)]
 #else
-#define GATHER_ROULETTE_PARAMETERS
-#define GATHER_END(bundle, end) (end)
-#define GATHER_VPL(bundle, k) (k)
-#define GATHER_WEIGHT(bundle, k) 1.0f
+#define GATHER_LIST_PARAMETERS
+#define GATHER_END(bundle, params) ((params)->end_vpl)
+#define GATHER_VPL(bundle, params, k) (k)
+#define GATHER_WEIGHT(bundle, params, k) 1.0f
 #endif
 
-/// VPLs that are summed by themselves, and where their sums begin (kernel `gather_packets` has the layout).
+/// VPLs that are summed by themselves.
 inline uint gather_chunk_size(uint group_size) {
     return group_size != 0 ? group_size : GATHER_CHUNK;
 }
-inline size_t gather_slot(uint chunk, uint group_size, uint packet_count) {
-    return group_size != 0 ? (size_t)(1 + chunk / group_size) * packet_count : 0;
+
+/// As the gather sees an importon: types.h says why that may be.
+inline const global Vpl* as_source(const global Importon* importon) {
+    return (const global Vpl*)importon;
 }
 
 /// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.
 inline bool gather_squared(const global Vpl* vpl) {
-    return (vpl->flags & NEARLIGHT_VPL_SQUARED) != 0;
+    return (vpl->flags & NEARLIGHT_IMPORTON_SQUARED) != 0;
 }
 
 /// Radiant intensity of the VPL along its normal, W/sr. A VPL whose power is not finite is left out.

@@ -119,9 +119,9 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
         const float dy = ((const float*)(s->dy + visit->group))[lane];
         const float dz = ((const float*)(s->dz + visit->group))[lane];
         const float4 det = dot4(axes->n, dx, dy, dz);
-        const float4 least =
+        const float4 smallest =
             min4(min4(dot4(axes->u, dx, dy, dz), dot4(axes->v, dx, dy, dz)), dot4(axes->w, dx, dy, dz));
-        const int4 hit = (least >= 0.0f) & (axes->t > NEARLIGHT_SEGMENT_T_MIN * det) &
+        const int4 hit = (smallest >= 0.0f) & (axes->t > NEARLIGHT_SEGMENT_T_MIN * det) &
                          (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
         hit_lanes |= (lane_bits4(hit) != 0 ? 1u : 0u) << lane;
     }

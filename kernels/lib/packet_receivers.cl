@@ -20,7 +20,7 @@
 typedef struct Receivers {
     float16 x[GATHER_GROUPS], y[GATHER_GROUPS], z[GATHER_GROUPS];
     float16 nx[GATHER_GROUPS], ny[GATHER_GROUPS], nz[GATHER_GROUPS];
-    float16 least[GATHER_GROUPS];      // squares of light below it are left out; see load_least()
+    float16 threshold[GATHER_GROUPS];  // squares of light below it are left out; see load_thresholds()
     uchar order[GATHER_PACKET_WIDTH];  // which receiver, counted from the work-item's first, a lane has
 } Receivers;
 
@@ -163,16 +163,17 @@ inline void gather_receivers(Receivers* receivers, PacketBounds* bounds, const g
     permute(receivers->nz, receivers->order);
 }
 
-/// Fills in `least` of receivers that are in order, from one number for each receiver of all packets.
-inline void load_least(Receivers* receivers, const global float* least, const Bundle* bundle, uint first) {
+/// Fills in the thresholds of receivers that are in order, from one number for each receiver of all packets.
+inline void load_thresholds(Receivers* receivers, const global float* thresholds, const Bundle* bundle,
+                            uint first) {
     float lanes[GATHER_PACKET_WIDTH];
     for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
         const uint lane = first + receivers->order[i];
         const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
-        lanes[i] = there ? least[(size_t)bundle->first * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
+        lanes[i] = there ? thresholds[(size_t)bundle->first * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
     }
     for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        receivers->least[group] = vload16(group, lanes);
+        receivers->threshold[group] = vload16(group, lanes);
     }
 }
 

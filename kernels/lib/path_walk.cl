@@ -8,13 +8,13 @@
 #include "lib/material.cl"
 
 /// The radius at which the geometry term is bounded for light from a place y: widest / 2^level, not below
-/// `least`. The level is the first (of GATHER_LEVELS) for which that is at most at_unit_light / √E, E the
+/// `narrowest`. The level is the first (of GATHER_LEVELS) for which that is at most at_unit_light / √E, E the
 /// luminance of the direct light at y (W/m²), so that the radius follows the distance between VPLs of light
 /// walks. E is a rough estimate whose random numbers are hashes of y: the radius is a function of the place
 /// alone, and knows nothing of the VPLs there.
 typedef struct GatherRadius {
     float widest;
-    float least;
+    float narrowest;
     float at_unit_light;
     uint seed;
 } GatherRadius;
@@ -31,7 +31,7 @@ inline float gather_radius(const SceneView* scene, const GatherRadius* law, floa
             radius *= 0.5f;
         }
     }
-    return fmax(radius, law->least);
+    return fmax(radius, law->narrowest);
 }
 
 /// A set of VPLs to connect to: so many chosen ones stand for all, and the geometry term is bounded at their

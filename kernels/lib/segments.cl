@@ -80,12 +80,12 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
     }
 }
 
-/// Ends the segments whose light, squared, is less than the receiver's least.
-inline void leave_out_least(Segments* s, const Receivers* receivers, float square_scale) {
+/// Ends the segments whose light, squared, is less than the receiver's threshold.
+inline void leave_out_small(Segments* s, const Receivers* receivers, float square_scale) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_group(first_group(open))) {
         const uint group = first_group(open);
         const float16 square = s->weight[group] * s->weight[group] * square_scale;
-        end_lanes(s, group, lane_bits16(square < receivers->least[group]));
+        end_lanes(s, group, lane_bits16(square < receivers->threshold[group]));
     }
 }
 

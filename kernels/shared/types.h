@@ -204,8 +204,21 @@ typedef struct Vpl {
     Vec3 power;
     float pad0;
 } Vpl;
-#define NEARLIGHT_VPL_CLOSE 1u    // lies in the close range
-#define NEARLIGHT_VPL_SQUARED 2u  // a gather sums the squares of its geometry terms (importons, pilot_view.h)
+#define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+
+/// A receiver of the camera that sends importance into the hemisphere of `normal`, as a VPL sends light:
+/// `response` is the camera's response to what the receiver reflects (albedo times the weight of the camera
+/// path), so that a gather from importons tells what a VPL would bring to the camera. It has the members of a
+/// Vpl in the same places, so that one kernel gathers from either.
+typedef struct Importon {
+    Vec3 position;
+    uint pad0;
+    Vec3 normal;
+    uint flags;
+    Vec3 response;
+    float pad1;
+} Importon;
+#define NEARLIGHT_IMPORTON_SQUARED 2u  // a gather sums the squares of its geometry terms
 
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {
@@ -240,6 +253,27 @@ NEARLIGHT_SHARED_FUNCTION uint tiles_across(uint pixels) {
 typedef struct IrradiancePacket {
     float r[NEARLIGHT_PACKET_SIZE], g[NEARLIGHT_PACKET_SIZE], b[NEARLIGHT_PACKET_SIZE];
 } IrradiancePacket;
+
+/// Importance of the receivers of a packet: the sum over importons of response/π times the geometry term and
+/// visibility, R, G and B.
+typedef struct ImportancePacket {
+    float r[NEARLIGHT_PACKET_SIZE], g[NEARLIGHT_PACKET_SIZE], b[NEARLIGHT_PACKET_SIZE];
+} ImportancePacket;
+
+/// One launch of a gather (gather_packets.cl, gather_rays.cl): which receivers ask about which VPLs or
+/// importons, and what is summed.
+typedef struct GatherParams {
+    uint first_vpl, end_vpl;        // of the set, or of each bundle's list
+    uint packet_count;              // of receivers
+    uint run_packets;               // of which bundles are formed together (lib/bundle.cl)
+    uint first_bundle, end_bundle;  // of this launch
+    float clamp_radius_squared;     // m²
+    uint group_size;                // VPLs that are summed by themselves; 0: all VPLs make one sum
+    uint has_thresholds;            // 1: pairs below the threshold of their receiver are left out
+    uint first_listed_bundle;       // that has a list, where bundles have lists of VPLs
+    uint list_stride;               // entries from one bundle's list to the next
+    uint recorded_vpls;             // VPLs of a packet in the record, where there is one
+} GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
 /// stand off their surfaces already; the margins only keep rounding at the ends from counting as hits.
@@ -295,9 +329,16 @@ NEARLIGHT_CHECK_SHARED(Emitter, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
 NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
+NEARLIGHT_CHECK_SHARED(Importon, 48);
+static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
+                  offsetof(Importon, flags) == offsetof(Vpl, flags) &&
+                  offsetof(Importon, response) == offsetof(Vpl, power),
+              "a gather reads an Importon as a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
 NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1536);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
+NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
+NEARLIGHT_CHECK_SHARED(GatherParams, 48);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 32);

@@ -45,11 +45,11 @@ class GatherBenchTest : public DeviceTest {
         const DeviceTree tree = upload_tree(device, work.bvh, kernel);
         const Buffer<Vpl> vpls(device, work.vpls);
         const Buffer<ReceiverPacket> receivers(device, work.receivers);
-        Buffer<IrradiancePacket> irradiance(device, work.receivers.size());
+        GatherSums<Vpl> sums(device, work.receivers.size());
         Gatherer gatherer(device, {kernel});
         pairs = gatherer.gather_recorded(
-            {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius}, irradiance);
-        return irradiance.download();
+            {tree, vpls, vpls.count(), receivers, receivers.count(), kClampRadius}, sums);
+        return sums.light.download();
     }
 };
 

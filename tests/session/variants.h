@@ -12,7 +12,9 @@ namespace nearlight::core::test {
 struct Variant {
     SamplerKind sampler;
     Policy policy;
-    [[nodiscard]] std::string name() const { return to_string(sampler) + " " + to_string(policy); }
+    [[nodiscard]] std::string name() const {
+        return core::to_string(sampler) + " " + core::to_string(policy);
+    }
 };
 
 /// Policies are of close-range sampling; other samplers do not read them.

@@ -74,15 +74,15 @@ struct CornerLight {
         const std::vector<Vpl> vpls =
             LightTracer(device).run(on_gpu.buffers, region, KeepDeposits::all,
                                     {.walk_count = 200'000, .bounce_count = bounces, .seed = 1});
-        Buffer<IrradiancePacket> irradiance(device, 1);
+        GatherSums<Vpl> sums(device, 1);
         Gatherer(device).gather({.tree = on_gpu.buffers.tree,
                                  .vpls = Buffer<Vpl>(device, std::span(vpls)),
                                  .vpl_count = vpls.size(),
                                  .receivers = receivers,
                                  .packet_count = 1,
                                  .clamp_radius = radius},
-                                irradiance);
-        return mean_green(irradiance);
+                                sums);
+        return mean_green(sums.light);
     }
 
     Device& device;

@@ -74,12 +74,13 @@ TEST_F(DeviceTreeTest, KernelsRefuseOneOfTheOtherShape) {
         tree.wide_nodes = {};
         const Buffer<Vpl> vpls(device, data_.vpls);
         const Buffer<ReceiverPacket> receivers(device, data_.receivers);
-        Buffer<IrradiancePacket> irradiance(device, data_.receivers.size());
-        const GatherInput input{tree, vpls, vpls.count(), receivers, receivers.count(), data_.clamp_radius};
-        EXPECT_THROW(Gatherer(device, {GatherKernel::packets}).gather(input, irradiance), Error);
-        EXPECT_TRUE(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance));
+        GatherSums<Vpl> sums(device, data_.receivers.size());
+        const GatherInput<Vpl> input{
+            tree, vpls, vpls.count(), receivers, receivers.count(), data_.clamp_radius};
+        EXPECT_THROW(Gatherer(device, {GatherKernel::packets}).gather(input, sums), Error);
+        EXPECT_TRUE(Gatherer(device, {GatherKernel::rays}).gather(input, sums));
         tree.nodes = {};
-        EXPECT_THROW(Gatherer(device, {GatherKernel::rays}).gather(input, irradiance), Error);
+        EXPECT_THROW(Gatherer(device, {GatherKernel::rays}).gather(input, sums), Error);
     });
 }
 

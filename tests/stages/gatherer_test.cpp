@@ -111,8 +111,8 @@ class GathererTest : public DeviceTest {
                 Gatherer gatherer(device, variant.config);
                 Uploaded uploaded(device, data);
                 const std::vector<GatherPair> pairs =
-                    gatherer.gather_recorded(uploaded.input(), uploaded.irradiance());
-                const std::vector<IrradiancePacket> recorded = uploaded.irradiance().download();
+                    gatherer.gather_recorded(uploaded.input(), uploaded.sums());
+                const std::vector<IrradiancePacket> recorded = uploaded.sums().light.download();
                 expect_close(recorded, sum_visible(data, pairs));
                 expect_close(uploaded.gather(gatherer), recorded);
                 const Differences differences = compare(data, pairs);
@@ -207,17 +207,17 @@ TEST_F(GathererTest, ProgressCountsPairsAndCancels) {
         Uploaded uploaded(device, data);
         std::vector<std::uint64_t> steps;
         const std::uint64_t all = 5ull * 1000 * NEARLIGHT_PACKET_SIZE;
-        EXPECT_TRUE(gatherer.gather(uploaded.input(), uploaded.irradiance(),
-                                    [&](std::uint64_t done, std::uint64_t total) {
-                                        EXPECT_EQ(total, all);
-                                        EXPECT_GT(done, steps.empty() ? 0 : steps.back());
-                                        steps.push_back(done);
-                                        return true;
-                                    }));
+        EXPECT_TRUE(
+            gatherer.gather(uploaded.input(), uploaded.sums(), [&](std::uint64_t done, std::uint64_t total) {
+                EXPECT_EQ(total, all);
+                EXPECT_GT(done, steps.empty() ? 0 : steps.back());
+                steps.push_back(done);
+                return true;
+            }));
         EXPECT_EQ(steps.size(), 2u * 4u);  // bundles × chunks of 256
         EXPECT_EQ(steps.back(), all);
         int calls = 0;
-        EXPECT_FALSE(gatherer.gather(uploaded.input(), uploaded.irradiance(),
+        EXPECT_FALSE(gatherer.gather(uploaded.input(), uploaded.sums(),
                                      [&](std::uint64_t, std::uint64_t) { return ++calls < 3; }));
         EXPECT_EQ(calls, 3);
     });
@@ -232,11 +232,11 @@ TEST_F(GathererTest, CountsMayBeSmallerThanBuffers) {
         Gatherer gatherer(device);
         Uploaded expected(device, fewer);
         Uploaded uploaded(device, data);
-        GatherInput input = uploaded.input();
+        GatherInput<Vpl> input = uploaded.input();
         input.vpl_count = 77;
         input.packet_count = 2;
-        EXPECT_TRUE(gatherer.gather(input, uploaded.irradiance()));
-        std::vector<IrradiancePacket> actual = uploaded.irradiance().download();
+        EXPECT_TRUE(gatherer.gather(input, uploaded.sums()));
+        std::vector<IrradiancePacket> actual = uploaded.sums().light.download();
         EXPECT_TRUE(std::isnan(actual[2].r[0])) << "written beyond the last packet";
         actual.resize(2);
         EXPECT_TRUE(same_bits(actual, expected.gather(gatherer)));
@@ -305,7 +305,7 @@ TEST_F(GathererTest, AbsentReceiversGetNothing) {
 std::vector<IrradiancePacket> gather_squares(Device& device, Gatherer& gatherer, GatherCase data) {
     for (Vpl& vpl : data.vpls) {
         vpl.power = (1.0f / kPi) * vpl.power * vpl.power;
-        vpl.flags = NEARLIGHT_VPL_SQUARED;
+        vpl.flags = NEARLIGHT_IMPORTON_SQUARED;
     }
     return Uploaded(device, data).gather(gatherer);
 }
@@ -315,7 +315,7 @@ TEST_F(GathererTest, GroupsAreSummedByThemselves) {
     const GatherCase data = random_triangles(100, 200, 5, 21);  // the last group has 8
     on_each_device([&](Device& device) {
         const Uploaded uploaded(device, data);
-        GatherInput input = uploaded.input();
+        GatherInput<Vpl> input = uploaded.input();
         input.group_size = kGroup;
         ASSERT_EQ(input.group_count(), 5u);
         for (Variant variant : variants()) {
@@ -324,20 +324,20 @@ TEST_F(GathererTest, GroupsAreSummedByThemselves) {
                 variant.config.first_launch_pairs = launch_seconds < 1.0 ? 1 : std::uint64_t{1} << 40u;
                 variant.config.launch_seconds = launch_seconds;
                 Gatherer gatherer(device, variant.config);
-                Buffer<IrradiancePacket> sums(device, data.receivers.size() * 6);
+                GatherSums<Vpl> sums(device, data.receivers.size(), input.group_count());
                 ASSERT_TRUE(gatherer.gather(input, sums));
-                const std::vector<IrradiancePacket> found = sums.download();
-                const auto slot = [&](std::size_t index) {
+                expect_close(sums.squares.download(), gather_squares(device, gatherer, data));
+                const std::vector<IrradiancePacket> groups = sums.groups.download();
+                const auto sum_of = [&](std::size_t group) {
                     const auto first =
-                        found.begin() + static_cast<std::ptrdiff_t>(index * data.receivers.size());
+                        groups.begin() + static_cast<std::ptrdiff_t>(group * data.receivers.size());
                     return std::vector(first, first + static_cast<std::ptrdiff_t>(data.receivers.size()));
                 };
-                expect_close(slot(0), gather_squares(device, gatherer, data));
                 for (std::size_t group = 0; group < input.group_count(); ++group) {
                     GatherCase of_group = data;
                     const auto first = data.vpls.begin() + static_cast<std::ptrdiff_t>(group * kGroup);
                     of_group.vpls.assign(first, std::min(first + kGroup, data.vpls.end()));
-                    EXPECT_TRUE(same_bits(slot(1 + group), Uploaded(device, of_group).gather(gatherer)))
+                    EXPECT_TRUE(same_bits(sum_of(group), Uploaded(device, of_group).gather(gatherer)))
                         << "group " << group;
                 }
             }
@@ -345,10 +345,10 @@ TEST_F(GathererTest, GroupsAreSummedByThemselves) {
     });
 }
 
-/// Of a pair, the square that GatherInput::least is compared with.
+/// Of a pair, the square that GatherInput::thresholds is compared with.
 double squared_light(const Vpl& vpl, const PairTerm& term) {
     const Vec3 scale = (1.0f / kPi) * vpl.power;
-    const bool squared = (vpl.flags & NEARLIGHT_VPL_SQUARED) != 0;
+    const bool squared = (vpl.flags & NEARLIGHT_IMPORTON_SQUARED) != 0;
     return term.value * term.value *
            static_cast<double>(squared ? scale.x + scale.y + scale.z : dot(scale, scale));
 }
@@ -366,23 +366,23 @@ std::vector<float> mean_squares(const GatherCase& data) {
     return means;
 }
 
-TEST_F(GathererTest, LeavesOutWhatIsLessThanTheLeast) {
+TEST_F(GathererTest, LeavesOutWhatIsBelowTheThreshold) {
     GatherCase data = random_triangles(200, 90, 5, 23);
     for (std::size_t i = 0; i < data.vpls.size(); i += 3) {
-        data.vpls[i].flags = NEARLIGHT_VPL_SQUARED;
+        data.vpls[i].flags = NEARLIGHT_IMPORTON_SQUARED;
     }
-    const std::vector<float> least = mean_squares(data);
+    const std::vector<float> thresholds = mean_squares(data);
     on_each_device([&](Device& device) {
         Uploaded uploaded(device, data);
-        const Buffer<float> least_on_device(device, least);
-        GatherInput input = uploaded.input();
+        const Buffer<float> on_device(device, thresholds);
+        GatherInput<Vpl> input = uploaded.input();
         for (const Variant& variant : variants()) {
             SCOPED_TRACE(variant.name);
             Gatherer gatherer(device, variant.config);
-            input.least = nullptr;
-            const std::vector<GatherPair> all = gatherer.gather_recorded(input, uploaded.irradiance());
-            input.least = &least_on_device;
-            const std::vector<GatherPair> some = gatherer.gather_recorded(input, uploaded.irradiance());
+            input.thresholds = nullptr;
+            const std::vector<GatherPair> all = gatherer.gather_recorded(input, uploaded.sums());
+            input.thresholds = &on_device;
+            const std::vector<GatherPair> some = gatherer.gather_recorded(input, uploaded.sums());
             std::size_t left_out = 0;
             std::size_t left = 0;
             for (std::size_t i = 0; i < all.size(); ++i) {
@@ -392,31 +392,32 @@ TEST_F(GathererTest, LeavesOutWhatIsLessThanTheLeast) {
                     i % NEARLIGHT_PACKET_SIZE;
                 const double square = squared_light(
                     vpl, pair_term(vpl, receiver_at(data.receivers, receiver), data.clamp_radius));
-                if (all[i] == GatherPair::culled || std::abs(square - least[receiver]) < 1e-4 * square) {
+                if (all[i] == GatherPair::culled || std::abs(square - thresholds[receiver]) < 1e-4 * square) {
                     continue;
                 }
-                const bool counts = square >= least[receiver];
+                const bool counts = square >= thresholds[receiver];
                 ++(counts ? left : left_out);
                 ASSERT_EQ(some[i], counts ? all[i] : GatherPair::culled) << "pair " << i;
             }
             EXPECT_GT(left, all.size() / 50);
             EXPECT_GT(left_out, left);
-            const std::vector<IrradiancePacket> recorded = uploaded.irradiance().download();
-            EXPECT_TRUE(gatherer.gather(input, uploaded.irradiance()));
-            expect_close(uploaded.irradiance().download(), recorded);
+            const std::vector<IrradiancePacket> recorded = uploaded.sums().light.download();
+            EXPECT_TRUE(gatherer.gather(input, uploaded.sums()));
+            expect_close(uploaded.sums().light.download(), recorded);
         }
     });
 }
 
-TEST_F(GathererTest, RefusesRouletteByGroups) {
+TEST_F(GathererTest, RefusesASelectionByGroups) {
     const GatherCase data = random_triangles(100, 20, 1, 22);
     on_each_device([&](Device& device) {
         Uploaded uploaded(device, data);
-        GatherInput input = uploaded.input();
+        const VplSelection selection = uploaded.select(1.0f, 0);
+        GatherInput<Vpl> input = uploaded.input();
         input.group_size = 10;
-        input.roulette = 1.0f;
+        input.selection = &selection;
         Gatherer gatherer(device);
-        EXPECT_THROW(gatherer.gather(input, uploaded.irradiance()), Error);
+        EXPECT_THROW(gatherer.gather(input, uploaded.sums()), Error);
     });
 }
 

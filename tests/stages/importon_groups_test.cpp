@@ -11,16 +11,16 @@
 namespace nearlight::core {
 namespace {
 
-/// On two walls of a room 4 m wide that face each other, and named by their depth.
-std::vector<Vpl> on_two_walls(uint count) {
+/// On two walls of a room 4 m wide that face each other, and numbered.
+std::vector<Importon> on_two_walls(uint count) {
     Pcg32 random(2);
-    std::vector<Vpl> importons(count);
+    std::vector<Importon> importons(count);
     for (uint i = 0; i < count; ++i) {
         const float side = i % 2 == 0 ? -1.0f : 1.0f;
         const float y = random.uniform();
         importons[i].position = {2 * side, y, random.uniform()};
         importons[i].normal = {-side, 0, 0};
-        importons[i].depth = i;
+        importons[i].pad0 = i;
     }
     return importons;
 }
@@ -30,9 +30,9 @@ TEST(ImportonGroups, AreOfNearlyEqualSizeAndHoldEachOnce) {
         const auto groups = group_importons(on_two_walls(200), wanted);
         ASSERT_EQ(groups.size(), wanted);
         std::vector<uint> seen;
-        for (const std::vector<Vpl>& group : groups) {
+        for (const std::vector<Importon>& group : groups) {
             EXPECT_NEAR(static_cast<double>(group.size()), 200.0 / static_cast<double>(wanted), 1.5);
-            std::ranges::transform(group, std::back_inserter(seen), &Vpl::depth);
+            std::ranges::transform(group, std::back_inserter(seen), &Importon::pad0);
         }
         std::ranges::sort(seen);
         ASSERT_EQ(seen.size(), 200u);
@@ -41,10 +41,10 @@ TEST(ImportonGroups, AreOfNearlyEqualSizeAndHoldEachOnce) {
 }
 
 TEST(ImportonGroups, KeepApartWhatIsFarApart) {
-    for (const std::vector<Vpl>& group : group_importons(on_two_walls(256), 16)) {
+    for (const std::vector<Importon>& group : group_importons(on_two_walls(256), 16)) {
         Vec3 low = group[0].position;
         Vec3 high = low;
-        for (const Vpl& importon : group) {
+        for (const Importon& importon : group) {
             low = {std::min(low.x, importon.position.x), std::min(low.y, importon.position.y),
                    std::min(low.z, importon.position.z)};
             high = {std::max(high.x, importon.position.x), std::max(high.y, importon.position.y),
@@ -58,7 +58,7 @@ TEST(ImportonGroups, NoneIsEmpty) {
     EXPECT_TRUE(group_importons({}, 64).empty());
     EXPECT_TRUE(group_importons(on_two_walls(3), 0).empty());
     EXPECT_EQ(group_importons(on_two_walls(3), 64).size(), 3u);
-    EXPECT_EQ(group_importons(std::vector<Vpl>(100, on_two_walls(1)[0]), 64).size(), 64u)
+    EXPECT_EQ(group_importons(std::vector<Importon>(100, on_two_walls(1)[0]), 64).size(), 64u)
         << "all in one place";
 }
 

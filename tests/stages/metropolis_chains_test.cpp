@@ -29,7 +29,7 @@ struct Furnace {
           chains(device, contribution),
           states(device, kStates, kDepths),
           proposed(device, kStates, kDepths) {
-        view.importons.vpls = Buffer<Vpl>(device, 0);
+        view.importons.importons = Buffer<Importon>(device, 0);
     }
     static Scene make_scene() {
         Scene scene;
@@ -149,16 +149,16 @@ TEST_F(MetropolisChainsTest, KeptStatesCarryTheirShareOfTheLight) {
 TEST_F(MetropolisChainsTest, TargetsAreContributionsOfTheirOwnStates) {
     on_each_device([](Device& device) {
         Furnace furnace(device);
-        std::vector<Vpl> importons;
+        std::vector<Importon> importons;
         for (const float z : {-0.9f, 0.1f, 0.5f}) {
             importons.push_back({.position = {0, 0, z},
-                                 .depth = 0,
+                                 .pad0 = 0,
                                  .normal = {0, 0, 1},
                                  .flags = 0,
-                                 .power = {1, 1, 1},
-                                 .pad0 = 0});
+                                 .response = {1, 1, 1},
+                                 .pad1 = 0});
         }
-        furnace.view.importons.vpls = Buffer<Vpl>(device, std::span<const Vpl>(importons));
+        furnace.view.importons.importons = Buffer<Importon>(device, std::span<const Importon>(importons));
         furnace.view.importons.count = importons.size();
         const PathSpace space = furnace.space(device);
         furnace.seed(device, space, 100);

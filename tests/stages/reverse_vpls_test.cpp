@@ -40,20 +40,20 @@ Scene room_with_block() {
 }
 
 /// On the floor and the back wall, outside the block.
-std::vector<Vpl> points_in_room() {
+std::vector<Importon> points_in_room() {
     Pcg32 random(11);
-    std::vector<Vpl> points;
+    std::vector<Importon> points;
     for (uint i = 0; i < kPoints; ++i) {
         const float a = 1.9f * random.uniform() - 0.95f;
         const float b = 0.35f + 0.6f * random.uniform();
         const Vec3 normal = i % 2 == 0 ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
         const Vec3 position = i % 2 == 0 ? Vec3{a, -1, b} : Vec3{a, b, 1};
         points.push_back({.position = stand_off(position, normal, kExtent),
-                          .depth = 0,
+                          .pad0 = 0,
                           .normal = normal,
                           .flags = 2,
-                          .power = {0.3f, 0.2f, 0.1f},
-                          .pad0 = 0});
+                          .response = {0.3f, 0.2f, 0.1f},
+                          .pad1 = 0});
     }
     return points;
 }
@@ -66,7 +66,7 @@ struct Reverse {
 Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_point) {
     Gatherer gatherer(device);
     ReverseVpls stage(device, gatherer);
-    const std::vector<Vpl> importons = points_in_room();
+    const std::vector<Importon> importons = points_in_room();
     const CameraPoints points = make_camera_points(device, importons, rays_per_point);
     Reverse result;
     result.vpls = stage.trace(scene.buffers, points, 17);
@@ -75,12 +75,12 @@ Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_
         receivers.push_back({vpl.position, vpl.normal});
     }
     const std::vector<ReceiverPacket> packets = test::pack_receivers(receivers);
-    Buffer<IrradiancePacket> density(device, packets.size());
+    GatherSums<Importon> density(device, packets.size());
     stage.measure_density(scene.buffers, points, Buffer<ReceiverPacket>(device, std::span(packets)),
                           packets.size(), density);
-    const std::vector<IrradiancePacket> found = density.download();
+    const std::vector<ImportancePacket> found = density.light.download();
     for (std::size_t i = 0; i < result.vpls.size(); ++i) {
-        result.density.push_back(irradiance_at(found, i).x);
+        result.density.push_back(arrived_at(std::span(found), i).x);
     }
     return result;
 }
@@ -88,7 +88,7 @@ Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_
 /// Σ_s m·cosθ_s·cosθ_y/(π d²)·V by a plain loop, with the host's own rays.
 double expected_density(const Bvh& bvh, const Vpl& y, uint rays_per_point) {
     double sum = 0;
-    for (const Vpl& s : points_in_room()) {
+    for (const Importon& s : points_in_room()) {
         const Vec3 between = y.position - s.position;
         const double squared = dot(between, between);
         const double cosines = double(dot(s.normal, between)) * -dot(y.normal, between);

@@ -64,17 +64,17 @@ class RouletteTest : public DeviceTest {
         Choices result{std::vector<int>(pairs), std::vector<float>(pairs)};
         Roulette roulette(device);
         for (uint seed = 0; seed < kSeeds; ++seed) {
-            const RouletteLists& lists = roulette.choose({.vpls = vpls,
-                                                          .vpl_count = data.vpls.size(),
-                                                          .receivers = receivers,
-                                                          .bundles = layout,
-                                                          .clamp_radius = data.clamp_radius,
-                                                          .threshold = kThreshold,
-                                                          .seed = seed},
-                                                         0, layout.bundle_count());
+            const VplSelection selection = roulette.select({.vpls = vpls,
+                                                            .vpl_count = data.vpls.size(),
+                                                            .receivers = receivers,
+                                                            .bundles = layout,
+                                                            .clamp_radius = data.clamp_radius,
+                                                            .threshold = kThreshold,
+                                                            .seed = seed});
+            const VplLists& lists = selection.lists(0, layout.bundle_count());
             const std::vector<uint> chosen = lists.vpls.download();
             const std::vector<float> weights = lists.weights.download();
-            const std::vector<uint> counts = lists.counts.download();
+            const std::vector<uint> counts = lists.lengths.download();
             for (std::size_t bundle = 0; bundle < layout.bundle_count(); ++bundle) {
                 const std::size_t first = bundle * data.vpls.size();
                 for (std::size_t k = first; k < first + counts[bundle]; ++k) {
@@ -152,7 +152,7 @@ TEST_F(RouletteTest, LowThresholdResolvesAll) {
         Gatherer gatherer(device);
         Uploaded uploaded(device, data);
         const std::vector<double> full = packet_sums(uploaded.gather(gatherer));
-        const std::vector<double> almost = packet_sums(uploaded.gather(gatherer, 1e-12f));
+        const std::vector<double> almost = packet_sums(uploaded.gather(gatherer, 1e-12f, 0));
         for (std::size_t packet = 0; packet < full.size(); ++packet) {
             EXPECT_NEAR(almost[packet], full[packet], 1e-5 * full[packet]);
         }
@@ -180,12 +180,7 @@ std::vector<IrradiancePacket> gather_runs(Device& device, Gatherer& gatherer, co
                                           std::span<const ReceiverPacket> packets, uint run_packets) {
     GatherCase part = data;
     part.receivers.assign(packets.begin(), packets.end());
-    Uploaded uploaded(device, part);
-    GatherInput input = uploaded.input();
-    input.roulette = kThreshold;
-    input.run_packets = run_packets;
-    EXPECT_TRUE(gatherer.gather(input, uploaded.irradiance()));
-    return uploaded.irradiance().download();
+    return Uploaded(device, part).gather(gatherer, kThreshold, 0, run_packets);
 }
 
 // As a picture's plan cuts it: between tiles, and within tiles after whole bundles of samples.
@@ -234,18 +229,19 @@ TEST_F(RouletteTest, RecordsOnlyWhatWasTraced) {
     on_each_device([&](Device& device) {
         Gatherer gatherer(device);
         Uploaded uploaded(device, data);
-        GatherInput input = uploaded.input();
-        const std::vector<GatherPair> full = gatherer.gather_recorded(input, uploaded.irradiance());
-        input.roulette = kThreshold;
-        const std::vector<GatherPair> some = gatherer.gather_recorded(input, uploaded.irradiance());
-        const std::vector<IrradiancePacket> recorded = uploaded.irradiance().download();
+        GatherInput<Vpl> input = uploaded.input();
+        const std::vector<GatherPair> full = gatherer.gather_recorded(input, uploaded.sums());
+        const VplSelection selection = uploaded.select(kThreshold, 0);
+        input.selection = &selection;
+        const std::vector<GatherPair> some = gatherer.gather_recorded(input, uploaded.sums());
+        const std::vector<IrradiancePacket> recorded = uploaded.sums().light.download();
         std::size_t passed_over = 0;
         for (std::size_t i = 0; i < full.size(); ++i) {
             passed_over += full[i] != some[i] ? 1 : 0;
             ASSERT_TRUE(full[i] == some[i] || some[i] == GatherPair::culled) << "pair " << i;
         }
         EXPECT_GT(passed_over, full.size() / 10);
-        EXPECT_TRUE(same_bits(recorded, uploaded.gather(gatherer, kThreshold)));
+        EXPECT_TRUE(same_bits(recorded, uploaded.gather(gatherer, kThreshold, 0)));
     });
 }
 
@@ -254,14 +250,14 @@ TEST_F(RouletteTest, NothingToChooseFrom) {
         Gatherer gatherer(device);
         GatherCase none = room();
         none.vpls.clear();
-        for (const IrradiancePacket& packet : Uploaded(device, none).gather(gatherer, kThreshold)) {
+        for (const IrradiancePacket& packet : Uploaded(device, none).gather(gatherer, kThreshold, 0)) {
             EXPECT_EQ(packet.g[0], 0.0f);
         }
         GatherCase dark = room();
         for (Vpl& vpl : dark.vpls) {
             vpl.power = {0, 0, 0};
         }
-        for (const IrradiancePacket& packet : Uploaded(device, dark).gather(gatherer, kThreshold)) {
+        for (const IrradiancePacket& packet : Uploaded(device, dark).gather(gatherer, kThreshold, 0)) {
             EXPECT_EQ(packet.g[0], 0.0f);
         }
     });

@@ -36,8 +36,8 @@ double squared_importance(const CameraVertex& vertex, double term) {
 
 /// Below which importons are not asked about the VPL: a little under the mean over `count`, which are all
 /// vertices and others that send nothing.
-double least_squared_importance(const test::GatherCase& data, const std::vector<CameraVertex>& vertices,
-                                const Vpl& vpl, std::size_t count) {
+double threshold_of(const test::GatherCase& data, const std::vector<CameraVertex>& vertices, const Vpl& vpl,
+                    std::size_t count) {
     double sum = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const ReceiverPoint receiver = receiver_at(data.receivers, i);
@@ -48,12 +48,12 @@ double least_squared_importance(const test::GatherCase& data, const std::vector<
 
 /// The column sum, or the root of the sum of squares, by a plain loop with the host's own rays.
 double expected_contribution(const test::GatherCase& data, const std::vector<CameraVertex>& vertices,
-                             const Vpl& vpl, ContributionNorm norm, double least_square = 0) {
+                             const Vpl& vpl, ContributionNorm norm, double threshold = 0) {
     double sum = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const ReceiverPoint receiver = receiver_at(data.receivers, i);
         const double term = test::pair_term(vpl, receiver, data.clamp_radius).value;
-        if (term > 0 && squared_importance(vertices[i], term) >= least_square &&
+        if (term > 0 && squared_importance(vertices[i], term) >= threshold &&
             !occluded(data.bvh, vpl.position, receiver.position - vpl.position, 1e-5f, 1.0f - 1e-5f)) {
             const Vec3 color = vertices[i].throughput * vertices[i].albedo * vpl.power;
             const double scale = term / (M_PI * M_PI);
@@ -126,27 +126,27 @@ TEST_F(VplContributionTest, ErrorsAreRootsOfSumsOfSquaresAndGroupsAddUpToThePict
         ASSERT_EQ(found.rows.size(), data.vpls.size() * 3 * groups.group_count);
         const float scale =
             std::sqrt(static_cast<float>(groups.importon_count) / static_cast<float>(groups.group_count));
-        double most_left_out = 0;
+        double max_left_out = 0;
         for (std::size_t v = 0; v < data.vpls.size(); ++v) {
             Vec3 sum{};
             for (std::size_t group = 0; group < groups.group_count; ++group) {
                 const float* brought = found.rows.data() + 3 * (v * groups.group_count + group);
                 sum += scale * Vec3{brought[0], brought[1], brought[2]};
             }
-            const double least = least_squared_importance(
-                data, vertices, data.vpls[v], std::size_t{groups.group_count} * groups.group_size);
+            const double threshold = threshold_of(data, vertices, data.vpls[v],
+                                                  std::size_t{groups.group_count} * groups.group_size);
             const double mean =
-                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean, least);
+                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean, threshold);
             EXPECT_NEAR(luminance(sum), mean, 1e-4 * mean) << "VPL " << v;
             const double error = expected_contribution(data, vertices, data.vpls[v],
-                                                       ContributionNorm::rough_mean_square, least);
+                                                       ContributionNorm::rough_mean_square, threshold);
             EXPECT_NEAR(found.errors[v], error, 1e-4 * error) << "VPL " << v;
             const double all =
                 expected_contribution(data, vertices, data.vpls[v], ContributionNorm::rough_mean_square);
-            most_left_out = std::max(most_left_out, 1 - error / all);
+            max_left_out = std::max(max_left_out, 1 - error / all);
         }
-        EXPECT_GT(most_left_out, 0.0);
-        EXPECT_LT(most_left_out, 0.5);
+        EXPECT_GT(max_left_out, 0.0);
+        EXPECT_LT(max_left_out, 0.5);
     });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/stages/gatherer.h"
+#include "host/stages/roulette.h"
 #include "tests/support/gather_scenes.h"
 
 namespace nearlight::core::test {
@@ -21,21 +22,41 @@ class Uploaded {
         : tree_(upload_both_trees(device, data.bvh)),
           vpls_(device, data.vpls),
           receivers_(device, data.receivers),
-          // Whatever the memory holds must not matter.
-          irradiance_(device, std::vector<IrradiancePacket>(data.receivers.size(), garbage())),
-          clamp_radius_(data.clamp_radius) {}
+          sums_(device, data.receivers.size()),
+          roulette_(device),
+          clamp_radius_(data.clamp_radius) {
+        // Whatever the memory holds must not matter.
+        sums_.light.upload(std::vector<IrradiancePacket>(data.receivers.size(), garbage()));
+    }
 
-    [[nodiscard]] GatherInput input() const {
+    [[nodiscard]] GatherInput<Vpl> input() const {
         return {tree_, vpls_, vpls_.count(), receivers_, receivers_.count(), clamp_radius_};
     }
-    std::vector<IrradiancePacket> gather(Gatherer& gatherer, float roulette = 0.0f, uint seed = 0) {
-        GatherInput task = input();
-        task.roulette = roulette;
-        task.seed = seed;
-        EXPECT_TRUE(gatherer.gather(task, irradiance_));
-        return irradiance_.download();
+    /// The light of all VPLs.
+    std::vector<IrradiancePacket> gather(Gatherer& gatherer) {
+        EXPECT_TRUE(gatherer.gather(input(), sums_));
+        return sums_.light.download();
     }
-    [[nodiscard]] Buffer<IrradiancePacket>& irradiance() { return irradiance_; }
+    /// The light of those that the roulette chooses. Bundles are formed in runs of `run_packets`; 0: of all.
+    std::vector<IrradiancePacket> gather(Gatherer& gatherer, float threshold, uint seed,
+                                         uint run_packets = 0) {
+        const VplSelection selection = select(threshold, seed, run_packets);
+        GatherInput<Vpl> task = input();
+        task.selection = &selection;
+        EXPECT_TRUE(gatherer.gather(task, sums_));
+        return sums_.light.download();
+    }
+    [[nodiscard]] VplSelection select(float threshold, uint seed, uint run_packets = 0) {
+        const auto count = static_cast<uint>(receivers_.count());
+        return roulette_.select({.vpls = vpls_,
+                                 .vpl_count = vpls_.count(),
+                                 .receivers = receivers_,
+                                 .bundles = {count, run_packets > 0 ? run_packets : std::max(count, 1u)},
+                                 .clamp_radius = clamp_radius_,
+                                 .threshold = threshold,
+                                 .seed = seed});
+    }
+    [[nodiscard]] GatherSums<Vpl>& sums() { return sums_; }
 
   private:
     static IrradiancePacket garbage() {
@@ -47,7 +68,8 @@ class Uploaded {
     DeviceTree tree_;
     Buffer<Vpl> vpls_;
     Buffer<ReceiverPacket> receivers_;
-    Buffer<IrradiancePacket> irradiance_;
+    GatherSums<Vpl> sums_;
+    Roulette roulette_;
     float clamp_radius_;
 };
 
