@@ -23,7 +23,7 @@ constexpr float kSameHit = 1e-4f;
 constexpr double kMaxDiffering = 1e-5;
 
 /// One way to trace the rays of a set: fills in their distances, and says how long the tracing took.
-struct Contestant {
+struct RayContestant {
     std::string name;
     std::function<Seconds(std::vector<float>&)> trace;
 };
@@ -48,7 +48,7 @@ struct OurTracer {
     DeviceTree tree;
 };
 
-Contestant ours(OurTracer& own, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
+RayContestant ours(OurTracer& own, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits) {
     return {"nearlight", [&](std::vector<float>& distances) {
                 const TwoClocks clocks(TwoClocks::Of::process);
                 own.caster.cast(own.tree, rays, hits);
@@ -62,8 +62,8 @@ Contestant ours(OurTracer& own, const Buffer<RayQuery>& rays, Buffer<RayHit>& hi
             }};
 }
 
-std::vector<Contestant> embrees(const EmbreeRays& embree, std::span<const RayQuery> rays, int threads) {
-    std::vector<Contestant> contestants;
+std::vector<RayContestant> embrees(const EmbreeRays& embree, std::span<const RayQuery> rays, int threads) {
+    std::vector<RayContestant> contestants;
     for (const EmbreeMode& mode : all_embree_modes()) {
         contestants.push_back(
             {to_string(mode, "rtcIntersect"), [&embree, rays, mode, threads](std::vector<float>& distances) {
@@ -74,7 +74,7 @@ std::vector<Contestant> embrees(const EmbreeRays& embree, std::span<const RayQue
 }
 
 /// Each contestant's seconds, repeat by repeat, in turn; one more run before warms up and is compared.
-std::vector<std::vector<Seconds>> race(const std::vector<Contestant>& contestants, int repeats,
+std::vector<std::vector<Seconds>> race(const std::vector<RayContestant>& contestants, int repeats,
                                        RaySetResult& result) {
     std::vector<std::vector<float>> distances(contestants.size());
     std::vector<std::vector<Seconds>> runs(contestants.size());
@@ -103,7 +103,7 @@ RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::stri
     const Buffer<RayQuery> on_device(*own.device, rays);
     Buffer<RayHit> hits(*own.device, rays.size());
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<Contestant> contestants{ours(own, on_device, hits)};
+    std::vector<RayContestant> contestants{ours(own, on_device, hits)};
     std::ranges::move(embrees(embree, rays, config.threads > 0 ? config.threads : cores),
                       std::back_inserter(contestants));
     RaySetResult result{.name = name, .rays = rays.size(), .hits = 0, .tracers = {}, .best = {}};
