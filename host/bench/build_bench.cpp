@@ -13,14 +13,14 @@
 namespace nearlight::core {
 namespace {
 
-struct Work {
+struct TreeWork {
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
 };
 
-Work make_work(const Scene& scene, const Bvh& bvh, const BuildBenchConfig& config) {
+TreeWork make_tree_work(const Scene& scene, const Bvh& bvh, const BuildBenchConfig& config) {
     const std::vector<ReceiverPacket> all = make_camera_receivers(scene, bvh, config.width, config.height);
-    Work work;
+    TreeWork work;
     work.vpls = make_traced_vpls(scene, bvh, config.vpl_count);
     for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(std::max(1, config.tile_stride))) {
         work.receivers.push_back(all[i]);
@@ -59,7 +59,7 @@ std::vector<Contender> contenders(const Scene& scene, std::span<const uint> ids,
     return result;
 }
 
-BuiltTree describe(const Contender& contender, std::size_t triangles, const Work& work, int threads) {
+BuiltTree describe(const Contender& contender, std::size_t triangles, const TreeWork& work, int threads) {
     const Bvh bvh = contender.build();
     BuiltTree tree;
     tree.name = contender.name;
@@ -85,7 +85,7 @@ std::vector<double> ratios(const std::vector<double>& ours, const std::vector<do
 BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config) {
     const Bvh first = build_scene_bvhs(scene).opaque;
     const std::vector<uint> ids = distinct_triangles(first);
-    const Work work = make_work(scene, first, config);
+    const TreeWork work = make_tree_work(scene, first, config);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     std::vector<Contender> all = contenders(scene, ids, config.bvh);
     for (int i = 0; i < config.repeats; ++i) {

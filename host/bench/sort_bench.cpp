@@ -24,7 +24,7 @@ constexpr double kSortBytes = 4.0 * 5.0 * sizeof(uint);
 // Of a number: read to be reduced, read and written to be summed.
 constexpr double kScanBytes = 3.0 * sizeof(uint);
 
-struct Contestant {
+struct SortContestant {
     std::string name;
     double bytes;
     std::function<void()> lay_out;
@@ -50,7 +50,7 @@ struct SortWork {
     std::vector<std::uint64_t> pairs, sorted;
 };
 
-Contestant device_sort(Device& device, const SortWork& work) {
+SortContestant device_sort(Device& device, const SortWork& work) {
     struct State {
         State(Device& on, std::size_t count) : sort(on), keys(on, count), values(on, count) {}
         MortonSort sort;
@@ -75,13 +75,13 @@ Contestant device_sort(Device& device, const SortWork& work) {
 }
 
 template <typename Sort>
-Contestant host_sort(const std::string& name, const SortWork& work, Sort sort) {
+SortContestant host_sort(const std::string& name, const SortWork& work, Sort sort) {
     const auto pairs = std::make_shared<std::vector<std::uint64_t>>();
     return {name, 0.0, [pairs, &work] { *pairs = work.pairs; }, [pairs, sort] { sort(*pairs); },
             [pairs, &work] { return *pairs == work.sorted; }};
 }
 
-Contestant device_scan(Device& device, const SortWork& work) {
+SortContestant device_scan(Device& device, const SortWork& work) {
     struct State {
         State(Device& on, std::span<const uint> numbers)
             : scan(on), input(on, numbers), output(on, numbers.size()) {}
@@ -97,7 +97,7 @@ Contestant device_scan(Device& device, const SortWork& work) {
             [state, &work] { return state->output.download() == work.sums; }};
 }
 
-Contestant host_scan(const SortWork& work) {
+SortContestant host_scan(const SortWork& work) {
     const auto sums = std::make_shared<std::vector<uint>>(work.keys.size());
     return {"std::exclusive_scan", 2.0 * sizeof(uint), [] {},
             [sums, &work] { std::exclusive_scan(work.keys.begin(), work.keys.end(), sums->begin(), 0u); },
@@ -105,7 +105,7 @@ Contestant host_scan(const SortWork& work) {
 }
 
 /// What memory can do: all cores copy.
-Contestant copy(const SortWork& work) {
+SortContestant copy(const SortWork& work) {
     const auto to = std::make_shared<std::vector<std::uint64_t>>(work.pairs.size());
     return {"copy of the pairs", 2.0 * sizeof(std::uint64_t), [] {},
             [to, &work] {
@@ -122,7 +122,7 @@ Contestant copy(const SortWork& work) {
 
 SortBenchResult bench_sort(Device& device, const SortBenchConfig& config) {
     const SortWork work(config.count);
-    const std::vector<Contestant> contestants{
+    const std::vector<SortContestant> contestants{
         device_sort(device, work),
         host_sort("std::sort", work, [](auto& pairs) { std::sort(pairs.begin(), pairs.end()); }),
         host_sort("tbb::parallel_sort", work,
@@ -132,7 +132,7 @@ SortBenchResult bench_sort(Device& device, const SortBenchConfig& config) {
         copy(work)};
     std::vector<std::vector<Seconds>> runs(contestants.size());
     SortBenchResult result{.device = device.name(), .count = config.count, .figures = {}, .ratios = {}};
-    for (const Contestant& contestant : contestants) {
+    for (const SortContestant& contestant : contestants) {
         contestant.lay_out();
         contestant.run();  // warms up
         result.figures.push_back({contestant.name,

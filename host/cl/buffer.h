@@ -17,7 +17,8 @@ namespace nearlight::core {
 
 /// `count` elements of T, on CPUs in huge pages where it is large. Never of zero bytes: kernels may be given
 /// an empty one, and must not touch it. Copies are blocking; they order with kernels because the queue is
-/// in-order.
+/// in-order. May be destroyed while kernels that use it still wait to run: OpenCL keeps the memory for
+/// commands that are in a queue (OpenCL 1.2, clReleaseMemObject), though the device no longer counts it.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);

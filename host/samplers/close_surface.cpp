@@ -37,7 +37,6 @@ CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, cons
     stages.vpl_placement.set_surface(areas, ids_, triangle_count_,
                                      area_units_per_square_metre(scene.total_area));
     area_ = stages.vpl_placement.total_area();
-    stages.device.finish();  // the scratch buffers must outlive their kernels
     say_debug(std::to_string(close_count) + " of " + std::to_string(all) +
               " triangles are in the close range, " + std::to_string(triangle_count_) + " are selected");
 }

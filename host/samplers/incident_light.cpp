@@ -60,7 +60,6 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                 .clamp_radius = sources.clamp_radius},
                                gathered);
         stages.vpl_light.add(gathered.light, packet_count, irradiance);
-        stages.device.finish();  // `gathered` must outlive the kernel
     }
     const BouncePaths paths{.sample_count = quality.paths,
                             .bounce_count = sources.bounce_count,

@@ -33,7 +33,7 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
         pairs_before += group.count * receiver_count;
     }
     light_count_ += lights_.add(scene, vpls_, receivers, packet_count, plan_, sums.light);
-    return true;  // add() has waited, so `part` is no longer in use
+    return true;
 }
 
 }  // namespace nearlight::core

@@ -78,7 +78,6 @@ std::size_t LocalLights::add(const DeviceScene& scene, const LocalVpls& vpls,
                              plan.clamp_radius, slots.lights, slots.radii, slots.flags, slots.seen_by,
                              irradiance);
     }
-    device_->finish();  // the slots must outlive the kernels
     return light_count;
 }
 

@@ -54,7 +54,6 @@ void MetropolisChains::evaluate(const PathSpace& space, PathStates& states) {
     vpl_contribution_->run(space.scene, sorted, states.count, space.view, space.clamp_radius, contribution);
     targets_.launch_items(states.count, states.vpls, order, contribution, space.blind_target, states.count,
                           states.targets);
-    device_->finish();  // the buffers of this function must outlive the kernels
 }
 
 void MetropolisChains::seed(const PathSpace& space, const Buffer<uint>& indices, PathStates& states) {

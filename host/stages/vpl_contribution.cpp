@@ -35,7 +35,6 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
                       importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.light,
                                    squared ? 1u : 0u, contribution);
-    device_->finish();  // the buffers of this function must outlive the kernel
 }
 
 GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls,

@@ -25,7 +25,6 @@ class VplOrder {
         Buffer<Vpl> sorted(*device_, vpls.size());
         morton_sort_.order(unsorted, vpls.size(), order);
         compaction_.gather(unsorted, order, vpls.size(), sorted);
-        device_->finish();  // `unsorted` must outlive the kernel
         return {*device_, std::move(sorted), vpls.size()};
     }
 

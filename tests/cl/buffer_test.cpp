@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/buffer.h"
 
+#include <atomic>
+#include <chrono>
 #include <numeric>
+#include <thread>
 
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
+#include "tests/support/kernel_probe.h"
 
 namespace nearlight::core {
 namespace {
@@ -13,6 +17,44 @@ using test::error_of;
 using test::mentions;
 
 class BufferTest : public test::DeviceTest {};
+
+/// Holds back whatever is enqueued after it until open() or its end.
+class Gate {
+  public:
+    explicit Gate(Device& device) : event_(device.context()) {
+        const std::vector<cl::Event> events{event_};
+        device.queue().enqueueBarrierWithWaitList(&events);
+    }
+    ~Gate() { open(); }
+    Gate(const Gate&) = delete;
+    Gate& operator=(const Gate&) = delete;
+
+    void open() {
+        if (!std::exchange(is_open_, true)) {
+            event_.setStatus(CL_COMPLETE);
+        }
+    }
+
+  private:
+    cl::UserEvent event_;
+    bool is_open_ = false;
+};
+
+/// Counts buffers whose memory OpenCL has given up; outlives them, as their callbacks need.
+std::atomic<int> deleted_buffers{0};
+
+void count_when_deleted(const Buffer<uint>& buffer) {
+    cl::Buffer handle = buffer.handle();
+    handle.setDestructorCallback([](cl_mem, void*) { ++deleted_buffers; });
+}
+
+/// Drivers may delete a buffer a little after the command that used it has finished.
+int deleted_buffers_after_a_while(int expected) {
+    for (int i = 0; i < 1000 && deleted_buffers < expected; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return deleted_buffers;
+}
 
 std::vector<uint> ascending(std::size_t count) {
     std::vector<uint> values(count);
@@ -65,6 +107,34 @@ TEST_F(BufferTest, MovingHandsOverTheMemoryAndItsAccount) {
         }
         Buffer<uint> later(device, 150);
         EXPECT_EQ(device.peak_bytes() - before, 150 * sizeof(uint)) << "released memory is still counted";
+    });
+}
+
+TEST_F(BufferTest, LivesOnForKernelsThatWaitToRun) {
+    on_each_device([](Device& shared) {
+        test::KernelProbe add(shared,
+                              "kernel void probe(global const uint* from, global uint* to, uint count) {\n"
+                              "    const uint i = get_global_id(0);\n"
+                              "    if (i < count) {\n        to[i] += from[i];\n    }\n}\n");
+        for (const std::size_t count : {std::size_t{1000}, kMinHugeBytes / sizeof(uint)}) {
+            constexpr int kBuffers = 8;
+            deleted_buffers = 0;
+            const std::vector<uint> ones(count, 1);
+            Buffer<uint> sum(add.device(), std::vector<uint>(count, 0));
+            std::vector<Buffer<uint>> addends;
+            for (int i = 0; i < kBuffers; ++i) {
+                count_when_deleted(addends.emplace_back(add.device(), ones));
+            }
+            Gate gate(add.device());
+            for (const Buffer<uint>& addend : addends) {
+                add.kernel().launch_items(count, addend, sum, static_cast<uint>(count));
+            }
+            addends.clear();
+            EXPECT_EQ(deleted_buffers, 0) << count;
+            gate.open();
+            EXPECT_EQ(sum.download(), std::vector<uint>(count, kBuffers)) << count;
+            EXPECT_EQ(deleted_buffers_after_a_while(kBuffers), kBuffers) << count;
+        }
     });
 }
 

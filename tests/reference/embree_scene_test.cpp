@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
-#include "host/base/random.h"
 #include "host/reference/brute_force.h"
+#include "host/reference/test_rays.h"
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
@@ -18,76 +19,13 @@ using namespace small_scenes;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-struct TestRay {
-    Vec3 origin;
-    Vec3 direction;
-};
-
-Vec3 random_point(Pcg32& random) {
-    const float x = 2.0f * random.uniform() - 1.0f;
-    const float y = 2.0f * random.uniform() - 1.0f;
-    return {x, y, 2.0f * random.uniform() - 1.0f};
+Scene make_soup() {
+    return make_triangle_soup(1000, 11);
 }
 
-/// Small triangles everywhere, some axis-aligned, some without area.
-Scene triangle_soup(int count) {
-    Scene scene;
-    const uint material = add_material(scene, lambertian({0.5f, 0.5f, 0.5f}));
-    Pcg32 random(11);
-    for (int i = 0; i < count; ++i) {
-        const Vec3 a = random_point(random);
-        Vec3 b = a + random_point(random) * 0.3f;
-        Vec3 c = a + random_point(random) * 0.3f;
-        if (i % 5 == 0) {
-            b.y = c.y = a.y;
-        }
-        if (i % 17 == 0) {
-            c = b;
-        }
-        if (i % 19 == 0) {
-            c = a + (b - a) * 0.5f;
-        }
-        add_triangle(scene, a, b, c, material);
-    }
-    return scene;
-}
-
-std::vector<TestRay> random_rays(int count) {
-    std::vector<TestRay> rays;
-    Pcg32 random(12);
-    for (int i = 0; i < count; ++i) {
-        const Vec3 origin = random_point(random) * 1.5f;
-        rays.push_back({origin, random_point(random) - origin});
-    }
-    return rays;
-}
-
-std::vector<TestRay> axis_aligned_rays(int count) {
-    std::vector<TestRay> rays;
-    Pcg32 random(13);
-    for (int i = 0; i < count; ++i) {
-        const float sign = i % 2 == 0 ? 1.0f : -1.0f;
-        const Vec3 direction{i % 3 == 0 ? sign : 0.0f, i % 3 == 1 ? sign : 0.0f, i % 3 == 2 ? sign : -0.0f};
-        rays.push_back({random_point(random) * 1.5f, direction});
-    }
-    return rays;
-}
-
-/// Through vertices, along edges and within the planes of triangles.
-std::vector<TestRay> grazing_rays(const Scene& scene) {
-    std::vector<TestRay> rays;
-    Pcg32 random(14);
-    for (const Triangle& triangle : scene.triangles) {
-        const Vec3 a = scene.vertices[triangle.v0].position;
-        const Vec3 b = scene.vertices[triangle.v1].position;
-        const Vec3 c = scene.vertices[triangle.v2].position;
-        const Vec3 origin = random_point(random) * 1.5f;
-        rays.push_back({origin, a - origin});
-        rays.push_back({origin, (b + c) * 0.5f - origin});
-        rays.push_back({a - (b - a), b - a});
-        rays.push_back({a + (b - a) * 2.0f + (c - a) * 0.1f, (a - b) + (c - a) * 0.05f});
-    }
-    return rays;
+std::vector<RayQuery> rays_of_family(const Scene& scene, const std::string& name, std::size_t count) {
+    const std::vector<RayFamily> families = make_ray_families(scene, count, 12);
+    return std::ranges::find(families, name, &RayFamily::name)->rays;
 }
 
 /// Least distance between the line o + t·d and the segment a b, by ternary search (it is convex along b − a).
@@ -109,7 +47,7 @@ double line_to_segment(Vec3 o, Vec3 d, Vec3 a, Vec3 b) {
 
 /// Whether the ray passes so near an edge that single precision may decide either way. A ray in the
 /// triangle's plane crosses its edges, and a triangle without area is all edge.
-bool touches_edge(const Scene& scene, const Triangle& triangle, const TestRay& ray) {
+bool touches_edge(const Scene& scene, const Triangle& triangle, const RayQuery& ray) {
     const Vec3 a = scene.vertices[triangle.v0].position;
     const Vec3 b = scene.vertices[triangle.v1].position;
     const Vec3 c = scene.vertices[triangle.v2].position;
@@ -119,7 +57,7 @@ bool touches_edge(const Scene& scene, const Triangle& triangle, const TestRay& r
            line_to_segment(ray.origin, ray.direction, c, a) < kEdge;
 }
 
-std::string describe(const TestRay& ray, const BvhHit& expected, const BvhHit& found) {
+std::string describe(const RayQuery& ray, const BvhHit& expected, const BvhHit& found) {
     std::ostringstream text;
     text << "ray (" << ray.origin.x << ", " << ray.origin.y << ", " << ray.origin.z << ") + t·("
          << ray.direction.x << ", " << ray.direction.y << ", " << ray.direction.z << "): expected triangle "
@@ -137,14 +75,15 @@ double cosine_to(const Scene& scene, uint id, Vec3 direction) {
 
 /// Embree must agree with brute force; where not, the nearer of the two triangles must be one that the ray
 /// touches at an edge. Each such tie is printed.
-void expect_agreement(const Scene& scene, const std::vector<TestRay>& rays, double max_tie_fraction) {
+void expect_agreement(const Scene& scene, const std::vector<RayQuery>& rays, double max_tie_fraction) {
     const EmbreeScene embree(scene);
     int ties = 0;
     int hits = 0;
-    for (const TestRay& ray : rays) {
-        const BvhHit expected = brute_force_closest_hit(scene, {}, ray.origin, ray.direction, 0.0f, 1e10f);
-        const BvhHit found = embree.closest_hit(ray.origin, ray.direction, 0.0f, 1e10f);
-        ASSERT_EQ(embree.occluded(ray.origin, ray.direction, 0.0f, 1e10f), found.triangle != ~0u);
+    for (const RayQuery& ray : rays) {
+        const BvhHit expected =
+            brute_force_closest_hit(scene, {}, ray.origin, ray.direction, ray.t_min, ray.t_max);
+        const BvhHit found = embree.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max);
+        ASSERT_EQ(embree.occluded(ray.origin, ray.direction, ray.t_min, ray.t_max), found.triangle != ~0u);
         hits += expected.triangle != ~0u ? 1 : 0;
         if (expected.triangle == ~0u && found.triangle == ~0u) {
             continue;
@@ -167,16 +106,18 @@ void expect_agreement(const Scene& scene, const std::vector<TestRay>& rays, doub
 }
 
 TEST(EmbreeScene, AgreesWithBruteForceOnRandomRays) {
-    expect_agreement(triangle_soup(1000), random_rays(8000), 0.001);
+    const Scene scene = make_soup();
+    expect_agreement(scene, rays_of_family(scene, "random", 8000), 0.001);
 }
 
 TEST(EmbreeScene, AgreesWithBruteForceOnAxisAlignedRays) {
-    expect_agreement(triangle_soup(1000), axis_aligned_rays(4000), 0.002);
+    const Scene scene = make_soup();
+    expect_agreement(scene, rays_of_family(scene, "axis-aligned", 4000), 0.002);
 }
 
 TEST(EmbreeScene, AgreesWithBruteForceOnGrazingRays) {
-    const Scene scene = triangle_soup(1000);
-    expect_agreement(scene, grazing_rays(scene), 0.5);
+    const Scene scene = make_soup();
+    expect_agreement(scene, rays_of_family(scene, "grazing", 4000), 0.5);
 }
 
 TEST(EmbreeScene, BrokenRaysAndTrianglesHitNothing) {
@@ -191,7 +132,7 @@ TEST(EmbreeScene, BrokenRaysAndTrianglesHitNothing) {
     EXPECT_LT(hit.triangle, 2u);
     EXPECT_EQ(brute_force_closest_hit(scene, {}, {0.1f, 0.2f, 0}, {0, 0, 1}, 0, kInfinity).triangle,
               hit.triangle);
-    const std::vector<TestRay> broken{
+    const std::vector<std::pair<Vec3, Vec3>> broken{
         {{kNaN, 0, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, kNaN, 1}}, {{0, 0, 0}, {0, 0, 0}}};
     for (const auto& [origin, direction] : broken) {
         EXPECT_EQ(embree.closest_hit(origin, direction, 0, kInfinity).triangle, ~0u);
@@ -202,15 +143,16 @@ TEST(EmbreeScene, BrokenRaysAndTrianglesHitNothing) {
 }
 
 TEST(EmbreeScene, PacketsAgreeWithSingleRays) {
-    const Scene scene = triangle_soup(1000);
+    const Scene scene = make_soup();
     const EmbreeScene embree(scene, {.quality = EmbreeOptions::Quality::high, .coherent = true});
-    const std::vector<TestRay> rays = random_rays(1600);
+    const std::vector<RayQuery> rays = rays_of_family(scene, "random", 1600);
     constexpr std::uint32_t kActive = 0xfff7u;  // lane 3 is idle
     for (std::size_t first = 0; first < rays.size(); first += 16) {
         RayPacket16 packet{};
         std::uint32_t expected = 0;
         for (std::size_t lane = 0; lane < 16; ++lane) {
-            const auto& [o, d] = rays[first + lane];
+            const Vec3 o = rays[first + lane].origin;
+            const Vec3 d = rays[first + lane].direction;
             packet.origin_x[lane] = o.x;
             packet.origin_y[lane] = o.y;
             packet.origin_z[lane] = o.z;
