@@ -9,7 +9,7 @@
 #include "host/library/checks.h"
 #include "host/library/states.h"
 #include "host/session/render.h"
-#include "host/stages/film.h"
+#include "host/stages/film_layers.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
