@@ -112,8 +112,8 @@ NEARLIGHT_API std::vector<std::string> picture_channels();
 /// A session, what it makes and other sessions on the same devices are for one thread at a time. All
 /// functions throw Error: ErrorKind::invalid_argument for a setting out of range (setting() names it) and for
 /// a View or VplSet of another session, ErrorKind::kernel_build, ErrorKind::out_of_memory, and
-/// ErrorKind::failure for whatever else a device does wrong. After an error the session can be used as
-/// before.
+/// ErrorKind::failure for whatever else a device does wrong. After ErrorKind::invalid_argument and
+/// ErrorKind::out_of_memory the session can be used as before.
 class NEARLIGHT_API Session {
   public:
     /// Builds the tree of the scene (or takes it from the cache), uploads everything, and begins to compile.

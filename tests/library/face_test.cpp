@@ -90,6 +90,14 @@ TEST_F(LibrarySession, IrradianceFollowsTheInverseSquareLaw) {
     EXPECT_TRUE(session().irradiance({}, {}, vpls).empty());
 }
 
+TEST_F(LibrarySession, WithoutLightsThereIsDirectLight) {
+    const VplSet none = session().sample(session().look(), {.vpl_count = 0});
+    EXPECT_TRUE(none.lights().empty());
+    const std::vector<Vec3> point{{0, 0, 0}};
+    const std::vector<Vec3> up{{0, 0, 1}};
+    EXPECT_NEAR(session().irradiance(point, up, none, {.paths = 0}).front().x, 1.0f, 1e-4f);
+}
+
 TEST_F(LibrarySession, DecidesWhatTheSettingsLeaveOpen) {
     const View view = session().look({.height = 48});
     EXPECT_EQ(view.width(), 64);
