@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "host/cl/device_list.h"
-#include "host/cl/program_compiler.h"
+#include "host/cl/compile/program_compiler.h"
+#include "host/cl/devices/device_list.h"
 #include "host/library/states.h"
 
 namespace nearlight {
