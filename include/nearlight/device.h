@@ -16,11 +16,11 @@ enum class DeviceKind { cpu, gpu, other };
 
 /// Facts about a device, as its driver gives them.
 struct DeviceInfo {
-    int index = 0;  ///< over all drivers; Devices::choose() takes it
+    int index = 0;  ///< counts the devices of all drivers; Devices::choose() takes it
     std::string name;
     std::string platform;
-    std::string version;  ///< of OpenCL
-    std::string driver;   ///< version of the driver
+    std::string version;  ///< the version of OpenCL
+    std::string driver;   ///< the version of the driver
     DeviceKind kind = DeviceKind::other;
     unsigned compute_units = 0;
     std::size_t memory_bytes = 0;
@@ -36,33 +36,31 @@ NEARLIGHT_API std::vector<DeviceInfo> list_devices();
 
 /// What devices use besides their drivers.
 struct DeviceOptions {
-    /// Kernels are read from this folder; empty: those that are built into the library.
+    /// Kernels are read from this folder. If it is empty, those that are built into the library are used.
     std::filesystem::path kernel_dir{};
-    /// Compiled kernels and trees are kept in this folder, which is made if need be; empty: the one that
-    /// NEARLIGHT_CACHE_DIR names in the environment, else $XDG_CACHE_HOME/nearlight, else ~/.cache/nearlight.
-    /// "none": nothing is kept.
+    /// Compiled kernels and trees are kept in this folder, which is made if need be. If it is empty, they are
+    /// kept in the folder that NEARLIGHT_CACHE_DIR names in the environment, else in
+    /// $XDG_CACHE_HOME/nearlight, else in ~/.cache/nearlight. If it is "none", nothing is kept.
     std::filesystem::path cache_dir{};
 };
 
-/// One device or several that work together, ready for work. Copies share them, and they live as long as the
-/// last copy or Session. Sessions that share devices must be used by one thread at a time; for work in
-/// several threads choose devices for each, or parts of one device ("0/2.0" and "0/2.1").
+/// One device or several that work together, opened and ready for work. Copies share the devices, which stay
+/// open as long as a copy or a Session uses them. Sessions that share devices must be used by one thread at a
+/// time; to work in several threads, choose devices for each, or parts of one device ("0/2.0" and "0/2.1").
 class NEARLIGHT_API Devices {
   public:
-    /// Which devices, by `choice`:
-    ///  - "auto": the ones that NEARLIGHT_DEVICE in the environment chooses, else the first GPU, else the
-    ///  first
-    ///    device;
-    ///  - "cpu", "gpu", an index, or a part of a name in any case: one device;
-    ///  - "all": every usable device;
-    ///  - "X/N" with any of the above for X: N equal parts of the device as devices of their own, "X/N.K" the
-    ///    part K of these, counted from 0;
-    ///  - several of these with commas between them.
-    /// Throws Error: ErrorKind::no_device where none matches (the message lists those that there are), or
-    /// where one does not start.
+    /// Opens the devices that `choice` names. It is a list with commas between its items, each one of these:
+    ///  - "auto" takes what NEARLIGHT_DEVICE in the environment names, else the first GPU, else the first
+    ///    device; it must be the only item.
+    ///  - "cpu", "gpu", an index, or a part of a name in any case takes the first device that matches.
+    ///  - "all" takes every usable device.
+    ///  - "X/N" splits each device of the item X into N equal parts, which are devices of their own.
+    ///  - "X/N.K" takes the part K of these, counted from 0.
+    /// Throws Error: ErrorKind::no_device where an item matches no device (the message lists those that there
+    /// are), or where a device does not start.
     static Devices choose(const std::string& choice = "auto", const DeviceOptions& options = {});
 
-    /// One or more, in the order of the choice.
+    /// What the devices are, one or more, in the order of the choice.
     [[nodiscard]] const std::vector<DeviceInfo>& infos() const;
 
   private:

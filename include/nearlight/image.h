@@ -20,7 +20,8 @@ struct Image {
     std::vector<std::string> channels{};
     std::vector<float> values{};  ///< width · height · channels.size()
 
-    /// A value at column x (0 is the left) and row y (0 is the top); all three must be in range.
+    /// The value of a channel at column x, counted from the left, and row y, counted from the top. There is
+    /// no check that the three are in range.
     [[nodiscard]] float& at(int x, int y, std::size_t channel) { return values[index(x, y, channel)]; }
     [[nodiscard]] float at(int x, int y, std::size_t channel) const { return values[index(x, y, channel)]; }
 
@@ -34,7 +35,8 @@ struct Image {
 
 /// How to write a picture.
 struct WriteOptions {
-    float exposure = 0.0f;  ///< of PNG files, stops: one more doubles the brightness before the sRGB curve
+    /// For PNG files, in stops: one more doubles the brightness before the sRGB curve.
+    float exposure = 0.0f;
 };
 
 /// The names of the layers of an image, each once; "beauty" stands for R, G and B.

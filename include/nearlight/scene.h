@@ -15,7 +15,7 @@
 
 namespace nearlight {
 
-/// An axis-aligned box in world space, m.
+/// An axis-aligned box in metres of world space.
 struct Box {
     Vec3 min;
     Vec3 max;
@@ -26,7 +26,7 @@ struct LoadOptions {
     /// Values for `$NAME` in a Mitsuba scene, by name; for glTF, `camera` names the camera to take. Names
     /// that the scene does not use are ignored.
     std::map<std::string, std::string> definitions{};
-    /// Throw an Error where something cannot be taken over exactly, instead of noting it.
+    /// If true, load() throws an Error where it would otherwise approximate something and note it.
     bool strict = false;
 };
 
@@ -49,20 +49,21 @@ class NEARLIGHT_API Scene {
     /// replaced by grey, with a note. Notes also go to the message sink (message.h).
     static Scene load(const std::filesystem::path& file, const LoadOptions& options = {});
 
-    /// Of the folder or file.
+    /// The name of the scene's folder, or of its file.
     [[nodiscard]] const std::string& name() const;
     /// The file that load() was given.
     [[nodiscard]] const std::filesystem::path& source() const;
+    /// How many triangles there are after shapes of all kinds were turned into triangles.
     [[nodiscard]] std::size_t triangle_count() const;
-    /// Over the vertices of all triangles; min is above max where there are none.
+    /// The box around the vertices of all triangles. If there are none, min is above max.
     [[nodiscard]] Box bounds() const;
-    /// The size of the camera's picture, pixels.
+    /// The size of the camera's picture in pixels.
     [[nodiscard]] int width() const;
     [[nodiscard]] int height() const;
-    /// Of everything that shapes the picture: equal scenes have equal hashes, on any machine. Takes time in
-    /// proportion to the scene's size.
+    /// A hash of everything that shapes the picture: equal scenes have equal hashes, on any machine. It is
+    /// computed anew in each call, in time proportional to the size of the scene.
     [[nodiscard]] std::uint64_t hash() const;
-    /// In the order in which they came up; each is noted once.
+    /// What load() noted, in order, each thing once.
     [[nodiscard]] std::vector<SceneNote> notes() const;
 
   private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene on devices, and the steps of a picture, each of which gives its product away: look, sample, gather.
+// A scene on devices, and the three steps of a picture: look, sample and gather. The product of each step can
+// be had by itself.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +23,9 @@ namespace nearlight {
 /// A virtual point light (VPL): sends the flux `power` into the hemisphere of `normal`, with the radiant
 /// intensity power/π · cosθ in W/sr.
 struct VirtualPointLight {
-    Vec3 position;  ///< m; stands a little off its surface
+    Vec3 position;  ///< in metres, a tiny distance off its surface
     Vec3 normal;    ///< unit vector
-    Vec3 power;     ///< W, of red, green and blue; what the surface reflects
+    Vec3 power;     ///< W of red, green and blue, after reflection at the surface
     std::uint32_t
         depth;   ///< 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths
     bool close;  ///< lies in the close range
@@ -36,11 +37,12 @@ class NEARLIGHT_API View {
   public:
     [[nodiscard]] int width() const;   ///< pixels
     [[nodiscard]] int height() const;  ///< pixels
-    /// How far from the camera the close range reaches, m.
+    /// The distance in metres from the camera at which the close range ends.
     [[nodiscard]] float range() const;
-    /// R of the bounded geometry term, m: a VPL nearer than this lights as if it were so far.
+    /// R of the bounded geometry term, in metres: VPLs nearer to a point than R light it as if they were at
+    /// the distance R.
     [[nodiscard]] float clamp_radius() const;
-    /// Of the longest light path, as Mitsuba counts: 1 is emission, 2 direct light.
+    /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light.
     [[nodiscard]] std::uint32_t max_depth() const;
 
   private:
@@ -55,8 +57,9 @@ class NEARLIGHT_API View {
 /// set, which keeps its session's devices and scene alive.
 class NEARLIGHT_API VplSet {
   public:
+    /// How many VPLs there are.
     [[nodiscard]] std::size_t size() const;
-    /// How many were placed on surfaces of the close range; light walks left the others.
+    /// How many of them were placed on surfaces of the close range. Light walks left the others.
     [[nodiscard]] std::size_t close_count() const;
     /// Copies them to the host: size() lights, neighbours in space near each other in the order. For the
     /// thread that uses the session. Throws Error: ErrorKind::failure where the device fails.
@@ -75,10 +78,11 @@ struct SessionOptions {
     BvhQuality bvh_quality = BvhQuality::quality;
 };
 
-/// How the light at single points is estimated.
+/// How Session::irradiance() estimates the light at points.
 struct IrradianceSettings {
     std::uint32_t direct_samples = 64;  ///< for each point, towards area lights and the environment
-    /// Short paths for each point, which bring back what the view's clamp radius takes away; 0: leave it out.
+    /// How many short paths to trace from each point. They bring back the light that the view's clamp radius
+    /// takes away; 0 leaves that light out.
     std::uint32_t paths = 16;
 };
 
@@ -86,22 +90,23 @@ struct IrradianceSettings {
 struct Picture {
     /// The channels of picture_channels(); rows that were not reached are 0.
     Image image{};
-    std::uint32_t passes = 1;   ///< that it is the mean of
-    std::size_t vpl_count = 0;  ///< of all passes
+    std::uint32_t passes = 1;   ///< it is the mean of so many
+    std::size_t vpl_count = 0;  ///< of all passes together
     bool interrupted = false;   ///< the callback stopped it before the end
 };
 
-/// How far a piece of work is, 0 to 1; returns false to stop. Called several times a second in the thread
-/// that asked for the work; must not throw.
+/// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. Called several times a second
+/// in the thread that asked for the work; must not throw.
 using Progress = std::function<bool(double fraction)>;
 
 /// Takes the next finished rows, from top to bottom: a multiple of width · picture_channels().size() floats.
 /// The span is valid during the call only. Called in the thread that asked for the work; must not throw.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
-/// The channels of every picture, in order. Radiances in W/(m² sr): R, G, B, which is all light, direct.* and
-/// indirect.*; besides albedo.*, the unit normal N.*, the position P.* in m, the distance depth.Z in m, and
-/// closerange.Y, the share of a pixel that lies in the close range.
+/// The names of the channels of every picture, in order. R, G and B are the radiance in W/(m² sr) that the
+/// camera receives; direct.* and indirect.* are its two parts. The other layers describe what is seen:
+/// albedo.*, the unit normal N.*, the position P.* and the distance depth.Z in metres, and closerange.Y, the
+/// share of the pixel that lies in the close range.
 NEARLIGHT_API std::vector<std::string> picture_channels();
 
 /// A scene on devices, ready from construction on for any number of views, sets of VPLs and pictures. Equal
@@ -116,8 +121,8 @@ NEARLIGHT_API std::vector<std::string> picture_channels();
 /// ErrorKind::out_of_memory the session can be used as before.
 class NEARLIGHT_API Session {
   public:
-    /// Builds the tree of the scene (or takes it from the cache), uploads everything, and begins to compile.
-    /// Shares devices and scene with the caller.
+    /// Builds the tree of the scene or takes it from the cache, uploads everything, and begins to compile
+    /// kernels. The session shares devices and scene with the caller.
     Session(const Devices& devices, const Scene& scene, const SessionOptions& options = {});
     ~Session();
     Session(Session&&) noexcept;
@@ -126,29 +131,29 @@ class NEARLIGHT_API Session {
     /// Decides what the settings leave open, by a pilot view of about 1000 receivers.
     View look(const ViewSettings& settings = {}, std::uint32_t seed = 0);
 
-    /// Places VPLs for that view: as many as settings.vpl_count, more or less.
+    /// Places VPLs for that view, about settings.vpl_count of them.
     VplSet sample(const View& view, const SamplingSettings& settings = {}, std::uint32_t seed = 0);
 
-    /// Renders the view with these VPLs, which may have been made for another view of the session. An image
-    /// takes 80 bytes a pixel.
+    /// Renders the view with these VPLs, which may have been made for another view of the session. The image
+    /// takes a float for each channel of a pixel, about 80 bytes.
     Picture gather(const View& view, const VplSet& vpls, const GatherSettings& settings = {},
                    std::uint32_t seed = 0, const Progress& progress = {});
 
-    /// As gather(), for pictures that need not be in memory as a whole. Returns false where `progress`
-    /// stopped it, with rows missing at the bottom.
+    /// Does the same for pictures that need not be in memory as a whole: `rows` takes them in pieces. Returns
+    /// false if `progress` stopped it; rows are then missing at the bottom.
     bool gather_rows(const View& view, const VplSet& vpls, const GatherSettings& settings, std::uint32_t seed,
                      const RowSink& rows, const Progress& progress = {});
 
-    /// Irradiance in W/m², of red, green and blue, at points of space (m) on the side of their unit normals:
-    /// a value for each point. `points` and `normals` have equal lengths. It is direct light, the light of
-    /// `vpls` under the clamp radius of the view that they were made for, and by short paths what that radius
-    /// takes away: in expectation all light up to that view's depth, if the sampler is unbiased. Points on a
-    /// surface are moved off it along their normals, by a tiny part of the scene's size.
+    /// The irradiance (W/m² of red, green and blue) at each of the points, on the side of its normal.
+    /// `points` are in metres, `normals` have length 1, and there are as many of one as of the other. The sum
+    /// of direct light, the light of `vpls`, and the light that their view's clamp radius takes away is in
+    /// expectation all light up to that view's depth, if the sampler is unbiased. A point on a surface counts
+    /// as a tiny part of the scene's size off it, along the normal.
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const VplSet& vpls, const IrradianceSettings& settings = {},
                                  std::uint32_t seed = 0);
 
-    /// A picture in one call: look, sample and gather, or the mean of several such passes.
+    /// Makes a picture in one call: it looks, samples and gathers, and may average several such passes.
     Picture render(const RenderSettings& settings = {}, const Progress& progress = {});
 
   private:
