@@ -24,6 +24,6 @@ function(embed_kernels target)
   set(EMBEDDED_ENTRIES "${entries}")
   configure_file("${PROJECT_SOURCE_DIR}/cmake/embedded_kernels.cpp.in" "${generated_dir}/registry.cpp" @ONLY)
   add_library(${target} STATIC ${sources} "${generated_dir}/registry.cpp")
-  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nearlight> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  nearlight_for_shared_library(${target})
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include")
 endfunction()

@@ -26,6 +26,12 @@ function(nearlight_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEARLIGHT_UNITY} UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
 
+# The shared library (host/library) takes rooms in, and shows nothing of them.
+function(nearlight_for_shared_library target)
+  set_target_properties(${target} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # For code that runs once and not long.
 set(NEARLIGHT_COLD_OPTIONS $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
 
@@ -35,13 +41,13 @@ function(nearlight_library name)
   cmake_parse_arguments(ARG "COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   nearlight_compile_together(${name})
+  nearlight_for_shared_library(${name})
   if(ARG_COLD)
     target_compile_options(${name} PRIVATE ${NEARLIGHT_COLD_OPTIONS})
   endif()
   add_library(nearlight::${name} ALIAS ${name})
-  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nearlight> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:nearlight_options> ${ARG_PRIVATE})
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include")
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE nearlight_options ${ARG_PRIVATE})
   if(NEARLIGHT_CLANG_TIDY)
     set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY clang-tidy)
   endif()

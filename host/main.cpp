@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "host/cli/advice.h"
 #include "host/cli/bench_command.h"
 #include "host/cli/command.h"
 #include "host/cli/compare_command.h"
@@ -40,7 +41,7 @@ int main(int argc, char** argv) {
         nearlight::core::add_tune_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
-        return fail(error.what(), nearlight::core::exit_code(error.kind()));
+        return fail(nearlight::core::with_advice(error).c_str(), nearlight::core::exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
         return fail("out of memory on the host; use a smaller --size or fewer --layers",
                     ExitCode::out_of_memory);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages for people from the rooms that the minimal build has too. There they are plain lines on standard
-// error; in the full program they go through its logger (host/base/log.h).
+// Messages for people. They go to the sink that the program has set, and nowhere before it has set one.
 #pragma once
 
 #include <string>
 
+#include "nearlight/message.h"
+
 namespace nearlight::core {
+
+/// As nearlight::set_message_sink().
+void set_message_sink(MessageSink sink);
 
 void say_error(const std::string& text);
 void say_warning(const std::string& text);
-/// Shown with --verbose only; never in the minimal build.
 void say_debug(const std::string& text);
 
 }  // namespace nearlight::core

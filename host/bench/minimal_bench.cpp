@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/base/hash.h"
+#include "host/base/message.h"
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/bvh.h"
@@ -192,6 +193,12 @@ int run(const Options& options) {
 }  // namespace nearlight::core
 
 int main(int argc, char** argv) {
+    nearlight::core::set_message_sink([](nearlight::MessageLevel level, std::string_view text) {
+        if (level != nearlight::MessageLevel::debug) {
+            const char* const name = level == nearlight::MessageLevel::error ? "error" : "warning";
+            std::fprintf(stderr, "%s: %.*s\n", name, static_cast<int>(text.size()), text.data());
+        }
+    });
     try {
         return nearlight::core::run(nearlight::core::parse(argc, argv));
     } catch (const nearlight::Error& error) {

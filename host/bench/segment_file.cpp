@@ -177,9 +177,10 @@ void write_segments(const std::filesystem::path& file, const GatherSegments& seg
 GatherSegments read_segments(const std::filesystem::path& file) {
     const std::string bytes = read_bytes(file);
     const auto fail = [&](const std::string& what) {
-        return Error(ErrorKind::file, "'" + file.string() +
-                                          "' is no set of segments that this version reads: " + what +
-                                          "; write one with 'nearlight bench gather --dump'");
+        return Error(ErrorKind::file,
+                     "'" + file.string() + "' is no set of segments that this version reads: " + what +
+                         "; write it anew",
+                     "segments");
     };
     if (!std::string_view(bytes).starts_with(kMagic)) {
         throw fail("it does not begin with " + std::string(kMagic));

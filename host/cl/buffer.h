@@ -31,7 +31,7 @@ class Buffer {
             throw Error(ErrorKind::out_of_memory,
                         "a buffer of " + std::to_string(count) + " × " + std::to_string(sizeof(T)) +
                             " bytes exceeds the largest allocation of device " + device.name() + " (" +
-                            std::to_string(limit >> 20) + " MiB); use a smaller --size, --spp or scene");
+                            std::to_string(limit >> 20) + " MiB)");
         }
         handle_ = with_opencl_errors(std::to_string(bytes() >> 20) + " MiB on device " + device.name(), [&] {
             const bool huge = device.is_cpu() && bytes() >= kMinHugeBytes;

@@ -42,7 +42,8 @@ Device::Device(const DeviceEntry& entry, const DeviceOptions& options) : entry_(
     } catch (const cl::Error& error) {
         throw Error(ErrorKind::no_device,
                     "OpenCL device '" + entry_.name + "' does not start: " + error.what() + " gave " +
-                        opencl_error_name(error.err()) + "; choose another with --device");
+                        opencl_error_name(error.err()) + "; choose another device",
+                    "device");
     }
 }
 

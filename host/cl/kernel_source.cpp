@@ -23,10 +23,12 @@ std::string read_kernel(const std::string& name, const std::filesystem::path& ke
         text << file.rdbuf();
         return text.str();
     }
-    const std::string where = kernel_dir.empty() ? "in this binary" : "in " + kernel_dir.string();
-    throw Error(ErrorKind::kernel_build, "no kernel file '" + name + "' " + where +
-                                             (includer.empty() ? "" : " (included by " + includer + ")") +
-                                             "; check --kernel-dir");
+    const std::string where =
+        kernel_dir.empty() ? "in this binary" : "in " + kernel_dir.string() + ", which must hold all of them";
+    throw Error(ErrorKind::kernel_build,
+                "no kernel file '" + name + "' " + where +
+                    (includer.empty() ? "" : " (included by " + includer + ")"),
+                kernel_dir.empty() ? "" : "kernel_dir");
 }
 
 void expand(const std::string& name, const std::filesystem::path& kernel_dir, const std::string& includer,

@@ -67,7 +67,7 @@ Error make_opencl_error(const cl::Error& error, const std::string& subject) {
     std::string message =
         std::string(error.what()) + " failed with " + opencl_error_name(error.err()) + " (" + subject + ")";
     if (memory) {
-        message += "; free memory, or use a smaller --size, --spp or scene";
+        message += "; free memory, or ask for less at once";
     }
     return {memory ? ErrorKind::out_of_memory : ErrorKind::failure, message};
 }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
 #include "host/bench/build_bench.h"
 #include "host/cli/bench_scene.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 

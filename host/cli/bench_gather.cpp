@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/bench_gather.h"
 
-#include "host/base/log.h"
 #include "host/bench/gather_bench.h"
 #include "host/bench/segment_file.h"
 #include "host/cli/bench_gather_text.h"
 #include "host/cli/bench_scene.h"
 #include "host/cli/device_options.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
 #include "host/bench/sort_bench.h"
 #include "host/cli/device_options.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 
 namespace nearlight::core {

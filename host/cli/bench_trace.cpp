@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
 #include "host/bench/trace_bench.h"
 #include "host/cli/bench_scene.h"
 #include "host/cli/device_options.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/log.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/suggestion.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "host/base/log.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/device_options.h"
 
-#include "host/base/log.h"
 #include "host/cl/compile/program_compiler.h"
+#include "host/cli/log.h"
 
 namespace nearlight::core {
 

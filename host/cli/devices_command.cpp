@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
 #include "host/cl/device.h"
 #include "host/cl/devices/device_list.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/log.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "host/base/log.h"
+#include "host/cli/log.h"
 
 namespace nearlight::core {
 namespace {

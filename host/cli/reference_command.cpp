@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/base/log.h"
 #include "host/base/stopwatch.h"
 #include "host/cli/interrupt.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"

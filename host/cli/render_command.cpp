@@ -7,11 +7,11 @@
 #include <iterator>
 #include <map>
 
-#include "host/base/log.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/thread_limit.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
@@ -100,8 +100,8 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     const int height = settings.view.height.value_or(scene.camera.height);
     if (std::int64_t{width} * height > kMaxPixels) {
         throw Error(ErrorKind::out_of_memory,
-                    fmt::format("{}x{} pixels are too many: the maximum is {} million; use a smaller --size",
-                                width, height, kMaxPixels >> 20));
+                    fmt::format("{}x{} pixels are too many: the maximum is {} million", width, height,
+                                kMaxPixels >> 20));
     }
     if (settings.sampling.vpl_count == 0) {
         spdlog::warn("with --vpls 0 the picture has no indirect light");

@@ -5,8 +5,8 @@
 #include <ctime>
 
 #include "host/base/hash.h"
-#include "host/base/log.h"
 #include "host/base/memory.h"
+#include "host/cli/log.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/tunables_output.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/scene_options.h"
 
-#include "host/base/log.h"
+#include "host/cli/log.h"
 
 namespace nearlight::core {
 

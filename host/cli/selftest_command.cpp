@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "host/base/log.h"
 #include "host/cli/device_options.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/selftest/selftest.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/log.h"
+#include "host/cli/log.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {

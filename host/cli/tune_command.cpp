@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "host/base/log.h"
 #include "host/bench/tuner.h"
 #include "host/cli/device_options.h"
+#include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
 

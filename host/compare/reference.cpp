@@ -195,12 +195,11 @@ Reference load_reference(const std::filesystem::path& file, const ReferenceSpec&
     const auto centers = metadata.find("nearlight:pixelCenters");
     const bool has_centers = centers != metadata.end() && centers->second == Metadata::mapped_type(1);
     if (has_centers != spec.pixel_centers) {
-        say_warning(fmt::format(
-            "'{}' was sampled {}, but the pictures of the comparison are sampled {}; the difference counts "
-            "as error",
-            file.string(),
-            has_centers ? "at the centres of pixels" : "all over the pixels (without --pixel-centers)",
-            spec.pixel_centers ? "at the centres of pixels (--spp 1)" : "all over the pixels"));
+        say_warning(
+            fmt::format("'{}' was sampled {}, but the pictures of the comparison are sampled {}; the "
+                        "difference counts as error",
+                        file.string(), has_centers ? "at the centres of pixels" : "all over the pixels",
+                        spec.pixel_centers ? "at the centres of pixels" : "all over the pixels"));
     }
     reference.display_scale = display_scale(reference.picture);
     return reference;

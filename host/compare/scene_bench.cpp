@@ -96,7 +96,8 @@ void SceneBench::check(const FirstLook& found) const {
     if (facts_.max_depth < 3) {
         throw Error(ErrorKind::file,
                     scene + " has a depth of " + std::to_string(facts_.max_depth) +
-                        ", which leaves no indirect light to compare; give --max-depth 3 or more");
+                        ", which leaves no indirect light to compare; take 3 or more",
+                    "max_depth");
     }
     if (!found.close_vpls) {
         say_warning(scene + ": nothing that light reaches is close (range " + std::to_string(facts_.range) +

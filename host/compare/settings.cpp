@@ -35,18 +35,18 @@ uint parse_vpl_count(const std::string& text) {
     const std::optional<uint> count = whole_number<uint>(text);
     if (!count || *count < 1 || *count > kMaxVpls) {
         throw Error(ErrorKind::invalid_argument,
-                    "--vpls: '" + text + "' is not a number of VPLs; give whole numbers from 1 to " +
-                        std::to_string(kMaxVpls) + ", separated by commas, as in 1000,2000");
+                    "'" + text + "' is not a number of VPLs; give whole numbers from 1 to " +
+                        std::to_string(kMaxVpls) + ", separated by commas, as in 1000,2000",
+                    "vpls");
     }
     return *count;
 }
 
 template <typename Item, typename Name>
-void refuse_twins(const std::vector<Item>& items, const char* option, Name&& name) {
+void refuse_twins(const std::vector<Item>& items, const char* setting, Name&& name) {
     for (auto item = items.begin(); item != items.end(); ++item) {
         if (std::find(items.begin(), item, *item) != item) {
-            throw Error(ErrorKind::invalid_argument,
-                        std::string(option) + " names " + name(*item) + " twice; name it once");
+            throw Error(ErrorKind::invalid_argument, name(*item) + " is named twice; name it once", setting);
         }
     }
 }
@@ -54,10 +54,11 @@ void refuse_twins(const std::vector<Item>& items, const char* option, Name&& nam
 void check_crop(const Crop& crop, int width, int height) {
     if (crop.x + crop.width > width || crop.y + crop.height > height) {
         throw Error(ErrorKind::invalid_argument,
-                    "--crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
+                    "the crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
                         std::to_string(crop.width) + "," + std::to_string(crop.height) +
                         " reaches beyond the picture of " + std::to_string(width) + "x" +
-                        std::to_string(height) + " pixels");
+                        std::to_string(height) + " pixels",
+                    "crop");
     }
 }
 
@@ -70,8 +71,10 @@ void check_baseline(const CompareSettings& settings) {
     for (const Method& method : settings.methods) {
         names += (names.empty() ? "" : ", ") + to_string(method);
     }
-    throw Error(ErrorKind::invalid_argument, "--baseline " + to_string(settings.baseline) +
-                                                 " is not among the samplers to compare: " + names);
+    throw Error(
+        ErrorKind::invalid_argument,
+        "the baseline " + to_string(settings.baseline) + " is not among the samplers to compare: " + names,
+        "baseline");
 }
 
 std::size_t min_reference_vpls(const CompareSettings& settings) {
@@ -86,13 +89,13 @@ void check_reference_sampler(const CompareSettings& settings) {
     const Method& sampler = *settings.reference_sampler;
     if (sampler.policy == Policy::paper) {
         throw Error(ErrorKind::invalid_argument,
-                    "--reference-sampler " + to_string(sampler) +
-                        " loses light, so it cannot make the reference; use another");
+                    to_string(sampler) + " loses light, so it cannot make the reference; use another",
+                    "reference_sampler");
     }
     if (settings.reference_vpls == 0) {
         throw Error(ErrorKind::invalid_argument,
-                    "--reference-sampler " + to_string(sampler) +
-                        " needs a number of VPLs; give it with --reference-vpls");
+                    "a reference by " + to_string(sampler) + " needs a number of VPLs; say how many",
+                    "reference_vpls");
     }
 }
 
@@ -101,14 +104,16 @@ void check_reference(const CompareSettings& settings) {
         check_reference_sampler(settings);
     }
     if (settings.reference_vpls > 0 && settings.reference_vpls < min_reference_vpls(settings)) {
-        throw Error(ErrorKind::invalid_argument, "--reference-vpls " +
-                                                     std::to_string(settings.reference_vpls) +
-                                                     " are too few for a reference; use at least " +
-                                                     std::to_string(min_reference_vpls(settings)));
+        throw Error(ErrorKind::invalid_argument,
+                    std::to_string(settings.reference_vpls) +
+                        " VPLs are too few for a reference; use at least " +
+                        std::to_string(min_reference_vpls(settings)),
+                    "reference_vpls");
     }
     if (settings.reference_vpls > 0 && !settings.reference_files.empty()) {
         throw Error(ErrorKind::invalid_argument,
-                    "--reference and --reference-vpls exclude each other; give only one of them");
+                    "a reference is either read from a file or made of VPLs; give a file or a number of VPLs",
+                    "reference_files");
     }
 }
 
@@ -119,7 +124,7 @@ std::vector<Method> parse_methods(const std::string& list) {
     for (const std::string& name : split(list)) {
         methods.push_back(parse_method(name));
     }
-    refuse_twins(methods, "--samplers", [](const Method& method) { return to_string(method); });
+    refuse_twins(methods, "samplers", [](const Method& method) { return to_string(method); });
     return methods;
 }
 
@@ -128,7 +133,7 @@ std::vector<uint> parse_vpl_counts(const std::string& list) {
     for (const std::string& item : split(list)) {
         counts.push_back(parse_vpl_count(item));
     }
-    refuse_twins(counts, "--vpls", [](uint count) { return std::to_string(count); });
+    refuse_twins(counts, "vpls", [](uint count) { return std::to_string(count); });
     std::sort(counts.begin(), counts.end());
     return counts;
 }
@@ -144,9 +149,9 @@ Crop parse_crop(const std::string& text) {
         numbers.push_back(*number);
     }
     if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) {
-        throw Error(
-            ErrorKind::invalid_argument,
-            "--crop: '" + text + "' is not a part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60");
+        throw Error(ErrorKind::invalid_argument,
+                    "'" + text + "' is not a part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60",
+                    "crop");
     }
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
@@ -158,12 +163,15 @@ void check_settings(const CompareSettings& settings) {
     }
     if (settings.clamp_radius && settings.clamp_fraction) {
         throw Error(ErrorKind::invalid_argument,
-                    "--clamp-radius and --clamp-fraction exclude each other; give only one of them");
+                    "the clamp radius is given both as a length and as a fraction of the range; give only "
+                    "one of them",
+                    "clamp_fraction");
     }
     if (settings.max_depth && *settings.max_depth < 3) {
         throw Error(ErrorKind::invalid_argument,
-                    "--max-depth " + std::to_string(*settings.max_depth) +
-                        " leaves no indirect light, which is what `compare` measures; use 3 or more");
+                    "a depth of " + std::to_string(*settings.max_depth) +
+                        " leaves no indirect light, which is what is compared; use 3 or more",
+                    "max_depth");
     }
     check_baseline(settings);
     check_reference(settings);

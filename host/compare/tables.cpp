@@ -79,10 +79,10 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
         const double more = std::pow(noise / (kNoiseThatCounts * best.rmse.value), 2);
         text += fmt::format(
             "; about {:.0f} {} would be enough", more * static_cast<double>(reference.samples),
-            reference.path_traced ? "samples per pixel (--reference-spp)" : "VPLs (--reference-vpls)");
+            reference.path_traced ? "samples per pixel of the reference" : "VPLs of the reference");
     }
     return text +
-           (reference.path_traced ? ", or use --reference-vpls, whose noise is spread more evenly" : "");
+           (reference.path_traced ? ", or use a reference of VPLs, whose noise is spread more evenly" : "");
 }
 
 std::size_t baseline_index(const CompareSettings& settings) {

@@ -8,7 +8,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Found where the program's run path says: beside it in the build tree, in lib/nearlight when installed.
+/// Found by the run path of the program, or of the shared library that this is in: it names a folder of the
+/// build tree, or lib/nearlight when installed.
 constexpr const char* kModule = "nearlight-images.so";
 
 const ImageCodec& load_codec() {

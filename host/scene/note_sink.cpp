@@ -7,7 +7,8 @@ namespace nearlight::core {
 
 void NoteSink::approximation(const std::filesystem::path& file, int line, const std::string& text) {
     if (strict_) {
-        throw Error(ErrorKind::file, to_string(Note{file, line, text}) + " (an error because of --strict)");
+        throw Error(ErrorKind::file,
+                    to_string(Note{file, line, text}) + " (an error because loading is strict)", "strict");
     }
     remark(file, line, text);
 }

@@ -11,9 +11,10 @@ namespace nearlight::core {
 
 PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int height) {
     if (width <= 0 || height <= 0) {
-        throw Error(ErrorKind::invalid_argument, "a picture of " + std::to_string(width) + "x" +
-                                                     std::to_string(height) +
-                                                     " pixels is empty; give a --size of at least 1x1");
+        throw Error(ErrorKind::invalid_argument,
+                    "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                        " pixels is empty; its size must be at least 1x1",
+                    "size");
     }
     if (!(camera.fov_x_degrees > 0.0 && camera.fov_x_degrees < 180.0)) {
         throw Error(ErrorKind::invalid_argument,

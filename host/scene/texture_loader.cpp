@@ -58,6 +58,7 @@ int TextureLoader::load(const std::filesystem::path& image, bool linear, const s
     try {
         entry->second = add(read_image(image), image.filename().string(), linear || holds_floats(image));
     } catch (const Error& error) {
+        throw_unless_file(error);
         notes_.approximation(
             file, line,
             std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
@@ -68,6 +69,12 @@ int TextureLoader::load(const std::filesystem::path& image, bool linear, const s
 int TextureLoader::add(const Image& image, const std::string& name, bool linear) {
     scene_.images.push_back(to_texture(image, name, linear));
     return static_cast<int>(scene_.images.size() - 1);
+}
+
+void throw_unless_file(const Error& error) {
+    if (error.kind() != ErrorKind::file) {
+        throw error;
+    }
 }
 
 SceneTexture plain_texture(int image) {

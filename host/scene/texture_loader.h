@@ -10,6 +10,7 @@
 #include "host/image/image.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 
@@ -31,6 +32,9 @@ class TextureLoader {
     std::map<std::pair<std::filesystem::path, bool>, int> loaded_;
 };
 
+/// A texture's file may be broken; whatever else kept it from being read (a missing image module, memory)
+/// would make a wrong picture of any scene, and is thrown on.
+void throw_unless_file(const Error& error);
 /// A bitmap texture without any placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
 /// Linear mean colour.

@@ -4,6 +4,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "nearlight/export.h"
 
 namespace nearlight {
 
@@ -19,13 +22,19 @@ enum class ErrorKind {
 
 /// The only exception type of nearlight, besides what the standard library throws. what() is one line: what
 /// failed, on what (file and line, device, kernel), and what to do.
-class Error : public std::runtime_error {
+class NEARLIGHT_API Error : public std::runtime_error {
   public:
-    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    /// `setting` names something that outlives the error, such as a string literal.
+    Error(ErrorKind kind, const std::string& message, std::string_view setting = {})
+        : std::runtime_error(message), kind_(kind), setting_(setting) {}
     [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
+    /// The setting to change, as the library spells it ("kernel_dir", "strict"), so that a program can name
+    /// its own option or button for it; empty where no single setting is to blame.
+    [[nodiscard]] std::string_view setting() const noexcept { return setting_; }
 
   private:
     ErrorKind kind_;
+    std::string_view setting_;
 };
 
 }  // namespace nearlight

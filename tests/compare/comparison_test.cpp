@@ -207,7 +207,7 @@ TEST_F(ComparisonTest, ASceneWithNothingToCompareIsRefused) {
         EXPECT_TRUE(mentions(error_of([&] { run(device, black, settings()); }), "nothing to compare"));
         Scene direct = corner();
         direct.max_depth = 2;
-        EXPECT_TRUE(mentions(error_of([&] { run(device, direct, settings()); }), "--max-depth"));
+        EXPECT_EQ(error_of([&] { run(device, direct, settings()); }).setting(), "max_depth");
     });
 }
 

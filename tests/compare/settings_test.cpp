@@ -55,7 +55,7 @@ TEST(CompareLists, WrongCountsAreNamed) {
          {"0,abc", "abc", "", "100,", ",100", "100,,200", "-5", "1.5", "99999999999", "60000000", "1e3"}) {
         const Error error = error_of([&] { parse_vpl_counts(list); });
         EXPECT_EQ(error.kind(), ErrorKind::invalid_argument) << list;
-        EXPECT_TRUE(mentions(error, "--vpls")) << list;
+        EXPECT_EQ(error.setting(), "vpls") << list;
     }
     EXPECT_TRUE(mentions(error_of([] { parse_vpl_counts("10,20,10"); }), "twice"));
 }
@@ -67,14 +67,14 @@ TEST(CompareLists, CropsAreFourNumbers) {
     }
 }
 
-/// What check_settings() says after a change of the defaults.
+/// What check_settings() says after a change of the defaults: the setting, and the message.
 template <typename Change>
 std::string complaint(Change&& change) {
     CompareSettings settings;
     change(settings);
     const Error error = error_of([&] { check_settings(settings); });
     EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
-    return error.what();
+    return std::string(error.setting()) + ": " + error.what();
 }
 
 TEST(CompareSettingsCheck, DefaultsAreFine) {
@@ -88,13 +88,13 @@ TEST(CompareSettingsCheck, WhatDoesNotGoTogetherIsRefused) {
     EXPECT_TRUE(has(complaint([](auto& s) { s.methods.clear(); }), "nothing to compare"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.vpl_counts.clear(); }), "nothing to compare"));
     EXPECT_TRUE(
-        has(complaint([](auto& s) { s.methods = parse_methods("instant-radiosity"); }), "--baseline"));
+        has(complaint([](auto& s) { s.methods = parse_methods("instant-radiosity"); }), "baseline: "));
     EXPECT_TRUE(
-        has(complaint([](auto& s) { s.clamp_radius = 0.1f, s.clamp_fraction = 0.1f; }), "--clamp-fraction"));
-    EXPECT_TRUE(has(complaint([](auto& s) { s.max_depth = 2u; }), "--max-depth"));
+        has(complaint([](auto& s) { s.clamp_radius = 0.1f, s.clamp_fraction = 0.1f; }), "clamp_fraction: "));
+    EXPECT_TRUE(has(complaint([](auto& s) { s.max_depth = 2u; }), "max_depth: "));
     EXPECT_TRUE(has(complaint([](auto& s) { s.reference_vpls = 1000; }), "200000"));
     const Method metropolis = parse_method("metropolis");
-    EXPECT_TRUE(has(complaint([&](auto& s) { s.reference_sampler = metropolis; }), "--reference-vpls"));
+    EXPECT_TRUE(has(complaint([&](auto& s) { s.reference_sampler = metropolis; }), "reference_vpls: "));
     EXPECT_TRUE(has(complaint([&](auto& s) { s.reference_sampler = metropolis, s.reference_vpls = 99'999; }),
                     "100000"));
     EXPECT_TRUE(has(complaint([](auto& s) {
@@ -102,8 +102,8 @@ TEST(CompareSettingsCheck, WhatDoesNotGoTogetherIsRefused) {
                     }),
                     "loses light"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.reference_vpls = 200'000, s.reference_files = {"a.exr"}; }),
-                    "exclude"));
-    EXPECT_TRUE(has(complaint([](auto& s) { s.crops = {{300, 0, 21, 10}}; }), "--crop 300,0,21,10"));
+                    "either read from a file or made of VPLs"));
+    EXPECT_TRUE(has(complaint([](auto& s) { s.crops = {{300, 0, 21, 10}}; }), "crop: the crop 300,0,21,10"));
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ void store_tunables(const Tunables& tunables, std::span<const std::string> kerne
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir) {
     const std::filesystem::path path = tunables_file(entry, cache_dir);
     if (path.empty()) {
-        throw Error(ErrorKind::invalid_argument, "no folder to keep tunables in: give one with --cache-dir");
+        throw Error(ErrorKind::invalid_argument, "no folder to keep tunables in: name one", "cache_dir");
     }
     make_folder(cache_dir);
     write_text(path, to_text(tunables, entry, kernels_key(kernels, kernel_dir)));

@@ -140,6 +140,7 @@ int MaterialMaker::load_colors(const tinygltf::Image& image) {
     try {
         return textures_.add(read_pixels(file_, image), name_of(image), false);
     } catch (const Error& error) {
+        throw_unless_file(error);
         notes_.approximation(
             file_.path, 0,
             std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
@@ -177,6 +178,7 @@ std::optional<Vec3> MaterialMaker::mean_of(const tinygltf::TextureInfo& info) {
         try {
             entry->second = mean_numbers(read_pixels(file_, *image));
         } catch (const Error& error) {
+            throw_unless_file(error);
             notes_.approximation(file_.path, 0, std::string("a texture is left out: ") + error.what());
         }
     }

@@ -77,7 +77,8 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures)
         try {
             light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)));
         } catch (const Error& error) {
-            throw Error(error.kind(), to_string(Note{*emitter.where.file, emitter.where.line, error.what()}));
+            throw Error(error.kind(), to_string(Note{*emitter.where.file, emitter.where.line, error.what()}),
+                        error.setting());
         }
     }
     light.to_world = rotation_of(emitter.transform("to_world"), emitter.where);

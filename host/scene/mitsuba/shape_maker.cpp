@@ -139,7 +139,8 @@ Mesh ShapeMaker::load_file(const Object& shape) {
         }
         return mesh;
     } catch (const Error& error) {
-        throw Error(error.kind(), to_string(Note{*shape.where.file, shape.where.line, error.what()}));
+        throw Error(error.kind(), to_string(Note{*shape.where.file, shape.where.line, error.what()}),
+                    error.setting());
     }
 }
 

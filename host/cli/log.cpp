@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/log.h"
+#include "host/cli/log.h"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include "host/base/message.h"
+
 namespace nearlight::core {
+namespace {
+
+spdlog::level::level_enum log_level(MessageLevel level) {
+    return level == MessageLevel::error     ? spdlog::level::err
+           : level == MessageLevel::warning ? spdlog::level::warn
+                                            : spdlog::level::debug;
+}
+
+}  // namespace
 
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>("nearlight",
@@ -14,6 +25,8 @@ void set_up_log(Verbosity verbosity) {
                       : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                         : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
+    set_message_sink(
+        [](MessageLevel level, std::string_view text) { spdlog::log(log_level(level), "{}", text); });
 }
 
 }  // namespace nearlight::core

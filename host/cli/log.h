@@ -8,8 +8,9 @@ namespace nearlight::core {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// Sets up the process's logger on standard error: quiet shows errors only, verbose also debug messages.
-/// Use spdlog::info(), warn(), debug() to write.
+/// Sets up the process's logger on standard error, where the messages of all rooms (host/base/message.h) go
+/// from now on: quiet shows errors only, verbose also debug messages. Commands write with spdlog::info(),
+/// warn() and debug().
 void set_up_log(Verbosity verbosity);
 
 }  // namespace nearlight::core

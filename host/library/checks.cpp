@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/library/checks.h"
+
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "nearlight/error.h"
+
+namespace nearlight {
+namespace {
+
+constexpr int kMaxSide = 65536;
+constexpr std::uint32_t kMaxVpls = 50'000'000;
+constexpr std::uint32_t kMaxSamples = 65536;
+constexpr std::uint32_t kMaxDirectSamples = 1'000'000;
+constexpr std::uint32_t kMaxDepth = 1024;
+constexpr std::uint32_t kMaxPasses = 1'000'000;
+constexpr float kMaxLength = 1e9f;
+constexpr float kMaxRoulette = 1000.0f;
+/// A normal that is off by more was not normalised; one that is off by less is rounded.
+constexpr float kNormalTolerance = 1e-3f;
+
+/// NaN is out of every range.
+template <typename Number>
+void check_range(std::string_view setting, Number value, Number min, Number max) {
+    if (!(value >= min && value <= max)) {
+        std::ostringstream text;
+        text << setting << " is " << value << "; it must be from " << min << " to " << max;
+        throw Error(ErrorKind::invalid_argument, text.str(), setting);
+    }
+}
+
+template <typename Number>
+void check_range(std::string_view setting, const std::optional<Number>& value, Number min, Number max) {
+    if (value) {
+        check_range(setting, *value, min, max);
+    }
+}
+
+bool is_unit(Vec3 v) {
+    return std::abs(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) - 1.0f) <= kNormalTolerance;
+}
+
+}  // namespace
+
+void check(const ViewSettings& settings) {
+    check_range("width", settings.width, 1, kMaxSide);
+    check_range("height", settings.height, 1, kMaxSide);
+    check_range("range", settings.range, 1e-6f, kMaxLength);
+    check_range("clamp_radius", settings.clamp_radius, 0.0f, kMaxLength);
+    check_range("max_depth", settings.max_depth, 1u, kMaxDepth);
+}
+
+void check(const SamplingSettings& settings) {
+    check_range("vpl_count", settings.vpl_count, 0u, kMaxVpls);
+    check_range("close_fraction", settings.close_fraction, 0.0f, 1.0f);
+}
+
+void check(const GatherSettings& settings) {
+    check_range("samples_per_pixel", settings.samples_per_pixel, 1u, kMaxSamples);
+    check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxDirectSamples);
+    check_range("roulette", settings.roulette, 0.0f, kMaxRoulette);
+}
+
+void check(const IrradianceSettings& settings) {
+    check_range("direct_samples", settings.direct_samples, 1u, kMaxDirectSamples);
+    check_range("paths", settings.paths, 0u, kMaxSamples);
+}
+
+void check(const RenderSettings& settings) {
+    check(settings.view);
+    check(settings.sampling);
+    check(settings.gather);
+    check_range("passes", settings.passes, 1u, kMaxPasses);
+    check_range("seconds", settings.seconds, 0.0, 1e9);
+}
+
+void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {
+    if (points.size() != normals.size()) {
+        throw Error(ErrorKind::invalid_argument,
+                    std::to_string(points.size()) + " points need as many normals, not " +
+                        std::to_string(normals.size()),
+                    "normals");
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (!is_unit(normals[i])) {
+            throw Error(ErrorKind::invalid_argument,
+                        "normal " + std::to_string(i) + " does not have length 1; normalise it", "normals");
+        }
+    }
+}
+
+}  // namespace nearlight

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nearlight/image.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/image/image_io.h"
+#include "nearlight/error.h"
+
+namespace nearlight {
+namespace {
+
+constexpr std::string_view kBeauty = "beauty";
+
+/// "direct.R" belongs to the layer "direct"; R, G and B to the beauty.
+std::string_view layer_part(std::string_view channel) {
+    const std::size_t dot = channel.rfind('.');
+    return dot == std::string_view::npos ? kBeauty : channel.substr(0, dot);
+}
+
+std::string_view channel_part(std::string_view channel) {
+    return channel.substr(channel.rfind('.') + 1);
+}
+
+std::size_t value_count(const Image& image) {
+    return static_cast<std::size_t>(std::max(image.width, 0)) *
+           static_cast<std::size_t>(std::max(image.height, 0)) * image.channels.size();
+}
+
+/// Copies the channels whose indices are given, in that order.
+Image select_channels(const Image& image, const std::vector<std::size_t>& selected) {
+    Image result{.width = image.width, .height = image.height};
+    for (const std::size_t channel : selected) {
+        result.channels.emplace_back(channel_part(image.channels[channel]));
+    }
+    const std::size_t pixel_count = image.values.size() / image.channels.size();
+    result.values.reserve(pixel_count * selected.size());
+    for (std::size_t pixel = 0; pixel < pixel_count; ++pixel) {
+        for (const std::size_t channel : selected) {
+            result.values.push_back(image.values[pixel * image.channels.size() + channel]);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::string> layer_names(const Image& image) {
+    std::vector<std::string> names;
+    for (const std::string& channel : image.channels) {
+        if (std::ranges::find(names, layer_part(channel)) == names.end()) {
+            names.emplace_back(layer_part(channel));
+        }
+    }
+    return names;
+}
+
+Image layer(const Image& image, std::string_view name) {
+    std::vector<std::size_t> selected;
+    for (std::size_t i = 0; i < image.channels.size(); ++i) {
+        if (layer_part(image.channels[i]) == name) {
+            selected.push_back(i);
+        }
+    }
+    if (selected.empty()) {
+        std::string there;
+        for (const std::string& known : layer_names(image)) {
+            there += (there.empty() ? "" : ", ") + known;
+        }
+        throw Error(ErrorKind::invalid_argument,
+                    "the image has no layer '" + std::string(name) + "'; there are: " + there);
+    }
+    return select_channels(image, selected);
+}
+
+void write_image(const std::filesystem::path& file, const Image& image, const WriteOptions& options) {
+    if (image.values.size() != value_count(image)) {
+        throw Error(ErrorKind::invalid_argument,
+                    "cannot write '" + file.string() + "': the image has " +
+                        std::to_string(image.values.size()) +
+                        " values, which is not its width times its height times its channels");
+    }
+    core::ImageWriter writer(file, image.width, image.height, image.channels,
+                             {.metadata = {}, .exposure = options.exposure});
+    writer.write_rows(image.values);
+    writer.commit();
+}
+
+Image read_image(const std::filesystem::path& file) {
+    core::Image image = core::read_image(file);
+    return {.width = image.width,
+            .height = image.height,
+            .channels = std::move(image.channels),
+            .values = std::move(image.values)};
+}
+
+}  // namespace nearlight

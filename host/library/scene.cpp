@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nearlight/scene.h"
+
+#include <utility>
+
+#include "host/base/message.h"
+#include "host/library/states.h"
+#include "host/scene/scene_loader.h"
+
+namespace nearlight {
+namespace {
+
+Vec3 public_vector(core::Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+
+Scene Scene::load(const std::filesystem::path& file, const LoadOptions& options) {
+    core::Scene scene = core::load_scene(file, {.parameters = options.definitions, .strict = options.strict});
+    for (const core::Note& note : scene.notes) {
+        core::say_warning(core::to_string(note));
+    }
+    return Scene(std::make_shared<const State>(State{std::move(scene)}));
+}
+
+const std::string& Scene::name() const {
+    return state_->scene.name;
+}
+
+const std::filesystem::path& Scene::source() const {
+    return state_->scene.source;
+}
+
+std::size_t Scene::triangle_count() const {
+    return state_->scene.triangles.size();
+}
+
+Box Scene::bounds() const {
+    const core::Aabb box = core::bounds(state_->scene);
+    return {public_vector(box.min), public_vector(box.max)};
+}
+
+int Scene::width() const {
+    return state_->scene.camera.width;
+}
+
+int Scene::height() const {
+    return state_->scene.camera.height;
+}
+
+std::uint64_t Scene::hash() const {
+    return core::scene_hash(state_->scene);
+}
+
+std::vector<SceneNote> Scene::notes() const {
+    std::vector<SceneNote> notes;
+    for (const core::Note& note : state_->scene.notes) {
+        notes.push_back({note.file, note.line, note.text});
+    }
+    return notes;
+}
+
+}  // namespace nearlight

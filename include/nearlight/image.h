@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Floating-point images with named channels, and their files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nearlight/export.h"
+
+namespace nearlight {
+
+/// Pixels with interleaved channels, the top row first. Channel names follow OpenEXR: "R", "G" and "B" are
+/// the picture, "indirect.R" is a channel of the layer "indirect".
+struct Image {
+    int width = 0;   ///< pixels
+    int height = 0;  ///< pixels
+    std::vector<std::string> channels{};
+    std::vector<float> values{};  ///< width · height · channels.size()
+
+    /// The value of a channel at column x, counted from the left, and row y, counted from the top. There is
+    /// no check that the three are in range.
+    [[nodiscard]] float& at(int x, int y, std::size_t channel) { return values[index(x, y, channel)]; }
+    [[nodiscard]] float at(int x, int y, std::size_t channel) const { return values[index(x, y, channel)]; }
+
+  private:
+    [[nodiscard]] std::size_t index(int x, int y, std::size_t channel) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                   channels.size() +
+               channel;
+    }
+};
+
+/// How to write a picture.
+struct WriteOptions {
+    /// For PNG files, in stops: one more doubles the brightness before the sRGB curve.
+    float exposure = 0.0f;
+};
+
+/// The names of the layers of an image, each once; "beauty" stands for R, G and B.
+NEARLIGHT_API std::vector<std::string> layer_names(const Image& image);
+
+/// A copy of one layer with the layer's name removed from its channels: layer(image, "indirect") has the
+/// channels R, G and B. Throws Error: ErrorKind::invalid_argument where there is no such layer.
+NEARLIGHT_API Image layer(const Image& image, std::string_view name);
+
+/// Writes a picture by its extension: .exr keeps all channels as 32-bit floats; .png takes R, G and B,
+/// applies the exposure and the sRGB curve, and rounds to 8 bits. An old file is replaced only when the new
+/// one is whole. Throws Error: ErrorKind::invalid_argument for another extension; ErrorKind::file where the
+/// file cannot be written, or for PNG where R, G or B is missing; ErrorKind::failure where the library's
+/// image module is missing. May be called from several threads for different files.
+NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& image,
+                               const WriteOptions& options = {});
+
+/// Reads EXR, PNG, JPEG and whatever else OpenImageIO knows. Values are those of the file: integers are
+/// scaled to [0, 1], and an sRGB curve stays. Throws Error: ErrorKind::file naming the file and the reason,
+/// ErrorKind::failure where the library's image module is missing. May be called from several threads.
+NEARLIGHT_API Image read_image(const std::filesystem::path& file);
+
+}  // namespace nearlight

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// All of nearlight: a scene goes to the devices of a session, which looks at it, places virtual point lights
+// and gathers their light in pixels or at points. docs/api.md walks through it.
+#pragma once
+
+#include "nearlight/device.h"
+#include "nearlight/error.h"
+#include "nearlight/image.h"
+#include "nearlight/message.h"
+#include "nearlight/scene.h"
+#include "nearlight/session.h"
+#include "nearlight/settings.h"
+#include "nearlight/vec3.h"

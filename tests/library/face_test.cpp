@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes, devices and sessions as a program of others uses them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "nearlight/nearlight.h"
+
+namespace nearlight {
+namespace {
+
+using testing::HasSubstr;
+
+/// A floor of 2 m × 2 m at z = 0 that reflects one half, under a point light of 1, 2 and 3 W/sr at z = 1.
+const std::filesystem::path kFloor = std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "tests/install/floor.xml";
+
+template <typename Action>
+std::optional<Error> error_of(Action&& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error;
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return std::nullopt;
+}
+
+TEST(LibraryScene, TellsItsFacts) {
+    const Scene scene = Scene::load(kFloor);
+    EXPECT_EQ(scene.source(), kFloor);
+    EXPECT_EQ(scene.triangle_count(), 2u);
+    EXPECT_EQ(scene.width(), 64);
+    EXPECT_EQ(scene.height(), 64);
+    EXPECT_EQ(scene.bounds().min.x, -1.0f);
+    EXPECT_EQ(scene.bounds().max.y, 1.0f);
+    EXPECT_EQ(scene.bounds().max.z, 0.0f);
+    EXPECT_TRUE(scene.notes().empty());
+    EXPECT_EQ(scene.hash(), Scene::load(kFloor).hash());
+}
+
+TEST(LibraryScene, MissingFilesAreErrors) {
+    const auto error = error_of([] { Scene::load("nosuch.xml"); });
+    EXPECT_EQ(error->kind(), ErrorKind::file);
+    EXPECT_THAT(error->what(), HasSubstr("nosuch.xml"));
+}
+
+/// One session for all cases, because each compiles kernels.
+class LibrarySession : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        if (!list_devices().empty()) {
+            session_.emplace(Devices::choose(), Scene::load(kFloor));
+        }
+    }
+    static void TearDownTestSuite() { session_.reset(); }
+    void SetUp() override {
+        if (!session_ && std::getenv("NEARLIGHT_REQUIRE_DEVICE") != nullptr) {
+            FAIL() << "no OpenCL device";
+        }
+        if (!session_) {
+            GTEST_SKIP() << "no OpenCL device";
+        }
+    }
+    static Session& session() { return *session_; }
+
+  private:
+    static std::optional<Session> session_;
+};
+std::optional<Session> LibrarySession::session_;
+
+/// I·cosθ/d², and just above the floor its radiosity.
+TEST_F(LibrarySession, IrradianceFollowsTheInverseSquareLaw) {
+    const std::vector<Vec3> points{{0, 0, 0}, {0.75f, 0, 0}, {0, -0.5f, 0.5f}, {0, 0, 0.01f}};
+    const std::vector<Vec3> normals{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, -1}};
+    const std::vector<double> expected{1.0, 0.8 / 1.5625, std::sqrt(0.5) / 0.5, 0.5};
+    const VplSet vpls = session().sample(session().look(), {.vpl_count = 500});
+    const std::vector<Vec3> light =
+        session().irradiance(points, normals, vpls, {.direct_samples = 16, .paths = 64});
+    ASSERT_EQ(light.size(), points.size());
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        EXPECT_NEAR(light[i].x, expected[i], 0.02 * expected[i]) << i;
+        EXPECT_NEAR(light[i].y, 2 * expected[i], 0.04 * expected[i]) << i;
+        EXPECT_NEAR(light[i].z, 3 * expected[i], 0.06 * expected[i]) << i;
+    }
+    EXPECT_TRUE(session().irradiance({}, {}, vpls).empty());
+}
+
+TEST_F(LibrarySession, WithoutLightsThereIsDirectLight) {
+    const VplSet none = session().sample(session().look(), {.vpl_count = 0});
+    EXPECT_TRUE(none.lights().empty());
+    const std::vector<Vec3> point{{0, 0, 0}};
+    const std::vector<Vec3> up{{0, 0, 1}};
+    EXPECT_NEAR(session().irradiance(point, up, none, {.paths = 0}).front().x, 1.0f, 1e-4f);
+}
+
+TEST_F(LibrarySession, DecidesWhatTheSettingsLeaveOpen) {
+    const View view = session().look({.height = 48});
+    EXPECT_EQ(view.width(), 64);
+    EXPECT_EQ(view.height(), 48);
+    EXPECT_EQ(view.max_depth(), 8u);
+    EXPECT_GT(view.range(), 1.0f);
+    EXPECT_FLOAT_EQ(view.clamp_radius(), view.range() / 20);
+    EXPECT_EQ(session().look({.range = 0.5f, .clamp_radius = 0.2f}).clamp_radius(), 0.2f);
+}
+
+/// The floor reflects half of what the light sends into its solid angle, 2π/3.
+TEST_F(LibrarySession, LightsCarryTheReflectedFlux) {
+    const VplSet vpls = session().sample(session().look(), {.vpl_count = 1000}, 3);
+    const std::vector<VirtualPointLight> lights = vpls.lights();
+    ASSERT_EQ(lights.size(), vpls.size());
+    double red = 0;
+    for (const VirtualPointLight& light : lights) {
+        EXPECT_NEAR(light.position.z, 0.0f, 1e-3f);
+        EXPECT_EQ(light.normal.z, 1.0f);
+        EXPECT_FLOAT_EQ(light.power.y, 2 * light.power.x);
+        red += light.power.x;
+    }
+    EXPECT_NEAR(red, 0.5 * 2.0943951, 0.02);
+}
+
+/// At the picture's centre the camera sees the floor's centre, of radiance ρ·E/π.
+TEST_F(LibrarySession, StepsAndOneCallMakeTheSamePicture) {
+    const View view = session().look();
+    const VplSet vpls = session().sample(view, {.vpl_count = 100});
+    const Picture steps = session().gather(view, vpls, {.samples_per_pixel = 1});
+    const Picture whole =
+        session().render({.sampling = {.vpl_count = 100}, .gather = {.samples_per_pixel = 1}});
+    EXPECT_EQ(steps.image.values, whole.image.values);
+    EXPECT_EQ(steps.vpl_count, whole.vpl_count);
+    EXPECT_EQ(steps.image.channels, picture_channels());
+    EXPECT_FALSE(steps.interrupted);
+    EXPECT_NEAR(layer(steps.image, "direct").at(32, 32, 0), 0.5 / M_PI, 0.01);
+
+    std::vector<float> rows;
+    EXPECT_TRUE(session().gather_rows(
+        view, vpls, {.samples_per_pixel = 1}, 0,
+        [&](std::span<const float> more) { rows.insert(rows.end(), more.begin(), more.end()); }));
+    EXPECT_EQ(rows, steps.image.values);
+}
+
+TEST_F(LibrarySession, ACallbackStopsAPicture) {
+    const Picture picture =
+        session().render({.view = {.width = 256, .height = 256}}, [](double) { return false; });
+    EXPECT_TRUE(picture.interrupted);
+    EXPECT_EQ(picture.image.values.size(), 256u * 256 * picture_channels().size());
+}
+
+TEST_F(LibrarySession, SettingsOutOfRangeAreNamed) {
+    const auto setting_of = [](auto&& action) {
+        const auto error = error_of(action);
+        EXPECT_EQ(error->kind(), ErrorKind::invalid_argument);
+        return std::string(error->setting());
+    };
+    EXPECT_EQ(setting_of([] { session().look({.width = 0}); }), "width");
+    EXPECT_EQ(setting_of([] { session().look({.range = std::numeric_limits<float>::quiet_NaN()}); }),
+              "range");
+    const View view = session().look();
+    EXPECT_EQ(setting_of([&] { session().sample(view, {.close_fraction = 1.5f}); }), "close_fraction");
+    const VplSet vpls = session().sample(view, {.vpl_count = 10});
+    EXPECT_EQ(setting_of([&] { session().gather(view, vpls, {.samples_per_pixel = 0}); }),
+              "samples_per_pixel");
+    const std::vector<Vec3> point{{0, 0, 0}};
+    EXPECT_EQ(setting_of([&] { session().irradiance(point, {}, vpls); }), "normals");
+    EXPECT_EQ(setting_of([&] { session().irradiance(point, point, vpls); }), "normals");
+    EXPECT_EQ(setting_of([] { session().render({.passes = 0}); }), "passes");
+}
+
+TEST_F(LibrarySession, ProductsOfAnotherSessionAreRefused) {
+    Session other(Devices::choose(), Scene::load(kFloor));
+    const View view = other.look();
+    EXPECT_EQ(error_of([&] { session().sample(view); })->kind(), ErrorKind::invalid_argument);
+}
+
+/// They share what they need with it.
+TEST_F(LibrarySession, ProductsOutliveTheirSession) {
+    std::optional<VplSet> vpls;
+    {
+        Session other(Devices::choose(), Scene::load(kFloor));
+        vpls = other.sample(other.look(), {.vpl_count = 50});
+    }
+    EXPECT_EQ(vpls->lights().size(), vpls->size());
+}
+
+TEST_F(LibrarySession, WarningsGoToTheSink) {
+    std::vector<std::string> warnings;
+    set_message_sink([&](MessageLevel level, std::string_view text) {
+        if (level == MessageLevel::warning) {
+            warnings.emplace_back(text);
+        }
+    });
+    const std::filesystem::path dark =
+        std::filesystem::temp_directory_path() / "nearlight-library-test-empty.obj";
+    std::ofstream(dark) << "v 0 0 0\n";
+    Scene::load(dark);
+    set_message_sink({});
+    std::filesystem::remove(dark);
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("emits light")));
+}
+
+TEST(LibraryDevices, UnknownOnesAreErrors) {
+    const auto error = error_of([] { Devices::choose("nosuch-device"); });
+    EXPECT_EQ(error->kind(), ErrorKind::no_device);
+}
+
+}  // namespace
+}  // namespace nearlight
