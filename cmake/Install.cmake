@@ -13,7 +13,7 @@ foreach(library base kernels image scene bvh cl stages samplers session referenc
 endforeach()
 
 # The packages that those link to, by the first part of names like OpenImageIO::OpenImageIO, become dependencies
-# of ours. Embree 3 has a target without such a part.
+# of ours. Embree has a target without such a part.
 set(packages "")
 foreach(library IN LISTS installed_libraries)
   target_compile_features(${library} PUBLIC cxx_std_20)
@@ -21,7 +21,7 @@ foreach(library IN LISTS installed_libraries)
   string(REGEX MATCHALL "[A-Za-z0-9_]+::" prefixes "${links}")
   list(APPEND packages ${prefixes})
   if(links MATCHES "[:;]embree[;>]|[:;]embree$|^embree$")
-    list(APPEND packages "embree 3")
+    list(APPEND packages "embree ${EMBREE_VERSION_MAJOR}")
   endif()
 endforeach()
 list(TRANSFORM packages REPLACE "::$" "")
