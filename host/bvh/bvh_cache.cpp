@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/bvh_cache.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <optional>
 #include <system_error>
 
+#include "host/base/atomic_file.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/bvh/flatten.h"
@@ -156,9 +155,8 @@ std::optional<SceneTrees> read(const fs::path& path, const Key& key, const Scene
 void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
-    // Renamed into place, so that another process never reads half a file.
-    const fs::path temporary = path.string() + "." + std::to_string(getpid());
-    std::ofstream file(temporary, std::ios::binary);
+    AtomicFile result(path);
+    std::ofstream file(result.temporary(), std::ios::binary);
     Header header;
     header.key = key;
     header.opaque = describe(trees.opaque);
@@ -171,11 +169,9 @@ void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
         file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     });
     file.close();
-    if (!file) {
-        fs::remove(temporary, ignored);
-        return;
+    if (file) {
+        ignored = result.commit(Durability::cache);
     }
-    fs::rename(temporary, path, ignored);
 }
 
 /// Removes trees, those first that were not used for longest, until the rest fits.
