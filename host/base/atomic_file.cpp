@@ -33,7 +33,7 @@ std::error_code flush_to_disk(const std::filesystem::path& file) {
     }
     const int error = fsync(descriptor) == 0 ? 0 : errno;
     close(descriptor);
-    // Pipes and some network file systems have nothing to flush.
+    // Some file systems know no flushing, which is no reason to refuse the file.
     return {error == EINVAL ? 0 : error, std::generic_category()};
 }
 

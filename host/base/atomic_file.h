@@ -7,15 +7,15 @@
 
 namespace nearlight::core {
 
-/// What is to survive if the machine stops right after a file was written.
+/// What a power failure right after a commit may do to the file.
 enum class Durability {
-    cache,  ///< nothing: a file that turns out damaged or missing is made again, so nobody waits for the disk
-    result,  ///< the old file or the new one: what the user asked for may have taken hours
+    cache,   ///< It may be damaged or lost, as it can be made again; commit() is quick.
+    result,  ///< The old or the new file remains whole: commit() waits for the disk.
 };
 
-/// A temporary file beside its target. The owner writes it by any means and closes it; commit() then gives it
-/// the target's name. Without a commit it is removed, and an old file at the target stays as it is. No two
-/// objects share a temporary file, whatever their threads, processes and machines.
+/// A temporary file in its target's folder. The owner writes and closes it; commit() then gives it the
+/// target's name. Without a commit it is removed, and an old file at the target stays as it is. No two
+/// objects share a temporary file, not even across threads, processes and machines.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path target);
@@ -24,10 +24,10 @@ class AtomicFile {
     AtomicFile& operator=(AtomicFile&& other) noexcept;
 
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
-    /// Not there until the owner makes it; empty after a successful commit.
+    /// The owner creates the file at this path. The path is empty after a successful commit.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Why it failed, if it did.
+    /// Returns the reason of a failure, after which the old file is still there.
     [[nodiscard]] std::error_code commit(Durability durability);
 
   private:
