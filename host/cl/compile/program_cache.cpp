@@ -26,7 +26,7 @@ ProgramCache::ProgramCache(std::filesystem::path dir) : dir_(std::move(dir)) {
 }
 
 std::filesystem::path ProgramCache::path_of(const std::string& key) const {
-    return dir_ / (hex_digits(fnv1a(key)) + ".clbin");
+    return dir_ / (hex_digits(hash64(key)) + ".clbin");
 }
 
 std::optional<std::vector<unsigned char>> ProgramCache::find(const std::string& key) const {
