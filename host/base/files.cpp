@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/files.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
+#include "host/base/atomic_file.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -23,17 +22,11 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
-    const std::filesystem::path temporary = file.string() + ".partial-" + std::to_string(getpid());
-    std::ofstream stream(temporary, std::ios::binary);
+    AtomicFile result(file);
+    std::ofstream stream(result.temporary(), std::ios::binary);
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();
-    std::error_code error;
-    if (stream) {
-        std::filesystem::rename(temporary, file, error);
-    }
-    if (!stream || error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
+    if (!stream || result.commit(Durability::result)) {
         throw Error(ErrorKind::file,
                     "cannot write '" + file.string() + "'; is the disk full, or the folder read-only?");
     }

@@ -10,7 +10,7 @@ namespace nearlight::core {
 
 /// With those above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
-/// Under a temporary name first, then renamed. Throws Error(ErrorKind::file).
+/// The old file survives where this fails. Throws Error(ErrorKind::file).
 void write_text(const std::filesystem::path& file, std::string_view text);
 /// All bytes. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);

@@ -1,53 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// FNV-1a, 64 bits: the same on every machine. And one of 128 bits that is six times as fast.
+// Hashes of data in memory, for keys and checksums of cached files and for comparing pictures. They are XXH3
+// [Collet], the same on all little-endian machines, and offer no protection from somebody who wants two
+// inputs to collide. The minimal build does without the library and has hash_plain.cpp, whose hashes are
+// different ones.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 namespace nearlight::core {
 
-inline constexpr std::uint64_t kFnvSeed = 14695981039346656037ull;
-
-inline std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t hash = kFnvSeed) {
-    for (const std::byte b : bytes) {
-        hash = (hash ^ static_cast<std::uint64_t>(b)) * 1099511628211ull;
-    }
-    return hash;
-}
-inline std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = kFnvSeed) {
-    return fnv1a(std::as_bytes(std::span(text.data(), text.size())), hash);
-}
-
-/// For keys of what is kept in a cache; not against those who seek two of a kind.
 using Hash128 = std::array<std::uint64_t, 2>;
 
-/// Adds a word to both halves.
-inline Hash128 mixed(Hash128 hash, std::uint64_t word) {
-    const auto mix = [word](std::uint64_t half, std::uint64_t factor) {
-        half = (half ^ word) * factor;
-        return half ^ (half >> 29u);
-    };
-    return {mix(hash[0], 0xff51afd7ed558ccdull), mix(hash[1], 0xc4ceb9fe1a85ec53ull)};
-}
+/// Hashes data that comes in parts. The result does not depend on where one part ends and the next begins.
+class Hasher {
+  public:
+    Hasher();
+    ~Hasher();
+    Hasher(Hasher&&) noexcept;
+    Hasher& operator=(Hasher&&) noexcept;
 
-/// Of the bytes, in words of the machine, and of how many they are.
-inline Hash128 hash128(std::span<const std::byte> bytes) {
-    Hash128 hash = mixed({0x9e3779b97f4a7c15ull, 0xc2b2ae3d27d4eb4full}, bytes.size());
-    while (!bytes.empty()) {
-        std::uint64_t word = 0;
-        const std::size_t count = std::min(bytes.size(), sizeof word);
-        std::memcpy(&word, bytes.data(), count);
-        hash = mixed(hash, word);
-        bytes = bytes.subspan(count);
+    void add_bytes(std::span<const std::byte> bytes);
+    void add_text(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
+    /// The value's padding is hashed too, so it must be zero.
+    template <typename T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add_bytes(std::as_bytes(std::span(&value, 1)));
     }
-    return hash;
+    /// Hashes the length, too: otherwise two arrays would hash like two others with the same concatenation.
+    template <typename T>
+    void add_array(std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add(std::uint64_t{values.size()});
+        add_bytes(std::as_bytes(values));
+    }
+    template <typename T>
+    void add_array(const std::vector<T>& values) {
+        add_array(std::span<const T>(values));
+    }
+
+    [[nodiscard]] std::uint64_t hash64() const;
+    [[nodiscard]] Hash128 hash128() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+std::uint64_t hash64(std::span<const std::byte> bytes);
+Hash128 hash128(std::span<const std::byte> bytes);
+inline std::uint64_t hash64(std::string_view text) {
+    return hash64(std::as_bytes(std::span(text.data(), text.size())));
 }
 inline Hash128 hash128(std::string_view text) {
     return hash128(std::as_bytes(std::span(text.data(), text.size())));

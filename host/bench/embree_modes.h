@@ -10,7 +10,7 @@ namespace nearlight::core {
 /// One way to ask.
 struct EmbreeMode {
     int width = 16;             ///< rays a call: 1 or 16
-    bool coherent = false;      ///< RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+    bool coherent = false;      ///< Embree is told that successive rays are alike
     bool high_quality = false;  ///< RTC_BUILD_QUALITY_HIGH (spatial splits) instead of MEDIUM
 };
 

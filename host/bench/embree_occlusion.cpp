@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/embree_occlusion.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -92,7 +90,7 @@ void fill(Block& block, const GatherSegments& segments, std::size_t packet, std:
     }
 }
 
-void trace_block(Block& block, RTCScene tree, RTCIntersectContext& context) {
+void trace_block(Block& block, RTCScene tree, EmbreeQuery& query) {
     alignas(64) int valid[32];
     for (int i = 0; i < 32; ++i) {
         valid[i] = i < 16 ? -1 : 0;
@@ -104,10 +102,10 @@ void trace_block(Block& block, RTCScene tree, RTCIntersectContext& context) {
             std::copy_n(valid + 16 - block.counts[i], 16, partial);
             mask = partial;
         }
-        rtcOccluded16(mask, tree, &context, &block.packets[i]);
+        query.occluded(mask, tree, block.packets[i]);
     }
     for (RTCRay& ray : block.singles) {
-        rtcOccluded1(tree, &context, &ray);
+        query.occluded(tree, ray);
     }
 }
 
@@ -152,13 +150,13 @@ OcclusionResult EmbreeOcclusion::trace(const GatherSegments& segments, const Emb
     PairMask answers(keep_answers ? segments.rays.size() : 0);
     std::atomic<std::size_t> next_packet = 0;
     const auto run = [&](OcclusionResult& result) {
-        RTCIntersectContext context = make_context(mode);
+        EmbreeQuery query(mode.coherent);
         Block block;
         for (std::size_t packet = next_packet++; packet < segments.receivers.size(); packet = next_packet++) {
             for (std::size_t vpl = 0; vpl < segments.vpls.size(); vpl += kBlockVpls) {
                 fill(block, segments, packet, vpl, mode.width);
                 const TwoClocks clocks(TwoClocks::Of::thread);
-                trace_block(block, tree, context);
+                trace_block(block, tree, query);
                 const Seconds seconds = clocks.seconds();
                 result.seconds.wall += seconds.wall;
                 result.seconds.processor += seconds.processor;

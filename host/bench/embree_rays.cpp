@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bench/embree_rays.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -49,13 +47,13 @@ float distance(unsigned geometry, float t) {
 }
 
 /// Adds the time of the calls to `seconds`.
-void trace_singles(RTCScene tree, RTCIntersectContext& context, std::span<const RayQuery> rays,
+void trace_singles(RTCScene tree, EmbreeQuery& query, std::span<const RayQuery> rays,
                    std::span<float> distances, Seconds& seconds) {
     std::vector<RTCRayHit> singles(rays.size());
     std::ranges::transform(rays, singles.begin(), one_ray);
     const TwoClocks clocks(TwoClocks::Of::thread);
     for (RTCRayHit& single : singles) {
-        rtcIntersect1(tree, &context, &single);
+        query.intersect(tree, single);
     }
     const Seconds taken = clocks.seconds();
     seconds.wall += taken.wall;
@@ -65,7 +63,7 @@ void trace_singles(RTCScene tree, RTCIntersectContext& context, std::span<const 
     });
 }
 
-void trace_packets(RTCScene tree, RTCIntersectContext& context, std::span<const RayQuery> rays,
+void trace_packets(RTCScene tree, EmbreeQuery& query, std::span<const RayQuery> rays,
                    std::span<float> distances, Seconds& seconds) {
     std::vector<RTCRayHit16> packets((rays.size() + 15) / 16);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -79,7 +77,7 @@ void trace_packets(RTCScene tree, RTCIntersectContext& context, std::span<const 
     }
     const TwoClocks clocks(TwoClocks::Of::thread);
     for (RTCRayHit16& packet : packets) {
-        rtcIntersect16(&packet == &packets.back() ? last : all, tree, &context, &packet);
+        query.intersect(&packet == &packets.back() ? last : all, tree, packet);
     }
     const Seconds taken = clocks.seconds();
     seconds.wall += taken.wall;
@@ -109,12 +107,12 @@ Seconds EmbreeRays::trace(std::span<const RayQuery> rays, const EmbreeMode& mode
     std::vector<Seconds> seconds(static_cast<std::size_t>(threads));
     std::atomic<std::size_t> next = 0;
     const auto work = [&](Seconds& own) {
-        RTCIntersectContext context = make_context(mode);
+        EmbreeQuery query(mode.coherent);
         for (std::size_t first = next.fetch_add(kBlockRays); first < rays.size();
              first = next.fetch_add(kBlockRays)) {
             const std::size_t count = std::min(kBlockRays, rays.size() - first);
             const auto trace = mode.width == 1 ? trace_singles : trace_packets;
-            trace(tree, context, rays.subspan(first, count), std::span(distances).subspan(first, count), own);
+            trace(tree, query, rays.subspan(first, count), std::span(distances).subspan(first, count), own);
         }
     };
     std::vector<std::thread> workers;

@@ -3,14 +3,6 @@
 
 namespace nearlight::core {
 
-RTCIntersectContext make_context(const EmbreeMode& mode) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
 EmbreeTreePair::EmbreeTreePair(const Scene& scene, std::span<const uint> ids)
     : device_(open_embree(report_)) {
     const auto build = [&](RTCBuildQuality quality) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Embree is asked with. For .cpp files only, as embree_handles.h.
+// What Embree is asked with. For .cpp files only, as embree.h.
 #pragma once
 
 #include <span>
@@ -8,8 +8,6 @@
 #include "host/reference/embree_tree.h"
 
 namespace nearlight::core {
-
-RTCIntersectContext make_context(const EmbreeMode& mode);
 
 /// Trees of both qualities, without robust edges.
 class EmbreeTreePair {

@@ -11,7 +11,7 @@
 #include "host/bvh/reference.h"
 #include "host/bvh/sah_builder.h"
 #include "host/bvh/spatial_split.h"
-#include "host/reference/embree_handles.h"
+#include "host/reference/embree.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {

@@ -41,7 +41,7 @@ struct Trial {
 template <typename T>
 std::uint64_t hash_of(const Buffer<T>& buffer) {
     const std::vector<T> values = buffer.download();
-    return fnv1a(std::as_bytes(std::span(values)));
+    return hash64(std::as_bytes(std::span(values)));
 }
 
 /// The room, on the host and on the device.

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/bvh/bvh_cache.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <optional>
 #include <system_error>
 
+#include "host/base/atomic_file.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/bvh/flatten.h"
-#include "host/bvh/parallel.h"
 
 namespace nearlight::core {
 namespace {
@@ -23,61 +21,32 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kVersion = 6;
 constexpr const char* kExtension = ".tree";
 
-using Key = Hash128;
-
-void add_hash(Key& key, const Hash128& hash) {
-    key = mixed(mixed(key, hash[0]), hash[1]);
-}
-
-template <typename T>
-void add_to(Key& key, const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    add_hash(key, hash128(std::as_bytes(std::span(&value, 1))));
-}
-
-/// In parts of fixed length, so that threads may share the work.
-template <typename T>
-void add_to(Key& key, const std::vector<T>& values) {
-    constexpr std::size_t kPart = 1u << 18u;
-    const auto bytes = std::as_bytes(std::span(values));
-    std::vector<Key> parts((bytes.size() + kPart - 1) / kPart);
-    parallel_for(parts.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            parts[i] = hash128(bytes.subspan(i * kPart, std::min(kPart, bytes.size() - i * kPart)));
-        }
-    });
-    add_to(key, bytes.size());
-    for (const Key& part : parts) {
-        add_hash(key, part);
-    }
-}
-
-Key key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes) {
-    Key key{};
-    add_to(key, kVersion);
-    add_to(key, static_cast<int>(config.quality));
-    add_to(key, config.bin_count);
-    add_to(key, config.max_leaf_triangles);
-    add_to(key, config.traversal_cost);
-    add_to(key, config.intersection_cost);
-    add_to(key, config.max_duplication);
-    add_to(key, shapes.binary);
-    add_to(key, shapes.wide);
+Hash128 key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes) {
+    Hasher key;
+    key.add(kVersion);
+    key.add(static_cast<int>(config.quality));
+    key.add(config.bin_count);
+    key.add(config.max_leaf_triangles);
+    key.add(config.traversal_cost);
+    key.add(config.intersection_cost);
+    key.add(config.max_duplication);
+    key.add(shapes.binary);
+    key.add(shapes.wide);
     std::vector<std::uint8_t> glass;
     for (const Material& material : scene.materials) {
         glass.push_back(is_glass(material) ? 1 : 0);
     }
-    add_to(key, glass);
-    add_to(key, scene.vertices);
-    add_to(key, scene.triangles);
-    return key;
+    key.add_array(glass);
+    key.add_array(scene.vertices);
+    key.add_array(scene.triangles);
+    return key.hash128();
 }
 
 /// At the start of a file; the arrays of both trees follow.
 struct Header {
     std::array<char, 8> magic{'N', 'L', 'T', 'R', 'E', 'E', '0', '1'};
-    Key key{};
-    Key checksum{};  ///< of the header without it, and of what follows
+    Hash128 key{};
+    Hash128 checksum{};  ///< of the header without it, and of what follows
     struct Tree {
         std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
         double sah_cost = 0;
@@ -108,12 +77,12 @@ void for_each_array(Trees& trees, const Visitor& visit) {
     }
 }
 
-Key checksum_of(Header header, const SceneTrees& trees) {
+Hash128 checksum_of(Header header, const SceneTrees& trees) {
     header.checksum = {};
-    Key key{};
-    add_to(key, header);
-    for_each_array(trees, [&](const auto& values) { add_to(key, values); });
-    return key;
+    Hasher sum;
+    sum.add(header);
+    for_each_array(trees, [&](const auto& values) { sum.add_array(std::span(values)); });
+    return sum.hash128();
 }
 
 ShapedBvh room_for(const Header::Tree& tree) {
@@ -127,7 +96,7 @@ ShapedBvh room_for(const Header::Tree& tree) {
     return result;
 }
 
-std::optional<SceneTrees> read(const fs::path& path, const Key& key, const Scene& scene) {
+std::optional<SceneTrees> read(const fs::path& path, const Hash128& key, const Scene& scene) {
     std::ifstream file(path, std::ios::binary);
     Header header;
     const Header expected;
@@ -153,12 +122,11 @@ std::optional<SceneTrees> read(const fs::path& path, const Key& key, const Scene
     return trees;
 }
 
-void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
+void write(const fs::path& path, const Hash128& key, const SceneTrees& trees) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
-    // Renamed into place, so that another process never reads half a file.
-    const fs::path temporary = path.string() + "." + std::to_string(getpid());
-    std::ofstream file(temporary, std::ios::binary);
+    AtomicFile result(path);
+    std::ofstream file(result.temporary(), std::ios::binary);
     Header header;
     header.key = key;
     header.opaque = describe(trees.opaque);
@@ -171,11 +139,9 @@ void write(const fs::path& path, const Key& key, const SceneTrees& trees) {
         file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     });
     file.close();
-    if (!file) {
-        fs::remove(temporary, ignored);
-        return;
+    if (file) {
+        ignored = result.commit(Durability::cache);
     }
-    fs::rename(temporary, path, ignored);
 }
 
 /// Removes trees, those first that were not used for longest, until the rest fits.
@@ -208,7 +174,7 @@ SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config
     if (cache.folder.empty() || cache.folder == "none" || scene.triangles.size() < cache.min_triangles) {
         return build_scene_trees(scene, config, shapes);
     }
-    const Key key = key_of(scene, config, shapes);
+    const Hash128 key = key_of(scene, config, shapes);
     const fs::path path = cache.folder / (hex_digits(key[0]) + kExtension);
     if (std::optional<SceneTrees> kept = read(path, key, scene)) {
         std::error_code ignored;

@@ -67,7 +67,7 @@ Cell from_json(const Json& json, const CellId& id) {
 std::filesystem::path CellStore::file_stem_of(const CellId& id) const {
     const std::string name =
         file_stem(id.method) + "-" + std::to_string(id.vpls) + "-seed" + std::to_string(id.seed);
-    return folder_ / (name + "-" + hex_digits(fnv1a(std::string(kFormat) + "|" + conditions_ + "|" + name)));
+    return folder_ / (name + "-" + hex_digits(hash64(std::string(kFormat) + "|" + conditions_ + "|" + name)));
 }
 
 std::optional<Cell> CellStore::load(const CellId& id) const {

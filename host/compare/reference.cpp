@@ -125,7 +125,7 @@ std::string samples_text(const Reference& reference) {
 }
 
 std::uint64_t identity(const Reference& reference) {
-    return fnv1a(std::as_bytes(std::span(reference.picture.values)));
+    return hash64(std::as_bytes(std::span(reference.picture.values)));
 }
 
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples) {

@@ -32,7 +32,7 @@ std::string method_name(const ReferenceSpec& spec) {
 
 std::filesystem::path ReferenceStore::file(const ReferenceSpec& spec, std::size_t index,
                                            std::size_t samples) const {
-    return folder_ / (spec.scene_name + "-" + hex_digits(fnv1a(description(spec))) + "-pass" +
+    return folder_ / (spec.scene_name + "-" + hex_digits(hash64(description(spec))) + "-pass" +
                       std::to_string(index) + "-" + std::to_string(samples) + ".exr");
 }
 

@@ -4,46 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
+
+#include "host/base/student_t.h"
 
 namespace nearlight::core {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// P(|T| ≤ t) as a finite sum [Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4].
-double two_sided_probability(double t, std::size_t degrees_of_freedom) {
-    const auto n = static_cast<double>(degrees_of_freedom);
-    const double theta = std::atan(t / std::sqrt(n));
-    const double cosine = std::cos(theta);
-    const bool odd = degrees_of_freedom % 2 == 1;
-    double term = odd ? cosine : 1.0;
-    double sum = 0.0;
-    for (std::size_t k = odd ? 1 : 0; k + 2 <= degrees_of_freedom; k += 2) {
-        sum += term;
-        const auto index = static_cast<double>(k);
-        term *= cosine * cosine * (index + 1.0) / (index + 2.0);
-    }
-    const double partial = std::sin(theta) * sum;
-    return odd ? 2.0 / std::numbers::pi * (theta + partial) : partial;
-}
-
 bool is_usable(double value) {
     return std::isfinite(value) && value > 0.0;
 }
 
 }  // namespace
-
-double student_t_975(std::size_t degrees_of_freedom) {
-    double low = 0.0;
-    double high = 16.0;  // that of 1 degree of freedom is 12.7, and it falls from there
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (two_sided_probability(middle, degrees_of_freedom) < 0.95 ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
 
 Interval mean_interval(std::span<const double> values) {
     const auto n = static_cast<double>(values.size());
@@ -58,7 +32,7 @@ Interval mean_interval(std::span<const double> values) {
     for (const double value : values) {
         squares += (value - mean) * (value - mean);
     }
-    return {mean, student_t_975(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n)};
+    return {mean, student_t_quantile(0.05, n - 1.0) * std::sqrt(squares / (n - 1.0) / n)};
 }
 
 double median(std::span<const double> values) {

@@ -12,9 +12,6 @@
 
 namespace nearlight::core {
 
-/// The t with P(T ≤ t) = 0.975, T having Student's distribution of so many degrees of freedom (1 or more).
-double student_t_975(std::size_t degrees_of_freedom);
-
 struct Interval {
     double mean = 0;
     double half_width = 0;  ///< of the 95 % interval; NaN where there is one value only

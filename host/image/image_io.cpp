@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/image_io.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -10,10 +8,10 @@
 #include <cstdio>
 #include <cstring>
 #include <optional>
-#include <random>
 #include <system_error>
 #include <utility>
 
+#include "host/base/atomic_file.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
 #include "host/image/image_codec.h"
@@ -72,14 +70,6 @@ ImageFormat format_of(const fs::path& file) {
                                                  "'; use .exr or .png");
 }
 
-/// Beside the target, so that a rename never crosses file systems; no two writers share one.
-fs::path temporary_path(const fs::path& file) {
-    std::random_device random;
-    std::array<char, 40> suffix{};
-    std::snprintf(suffix.data(), suffix.size(), ".partial-%d-%08x", static_cast<int>(getpid()), random());
-    return file.string() + suffix.data();
-}
-
 }  // namespace
 
 Image read_image(const fs::path& file) {
@@ -102,10 +92,8 @@ Metadata read_metadata(const fs::path& file) {
     return image_codec().read_metadata(file);
 }
 
-/// Owns the temporary file: whatever is not committed is removed.
 struct ImageWriter::State {
-    fs::path target;
-    fs::path temporary;
+    AtomicFile file;
     ImageFormat format = ImageFormat::exr;
     int width = 0;
     int height = 0;
@@ -120,12 +108,13 @@ struct ImageWriter::State {
     std::unique_ptr<ImageEncoder>
         encoder;  ///< made with the first rows: whoever waits for those does not wait for it
 
+    explicit State(const fs::path& target) : file(target) {}
     ~State();
     void open(const std::vector<std::string>& channels, const ImageWriterOptions& options);
     void write(int row_count, const float* values);
     void close();
     [[noreturn]] void fail_to_write(const std::string& reason) const {
-        fail_image("cannot write image", target, reason);
+        fail_image("cannot write image", file.target(), reason);
     }
 };
 
@@ -134,21 +123,15 @@ ImageWriter::State::~State() {
     if (stream != nullptr) {
         std::fclose(stream);
     }
-    if (!temporary.empty()) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-    }
 }
 
 void ImageWriter::State::open(const std::vector<std::string>& channels, const ImageWriterOptions& options) {
-    const fs::path path = temporary_path(target);
-    stream = std::fopen(path.c_str(), "wb");
+    stream = std::fopen(file.temporary().c_str(), "wb");
     if (stream == nullptr) {
         fail_to_write(std::strerror(errno));
     }
-    temporary = path;
     task = {.stream = stream,
-            .name = target.string(),
+            .name = file.target().string(),
             .format = format,
             .width = width,
             .height = height,
@@ -197,8 +180,7 @@ void ImageWriter::State::close() {
 
 ImageWriter::ImageWriter(const fs::path& file, int width, int height, std::vector<std::string> channels,
                          const ImageWriterOptions& options)
-    : state_(std::make_unique<State>()) {
-    state_->target = file;
+    : state_(std::make_unique<State>(file)) {
     state_->format = format_of(file);
     state_->width = width;
     state_->height = height;
@@ -229,7 +211,7 @@ void ImageWriter::write_rows(std::span<const float> values) {
     const std::size_t row_count = values.size() / row_size;
     if (values.size() % row_size != 0 ||
         row_count > static_cast<std::size_t>(state_->height - state_->next_row)) {
-        throw Error(ErrorKind::failure, "cannot write image '" + state_->target.string() +
+        throw Error(ErrorKind::failure, "cannot write image '" + state_->file.target().string() +
                                             "': " + std::to_string(values.size()) +
                                             " values are not whole rows, or are too many");
     }
@@ -248,15 +230,12 @@ void ImageWriter::commit(const std::map<std::string, float>& late) {
     state_->close();
     if (state_->format == ImageFormat::exr) {
         for (const auto& [name, value] : late) {
-            patch_exr_float(state_->temporary, name, value);
+            patch_exr_float(state_->file.temporary(), name, value);
         }
     }
-    std::error_code error;
-    fs::rename(state_->temporary, state_->target, error);
-    if (error) {
+    if (const std::error_code error = state_->file.commit(Durability::result)) {
         state_->fail_to_write(error.message());
     }
-    state_->temporary.clear();
 }
 
 void write_image(const fs::path& file, const Image& image, const ImageWriterOptions& options) {

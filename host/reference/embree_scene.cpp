@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/embree_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -61,21 +59,13 @@ struct EmbreeScene::State {
     std::vector<uint> glass_ids;
     EmbreeTree opaque;
     EmbreeTree glass;
-    RTCIntersectContextFlags context_flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-
-    [[nodiscard]] RTCIntersectContext make_context() const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = context_flags;
-        return context;
-    }
+    bool coherent = false;
 
     [[nodiscard]] BvhHit closest(RTCScene handle, std::span<const uint> ids, const RTCRay& ray) const {
         RTCRayHit query{};
         query.ray = ray;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context = make_context();
-        rtcIntersect1(handle, &context, &query);
+        EmbreeQuery(coherent).intersect(handle, query);
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return {};
         }
@@ -91,8 +81,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const EmbreeOptions& options)
         const bool glass = is_glass(scene.materials[scene.triangles[id].material]);
         (glass ? state.glass_ids : state.opaque_ids).push_back(id);
     }
-    state.context_flags =
-        options.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    state.coherent = options.coherent;
     const auto build = [&](std::span<const uint> ids) {
         return build_embree_tree(state.device.get(), state.report, scene, ids, build_quality(options.quality),
                                  options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
@@ -128,8 +117,7 @@ bool EmbreeScene::occluded(Vec3 origin, Vec3 direction, float t_min, float t_max
         return false;
     }
     RTCRay ray = make_ray(origin, direction, t_min, t_max);
-    RTCIntersectContext context = state_->make_context();
-    rtcOccluded1(state_->opaque.get(), &context, &ray);
+    EmbreeQuery(state_->coherent).occluded(state_->opaque.get(), ray);
     return ray.tfar == -kInfinity;
 }
 
@@ -145,8 +133,7 @@ std::uint32_t EmbreeScene::occluded16(RayPacket16& rays, std::uint32_t active) c
         rays.flags[lane] = 0;
         rays.time[lane] = 0.0f;
     }
-    RTCIntersectContext context = state_->make_context();
-    rtcOccluded16(valid, state_->opaque.get(), &context, reinterpret_cast<RTCRay16*>(&rays));
+    EmbreeQuery(state_->coherent).occluded(valid, state_->opaque.get(), reinterpret_cast<RTCRay16&>(rays));
     std::uint32_t occluded = 0;
     for (uint lane = 0; lane < 16; ++lane) {
         occluded |= (rays.t_max[lane] == -kInfinity ? 1u : 0u) << lane;

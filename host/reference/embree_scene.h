@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray queries by Embree 3: the oracle of every other ray caster, and the engine of the path tracer.
+// Ray queries by Embree: the oracle of every other ray caster, and the engine of the path tracer.
 #pragma once
 
 #include <cstdint>

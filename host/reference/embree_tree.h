@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree's device and its trees over triangles of a scene. For .cpp files only, as embree_handles.h.
+// Embree's device and its trees over triangles of a scene. For .cpp files only, as embree.h.
 #pragma once
 
 #include <mutex>
 #include <span>
 #include <string>
 
-#include "host/reference/embree_handles.h"
+#include "host/reference/embree.h"
 #include "host/scene/scene.h"
 
 namespace nearlight::core {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
-#include <span>
-#include <type_traits>
 
+#include "host/base/hash.h"
 #include "host/scene/scene.h"
 
 namespace nearlight::core {
@@ -10,33 +9,6 @@ namespace {
 
 // The bytes of numbers are hashed as they lie in memory.
 static_assert(std::endian::native == std::endian::little, "scene hashes assume little-endian numbers");
-
-/// 64-bit FNV-1a [Fowler, Noll, Vo].
-class Hasher {
-  public:
-    template <typename T>
-    void add(const T& value) {
-        add_all(std::span(&value, 1));
-    }
-    /// With its length, so that what leaves one array cannot hide in the next.
-    template <typename T>
-    void add_array(const std::vector<T>& values) {
-        add(static_cast<std::uint64_t>(values.size()));
-        add_all(std::span(values));
-    }
-    [[nodiscard]] std::uint64_t value() const { return hash_; }
-
-  private:
-    template <typename T, std::size_t extent>
-    void add_all(std::span<T, extent> values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        for (const std::byte byte : std::as_bytes(values)) {
-            hash_ = (hash_ ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ull;
-        }
-    }
-
-    std::uint64_t hash_ = 0xcbf29ce484222325ull;
-};
 
 /// Without what is padding or filled in later.
 Texture essence(Texture texture) {
@@ -91,7 +63,7 @@ std::uint64_t scene_hash(const Scene& scene) {
     hasher.add(scene.camera.height);
     hasher.add(scene.max_depth);
     hasher.add(scene.samples_per_pixel);
-    return hasher.value();
+    return hasher.hash64();
 }
 
 }  // namespace nearlight::core

@@ -18,16 +18,14 @@ struct Prepared {
     uint seed = 0;
 };
 
-std::uint64_t hash_beauty(std::span<const float> rows, std::uint64_t hash) {
+void add_beauty(std::span<const float> rows, Hasher& hasher) {
     for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
-        hash = fnv1a(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)), hash);
+        hasher.add_bytes(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)));
     }
-    return hash;
 }
 
 RenderReport begin_report(Session& session) {
     RenderReport report;
-    report.image_hash = kFnvSeed;
     const SessionSeconds ready = session.take_seconds();
     report.seconds = {.build_bvh = ready.build_bvh, .upload = ready.upload, .total = ready.total};
     return report;
@@ -110,13 +108,15 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
                     const RowSink& sink, const RenderProgress& progress) {
     RenderReport report = begin_report(session);
     const Stopwatch total;
+    Hasher hasher;
     const RowSink hash_and_send = [&](std::span<const float> rows) {
-        report.image_hash = hash_beauty(rows, report.image_hash);
+        add_beauty(rows, hasher);
         sink(rows);
     };
     const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
     const bool several = settings.passes.value_or(settings.seconds ? 2 : 1) > 1;
     (several ? render_passes : render_once)(session, settings, start, hash_and_send, gathering, report);
+    report.image_hash = hasher.hash64();
     report.seconds.compile = session.new_compile_seconds();
     report.seconds.total += total.seconds();
     return report;

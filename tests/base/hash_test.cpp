@@ -5,15 +5,46 @@
 
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace nearlight::core {
 namespace {
 
-TEST(Fnv1a, HasThePublishedValues) {
-    EXPECT_EQ(fnv1a(""), 0xcbf29ce484222325ull);
-    EXPECT_EQ(fnv1a("a"), 0xaf63dc4c8601ec8cull);
-    EXPECT_EQ(fnv1a("foobar"), 0x85944171f73967e8ull);
-    EXPECT_EQ(fnv1a("bar", fnv1a("foo")), fnv1a("foobar"));
+TEST(Hash, HasThePublishedValuesOfXxh3) {
+    EXPECT_EQ(hash64(""), 0x2d06800538d394c2ull);
+    EXPECT_EQ(hash64("a"), 0xe6c632b61e964e1full);
+    EXPECT_EQ(hex_digits(hash128("")), "99aa06d3014798d86001c324468d497f");
+    EXPECT_EQ(hex_digits(hash128("a")), "a96faf705af16834e6c632b61e964e1f");
+}
+
+TEST(Hasher, TakesDataInPartsOfAnySize) {
+    std::string text;
+    for (int length = 0; length < 3000;
+         length += 1 + length / 16, text.resize(static_cast<std::size_t>(length), 'x')) {
+        for (const std::size_t part : {1u, 7u, 64u, 256u, 1000u}) {
+            Hasher hasher;
+            for (std::size_t i = 0; i < text.size(); i += part) {
+                hasher.add_text(std::string_view(text).substr(i, part));
+            }
+            EXPECT_EQ(hasher.hash64(), hash64(text)) << length;
+            EXPECT_EQ(hasher.hash128(), hash128(text)) << length;
+        }
+        if (!text.empty()) {
+            text.back() = static_cast<char>(length);
+        }
+    }
+}
+
+TEST(Hasher, TellsArraysApartThatAreSplitElsewhere) {
+    const auto hash_of = [](const std::vector<int>& first, const std::vector<int>& second) {
+        Hasher hasher;
+        hasher.add_array(first);
+        hasher.add_array(second);
+        return hasher.hash64();
+    };
+    EXPECT_NE(hash_of({1, 2}, {3}), hash_of({1}, {2, 3}));
+    EXPECT_EQ(hash_of({1, 2}, {3}), hash_of({1, 2}, {3}));
 }
 
 /// Neither half meets another's.

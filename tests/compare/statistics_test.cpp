@@ -10,20 +10,6 @@
 namespace nearlight::core {
 namespace {
 
-TEST(Statistics, QuantilesOfStudentAreThoseOfTheTables) {
-    constexpr std::array<std::pair<std::size_t, double>, 8> kTable{{{1, 12.7062},
-                                                                    {2, 4.30265},
-                                                                    {3, 3.18245},
-                                                                    {4, 2.77645},
-                                                                    {5, 2.57058},
-                                                                    {10, 2.22814},
-                                                                    {30, 2.04227},
-                                                                    {100, 1.98397}}};
-    for (const auto& [degrees, quantile] : kTable) {
-        EXPECT_NEAR(student_t_975(degrees), quantile, 1e-4 * quantile) << degrees;
-    }
-}
-
 TEST(Statistics, AnIntervalFollowsFromTheSpread) {
     const Interval interval = mean_interval(std::array{1.0, 2.0, 3.0, 4.0});
     EXPECT_DOUBLE_EQ(interval.mean, 2.5);

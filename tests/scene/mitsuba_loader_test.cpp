@@ -396,7 +396,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<shape type='cube'", "broken XML"},
     };
     for (const auto& [body, expected] : cases) {
-        const std::string message = file_error([&] { files.load_xml(body); });
+        const std::string message = file_error([&, &text = body] { files.load_xml(text); });
         EXPECT_TRUE(mentions(message, expected)) << message;
         EXPECT_TRUE(mentions(message, "scene.xml:2: ") || mentions(message, "scene.xml:3: ")) << message;
     }

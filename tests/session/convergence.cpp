@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/base/student_t.h"
 #include "host/reference/path_tracer.h"
 
 namespace nearlight::core::test {
@@ -71,7 +72,7 @@ struct Comparison {
         }
         const double gap = deviation(cell);
         // Below four standard errors no distribution's tail is small enough to matter, and most cells are.
-        return std::abs(gap) <= 4.0 * error(cell) ? 1.0 : student_tail(gap / error(cell), freedom(cell));
+        return std::abs(gap) <= 4.0 * error(cell) ? 1.0 : student_t_tail(gap / error(cell), freedom(cell));
     }
 };
 
@@ -190,7 +191,7 @@ void judge_mean_square(const Comparison& pixels, const Comparison& steady, Verdi
     const double pair_mean = squared_products / (0.5 * n * (n - 1));
     // Of n·(n − 1) products, which come in equal pairs.
     const double spread = std::sqrt(2.0 * pair_mean / (n * (n - 1)) + truth_spread);
-    const double t = student_quantile(kFalseAlarm / kTests, n - 1);
+    const double t = student_t_quantile(kFalseAlarm / kTests, n - 1);
     const double bound = (t * t - 1.0) / std::numbers::sqrt2;
     const double count = static_cast<double>(cells);
     if (excess > bound * spread) {
@@ -201,31 +202,6 @@ void judge_mean_square(const Comparison& pixels, const Comparison& steady, Verdi
 }
 
 }  // namespace
-
-double student_tail(double t, double freedom) {
-    // With t = √ν·tan θ the density becomes cos^(ν−1) θ, integrated by Simpson's rule as far as it matters.
-    const double begin = std::atan(std::abs(t) / std::sqrt(freedom));
-    const double end = std::min(0.5 * std::numbers::pi, begin + 40.0 / std::sqrt(freedom));
-    const double step = (end - begin) / 512;
-    double sum = 0;
-    for (int i = 0; i <= 512; ++i) {
-        const double weight = i == 0 || i == 512 ? 1 : i % 2 == 1 ? 4 : 2;
-        sum += weight * std::pow(std::max(0.0, std::cos(begin + step * i)), freedom - 1);
-    }
-    const double scale =
-        std::exp(std::lgamma(0.5 * (freedom + 1)) - std::lgamma(0.5 * freedom)) / std::sqrt(std::numbers::pi);
-    return 2 * scale * sum * step / 3;
-}
-
-double student_quantile(double probability, double freedom) {
-    double low = 0;
-    double high = 1e3;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (student_tail(middle, freedom) > probability ? low : high) = middle;
-    }
-    return low;
-}
 
 Verdict judge_convergence(std::span<const Image> renders, const Image& truth, const std::string& layer) {
     Verdict verdict;

@@ -42,8 +42,4 @@ struct Verdict {
 /// one size, width and height multiples of 8; there are 8 renders or more.
 Verdict judge_convergence(std::span<const Image> renders, const Image& truth, const std::string& layer);
 
-/// Two-sided probability that Student's t with so many degrees of freedom is beyond ±t, and its inverse.
-double student_tail(double t, double freedom);
-double student_quantile(double probability, double freedom);
-
 }  // namespace nearlight::core::test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/student_t.h"
 #include "host/reference/path_tracer.h"
 
 namespace nearlight::core::test {
@@ -168,7 +169,7 @@ Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photogr
         verdict.relative_error = std::max(verdict.relative_error, error / expected.mean);
         const double gap = mean - expected.mean;
         const bool differs = std::abs(gap) > 1e-5 * expected.mean;  // more than by rounding
-        const double tail = !std::isfinite(gap) ? 0.0 : differs ? student_tail(gap / error, n - 1) : 1.0;
+        const double tail = !std::isfinite(gap) ? 0.0 : differs ? student_t_tail(gap / error, n - 1) : 1.0;
         if (tail < worst) {
             worst = tail;
             verdict.agrees = false;

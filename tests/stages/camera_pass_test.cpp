@@ -286,21 +286,25 @@ TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     });
 }
 
-/// Mean weight of light that a rough interface reflects (first) and transmits (second), by the reference's
-/// lobes.
-std::pair<double, double> lobe_weights(const Material& material, Vec3 to_viewer, int samples) {
+struct LobeWeights {
+    double reflected = 0;
+    double transmitted = 0;
+};
+
+/// Mean weights of the light that a rough interface reflects and transmits, by the reference's lobes.
+LobeWeights lobe_weights(const Material& material, Vec3 to_viewer, int samples) {
     const Surface surface{.position = {0, 0, 0},
                           .geometric_normal = {0, 0, 1},
                           .shading_normal = {0, 0, 1},
                           .material = &material};
     Pcg32 random(31);
-    std::pair<double, double> sums{0, 0};
+    LobeWeights sums;
     for (int i = 0; i < samples; ++i) {
         const LobeRandom u{random.uniform(), {random.uniform(), random.uniform()}};
         const LobeSample sample = sample_lobe(surface, to_viewer, u);
-        (sample.direction.z > 0 ? sums.first : sums.second) += sample.weight.x;
+        (sample.direction.z > 0 ? sums.reflected : sums.transmitted) += sample.weight.x;
     }
-    return {sums.first / samples, sums.second / samples};
+    return {sums.reflected / samples, sums.transmitted / samples};
 }
 
 /// One rough interface under a constant sky: each branch sees what the reference's lobes transmit and
@@ -316,7 +320,7 @@ TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
             const double angle = tilt * kPi / 180;
             const Vec3 to_viewer{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
             set_camera(scene, {to_viewer.x, to_viewer.y, to_viewer.z}, {0, 0, 0}, 0.01);
-            const auto [reflected, transmitted] = lobe_weights(glass, to_viewer, 200'000);
+            const LobeWeights weights = lobe_weights(glass, to_viewer, 200'000);
             on_each_ray_tree([&](Device& device) {
                 const GBuffer found = Shooting(device, scene, 8, 8).shoot_all(2048, 2);
                 double sums[2] = {0, 0};
@@ -324,8 +328,8 @@ TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
                     sums[i / NEARLIGHT_PACKET_SIZE % 2] += found.vertices[i].emitted.x;
                 }
                 const double count = 64.0 * 2048;
-                EXPECT_NEAR(sums[0] / count, transmitted, 0.004) << roughness << ", " << tilt << "°";
-                EXPECT_NEAR(sums[1] / count, reflected, 0.004) << roughness << ", " << tilt << "°";
+                EXPECT_NEAR(sums[0] / count, weights.transmitted, 0.004) << roughness << ", " << tilt << "°";
+                EXPECT_NEAR(sums[1] / count, weights.reflected, 0.004) << roughness << ", " << tilt << "°";
             });
         }
     }

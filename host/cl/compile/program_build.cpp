@@ -66,7 +66,7 @@ Error make_build_error(const cl::Program& program, const ProgramRequest& request
     const std::string stem = std::filesystem::path(request.file).stem().string();
     const std::filesystem::path base =
         std::filesystem::temp_directory_path(ignored) /
-        ("nearlight-failed-" + stem + "-" + hex_digits(fnv1a(request.source)).substr(0, 8));
+        ("nearlight-failed-" + stem + "-" + hex_digits(hash64(request.source)).substr(0, 8));
     std::ofstream(base.string() + ".cl") << request.source;
     std::ofstream(base.string() + ".log")
         << "device: " << entry.name << "\ndriver: " << entry.driver << "\nversion: " << entry.version

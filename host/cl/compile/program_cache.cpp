@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/compile/program_cache.h"
 
-#include <unistd.h>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
+#include "host/base/atomic_file.h"
 #include "host/base/hash.h"
 
 namespace nearlight::core {
@@ -26,7 +26,7 @@ ProgramCache::ProgramCache(std::filesystem::path dir) : dir_(std::move(dir)) {
 }
 
 std::filesystem::path ProgramCache::path_of(const std::string& key) const {
-    return dir_ / (hex_digits(fnv1a(key)) + ".clbin");
+    return dir_ / (hex_digits(hash64(key)) + ".clbin");
 }
 
 std::optional<std::vector<unsigned char>> ProgramCache::find(const std::string& key) const {
@@ -54,18 +54,14 @@ void ProgramCache::store(const std::string& key, const std::vector<unsigned char
     }
     std::error_code ignored;
     std::filesystem::create_directories(dir_, ignored);
-    // Renamed into place, so that another process never reads half a file.
-    const std::filesystem::path temporary = path_of(key).string() + "." + std::to_string(getpid());
-    {
-        std::ofstream file(temporary, std::ios::binary);
-        const std::string text(binary.begin(), binary.end());
-        file << header_of(key, text) << text;
-        if (!file) {
-            std::filesystem::remove(temporary, ignored);
-            return;
-        }
+    AtomicFile result(path_of(key));
+    std::ofstream file(result.temporary(), std::ios::binary);
+    const std::string text(binary.begin(), binary.end());
+    file << header_of(key, text) << text;
+    file.close();
+    if (file) {
+        ignored = result.commit(Durability::cache);
     }
-    std::filesystem::rename(temporary, path_of(key), ignored);
 }
 
 }  // namespace nearlight::core

@@ -20,13 +20,13 @@ constexpr const char* kHead = "nearlight tunables 2";
 
 /// A hash of the text of kernel files, followed by their names, so that whoever reads it can make it anew.
 std::string kernels_key(std::span<const std::string> files, const std::filesystem::path& kernel_dir) {
-    std::uint64_t hash = kFnvSeed;
+    Hasher hasher;
     std::string names;
     for (const std::string& file : files) {
-        hash = fnv1a(expand_kernel_source(file, kernel_dir), hash);
+        hasher.add_text(expand_kernel_source(file, kernel_dir));
         names += " " + file;
     }
-    return hex_digits(hash) + names;
+    return hex_digits(hasher.hash64()) + names;
 }
 
 /// Whether the kernels that `key` names are still what they were when kernels_key() made it.
@@ -117,7 +117,7 @@ std::filesystem::path tunables_file(const DeviceEntry& entry, const std::filesys
     if (cache_dir.empty() || cache_dir == "none") {
         return {};
     }
-    return cache_dir / ("tunables-" + hex_digits(fnv1a(device_key(entry))) + ".txt");
+    return cache_dir / ("tunables-" + hex_digits(hash64(device_key(entry))) + ".txt");
 }
 
 ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::path& cache_dir,

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that appear under their names whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <system_error>
+
+namespace nearlight::core {
+
+/// What a power failure right after a commit may do to the file.
+enum class Durability {
+    cache,   ///< It may be damaged or lost, as it can be made again; commit() is quick.
+    result,  ///< The old or the new file remains whole: commit() waits for the disk.
+};
+
+/// A temporary file in its target's folder. The owner writes and closes it; commit() then gives it the
+/// target's name. Without a commit it is removed, and an old file at the target stays as it is. No two
+/// objects share a temporary file, not even across threads, processes and machines.
+class AtomicFile {
+  public:
+    explicit AtomicFile(std::filesystem::path target);
+    ~AtomicFile();
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&& other) noexcept;
+
+    [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+    /// The owner creates the file at this path. The path is empty after a successful commit.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+    /// Returns the reason of a failure, after which the old file is still there.
+    [[nodiscard]] std::error_code commit(Durability durability);
+
+  private:
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+};
+
+}  // namespace nearlight::core
