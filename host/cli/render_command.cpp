@@ -196,8 +196,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-void add_method_options(CLI::App& command, RenderOptions& options) {
-    RenderSettings& settings = options.settings;
+void add_sampler_options(CLI::App& command, RenderOptions& options) {
+    SamplingSettings& sampling = options.settings.sampling;
     std::map<std::string, SamplerKind> samplers;
     std::string sampler_help = "Where to put VPLs: ";
     for (const SamplerEntry& entry : all_samplers()) {
@@ -205,8 +205,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         sampler_help +=
             fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--sampler", settings.sampling.sampler, samplers, sampler_help)
-        ->default_str(to_string(settings.sampling.sampler));
+    add_choice(command, "--sampler", sampling.sampler, samplers, sampler_help)
+        ->default_str(to_string(sampling.sampler));
     std::map<std::string, Policy> policies;
     std::string policy_help = "Policy of the sampler close-range: ";
     for (const PolicyEntry& entry : all_policies()) {
@@ -214,9 +214,9 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         policy_help +=
             fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
     }
-    add_choice(command, "--policy", settings.sampling.policy, policies, policy_help)
-        ->default_str(to_string(settings.sampling.policy));
-    command.add_option("--vpls", settings.sampling.vpl_count, "Target number of VPLs (virtual point lights)")
+    add_choice(command, "--policy", sampling.policy, policies, policy_help)
+        ->default_str(to_string(sampling.policy));
+    command.add_option("--vpls", sampling.vpl_count, "Target number of VPLs (virtual point lights)")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
@@ -225,6 +225,10 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
                     "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")
         ->type_name("F")
         ->capture_default_str();
+}
+
+void add_method_options(CLI::App& command, RenderOptions& options) {
+    RenderSettings& settings = options.settings;
     command
         .add_option("--range", options.range,
                     "Distance from the camera at which the close range ends: scene units, or auto")
@@ -298,6 +302,7 @@ void add_render_command(CommandLine& line) {
         ->type_name("N")
         ->capture_default_str();
     add_pass_options(command, *options);
+    add_sampler_options(command, *options);
     add_method_options(command, *options);
     add_device_options(command, options->device);
     command
