@@ -113,10 +113,7 @@ std::vector<VirtualPointLight> VplSet::lights() const {
 }
 
 Session::Session(const Devices& devices, const Scene& scene, const SessionOptions& options)
-    : state_(std::make_shared<State>(
-          devices.state_, scene.state_,
-          core::SessionOptions{.gather_kernel = options.gather_kernel, .bvh_quality = options.bvh_quality})) {
-}
+    : state_(std::make_shared<State>(devices.state_, scene.state_, options)) {}
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
@@ -161,11 +158,9 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
     if (points.empty()) {
         return result;
     }
-    const core::IrradianceSettings core_settings{.direct_samples = settings.direct_samples,
-                                                 .paths = settings.paths};
     for (const core::Vec3 value :
          state_->session.irradiance(core_vectors(points), core_vectors(normals), vpls.state_->view->view,
-                                    vpls.state_->set, core_settings, seed)) {
+                                    vpls.state_->set, settings, seed)) {
         result.push_back({value.x, value.y, value.z});
     }
     return result;

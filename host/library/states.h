@@ -28,7 +28,7 @@ struct Devices::State {
 
 struct Session::State {
     State(std::shared_ptr<Devices::State> on_devices, std::shared_ptr<const Scene::State> of_scene,
-          const core::SessionOptions& options)
+          const SessionOptions& options)
         : devices(std::move(on_devices)),
           scene(std::move(of_scene)),
           session(devices->plain(), scene->scene, options) {}

@@ -12,13 +12,9 @@
 #include "host/samplers/sampler.h"
 #include "host/session/device_pool.h"
 #include "host/session/view.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
-
-struct SessionOptions {
-    GatherKernel gather_kernel = GatherKernel::automatic;
-    BvhQuality bvh_quality = BvhQuality::quality;
-};
 
 /// Of getting a scene ready.
 struct SessionSeconds {
@@ -37,13 +33,6 @@ struct GatherOutcome {
     std::vector<BandShare> shares;  ///< of the picture, by device
     std::size_t local_lights = 0;   ///< of all tiles
     bool interrupted = false;       ///< by `progress`: rows are missing at the bottom
-};
-
-/// How the light at single points is estimated.
-struct IrradianceSettings {
-    uint direct_samples = 64;  ///< towards area lights and the environment, a point
-    /// Short paths a point, which bring what the view's clamp radius takes away; 0: leave it out.
-    uint paths = 16;
 };
 
 /// Ready from construction on: tree built, everything uploaded; kernels compile until they are first

@@ -72,20 +72,6 @@ class NEARLIGHT_API VplSet {
     std::shared_ptr<const State> state_;
 };
 
-/// How a session gets ready.
-struct SessionOptions {
-    GatherKernel gather_kernel = GatherKernel::automatic;
-    BvhQuality bvh_quality = BvhQuality::quality;
-};
-
-/// How Session::irradiance() estimates the light at points.
-struct IrradianceSettings {
-    std::uint32_t direct_samples = 64;  ///< for each point, towards area lights and the environment
-    /// How many short paths to trace from each point. They bring back the light that the view's clamp radius
-    /// takes away; 0 leaves that light out.
-    std::uint32_t paths = 16;
-};
-
 /// A finished picture.
 struct Picture {
     /// The channels of picture_channels(); rows that were not reached are 0.
