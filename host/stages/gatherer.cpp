@@ -172,6 +172,7 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, 
     Part part;
     part.end_bundle = first_bundle;
     part.end_vpl = input.vpl_count;
+    device_->finish();  // what was sent before must not count as time of the first launch
     while (part.end_bundle < end_bundle || part.end_vpl < input.vpl_count) {
         part = next_part(input, part, end_bundle, static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
