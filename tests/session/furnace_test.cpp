@@ -7,6 +7,7 @@
 
 #include "host/reference/close_range_oracle.h"
 #include "host/scene/pinhole_camera.h"
+#include "host/session/session.h"
 #include "host/stages/close_range.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
@@ -107,6 +108,51 @@ TEST_F(Furnace, PolicyPaperLosesExactlyMultiBounceLightInTheCloseRange) {
         ASSERT_GT(lost, 5 * kFacets * complete) << "too little to tell";
         EXPECT_NEAR(mean(Policy::partition), complete, kFacets * complete);
         EXPECT_NEAR(mean(Policy::paper), complete - lost, kFacets * complete);
+    });
+}
+
+/// What a wide clamp radius takes from the gather, short paths bring back.
+TEST_F(Furnace, IrradianceAtPointsIsThatOfAllDepthsAtAnyClampRadius) {
+    constexpr uint kMaxDepth = 6;
+    const Scene scene = unit_furnace();
+    std::vector<Vec3> points;
+    std::vector<Vec3> normals;
+    for (std::size_t i = 0; i < scene.triangles.size(); i += 7) {
+        const Triangle& triangle = scene.triangles[i];
+        points.push_back((1.0f / 3.0f) *
+                         (scene.vertices[triangle.v0].position + scene.vertices[triangle.v1].position +
+                          scene.vertices[triangle.v2].position));
+        normals.push_back(normalize(-1.0f * points.back()));
+    }
+    on_each_device([&](Device& device) {
+        Session session(device, scene);
+        const auto mean = [&](float clamp_radius, uint paths) {
+            const View view = session.look({.clamp_radius = clamp_radius, .max_depth = kMaxDepth}, 1);
+            const VplSet vpls =
+                session.sample(view, {.sampler = SamplerKind::instant_radiosity, .vpl_count = 3000}, 1);
+            double sum = 0;
+            for (const Vec3 e :
+                 session.irradiance(points, normals, view, vpls, {.direct_samples = 1, .paths = paths}, 1)) {
+                sum += e.y;
+            }
+            return sum / static_cast<double>(points.size());
+        };
+        const double expected = kIntensity * (1 + albedo_sum(1, kMaxDepth - 2));
+        EXPECT_NEAR(mean(0.01f, 64), expected, 2 * kFacets * expected);
+        EXPECT_NEAR(mean(0.8f, 64), expected, 2 * kFacets * expected);
+        EXPECT_LT(mean(0.8f, 0), 0.95 * expected) << "the clamp radius takes nothing away";
+    });
+}
+
+TEST_F(Furnace, IrradianceRefusesPointsWithoutNormals) {
+    on_each_device([&](Device& device) {
+        const Scene scene = unit_furnace();
+        Session session(device, scene);
+        const View view = session.look({}, 1);
+        const VplSet vpls = session.sample(view, {}, 1);
+        const std::vector<Vec3> points(3);
+        const std::vector<Vec3> normals(2);
+        EXPECT_THROW(session.irradiance(points, normals, view, vpls, {}, 1), Error);
     });
 }
 
