@@ -132,6 +132,7 @@ TEST_F(BadInputOnDevice, MissingTextureIsGrey) {
         "<shape type='cube'><boolean name='flip_normals' value='true'/><ref id='white'/></shape>\n";
     expect_picture(render(write_scene(textured + kLamp)), "replaced by mid-grey");
     expect_error(render(write_scene(textured + kLamp), "--strict"), 3, "nosuch.png");
+    expect_error(render(write_scene(textured + kLamp), "--strict"), 3, "without --strict it is a warning");
 }
 
 TEST_F(BadInput, Options) {

@@ -22,7 +22,8 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# The numbers of a text, each within a part of `tolerance` percent of the expected one, which is given in millionths.
+# Fails unless `text` holds as many numbers as are expected, each within `tolerance` percent of its expected value. CMake
+# calculates with whole numbers only, so expected values are given in millionths.
 function(expect_numbers text tolerance)
   string(REGEX MATCHALL "[^ \n]+" numbers "${text}")
   list(LENGTH numbers count)

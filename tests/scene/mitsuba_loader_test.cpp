@@ -411,8 +411,8 @@ TEST(MitsubaXml, UnknownPropertiesAreNotedOnceAndStrictRefusesThem) {
     const Scene scene = files.load_xml(body + body);
     EXPECT_TRUE(has_note(scene, "scene.xml:2: unknown property 'fizz' of shape 'cube' is ignored"));
     EXPECT_EQ(scene.notes.size(), 3u);  // with: no light, no sensor
-    EXPECT_TRUE(
-        mentions(file_error([&] { files.load_xml(body, {.parameters = {}, .strict = true}); }), "--strict"));
+    EXPECT_TRUE(mentions(file_error([&] { files.load_xml(body, {.parameters = {}, .strict = true}); }),
+                         "loading is strict"));
     EXPECT_TRUE(has_note(scene, "nothing in the scene emits light"));
 }
 

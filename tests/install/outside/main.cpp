@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// outside SCENE OUT: a whole project in 20 lines, this file and its CMakeLists.txt (docs/api.md).
+// outside SCENE OUT: this file and its CMakeLists.txt are a whole project (docs/api.md).
 #include <nearlight/nearlight.h>
 
 int main(int, char** argv) {
