@@ -41,6 +41,9 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
                                             std::size_t vpl_count, const PilotView& view,
                                             float clamp_radius) {
     const ImportonGroups& groups = view.importon_groups;
+    if (groups.group_count == 0) {
+        return {.errors = std::vector<float>(vpl_count), .rows = {}};
+    }
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
     GatherSums<Importon> importance(*device_, packets, groups.group_count);

@@ -111,10 +111,10 @@ TEST(Scene, HashDoesNotKnowNamesNotesPaddingAndWhatIsFilledInLater) {
     EXPECT_EQ(scene_hash(scene), before);
 }
 
-// Pins the function, so that hashes stored in files stay comparable. The number is from a Python script that
-// hashes six empty lengths, no environment, the identity twice, and the default camera and integrator.
+// Pins the function, so that hashes stored in files stay comparable. The number is from Python's xxhash,
+// which hashed six empty lengths, no environment, the identity twice, and the default camera and integrator.
 TEST(Scene, HashOfAnEmptySceneDoesNotChange) {
-    EXPECT_EQ(scene_hash(Scene{}), 9913115687539564608ull);
+    EXPECT_EQ(scene_hash(Scene{}), 7623496442301609915ull);
 }
 
 TEST(Scene, GlassIsDielectric) {

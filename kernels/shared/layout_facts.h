@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What host and device must agree on: sizes and member offsets of the shared structs, how tiles cover pixels,
+// and where each layer of the film lies. The host lists these facts (host/cl/shared_layout.cpp), a kernel
+// writes them (layout_probe.cl), and a test compares the two on every device. A new struct gets its rows
+// here.
+#ifndef NEARLIGHT_SHARED_LAYOUT_FACTS_H
+#define NEARLIGHT_SHARED_LAYOUT_FACTS_H
+
+/// Needs types.h and film_layers.h where it is expanded. Calls SIZE(struct), OFFSET(struct, member) or
+/// VALUE(constant expression) for each fact, in order.
+#define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
+    SIZE(BvhNode)                                   \
+    OFFSET(BvhNode, left)                           \
+    OFFSET(BvhNode, right_max)                      \
+    SIZE(BvhTriangle)                               \
+    OFFSET(BvhTriangle, normal)                     \
+    SIZE(WideNode)                                  \
+    OFFSET(WideNode, high)                          \
+    OFFSET(WideNode, child)                         \
+    SIZE(TriangleBlock)                             \
+    OFFSET(TriangleBlock, edge2)                    \
+    SIZE(RayQuery)                                  \
+    OFFSET(RayQuery, t_max)                         \
+    SIZE(RayHit)                                    \
+    OFFSET(RayHit, slot)                            \
+    SIZE(Vertex)                                    \
+    OFFSET(Vertex, v)                               \
+    SIZE(Triangle)                                  \
+    OFFSET(Triangle, material)                      \
+    SIZE(Material)                                  \
+    OFFSET(Material, eta)                           \
+    OFFSET(Material, transmission)                  \
+    OFFSET(Material, base_saturation)               \
+    SIZE(Texture)                                   \
+    OFFSET(Texture, v_offset)                       \
+    OFFSET(Texture, color1)                         \
+    SIZE(Emitter)                                   \
+    OFFSET(Emitter, radiance)                       \
+    OFFSET(Emitter, cutoff_angle)                   \
+    SIZE(Environment)                               \
+    OFFSET(Environment, scene_center)               \
+    SIZE(PinholeCamera)                             \
+    OFFSET(PinholeCamera, step_y)                   \
+    SIZE(Vpl)                                       \
+    OFFSET(Vpl, power)                              \
+    SIZE(Importon)                                  \
+    OFFSET(Importon, response)                      \
+    SIZE(SurfaceSample)                             \
+    OFFSET(SurfaceSample, v)                        \
+    SIZE(ReceiverPacket)                            \
+    OFFSET(ReceiverPacket, nz)                      \
+    SIZE(IrradiancePacket)                          \
+    OFFSET(IrradiancePacket, b)                     \
+    SIZE(ImportancePacket)                          \
+    OFFSET(ImportancePacket, b)                     \
+    SIZE(GatherParams)                              \
+    OFFSET(GatherParams, group_size)                \
+    OFFSET(GatherParams, recorded_vpls)             \
+    SIZE(CameraVertex)                              \
+    OFFSET(CameraVertex, emitted)                   \
+    SIZE(CloseRange)                                \
+    OFFSET(CloseRange, range)                       \
+    SIZE(SceneInfo)                                 \
+    OFFSET(SceneInfo, extent)                       \
+    VALUE(NEARLIGHT_TILE_SIZE)                      \
+    VALUE(tiles_across(0))                          \
+    VALUE(tiles_across(1))                          \
+    VALUE(tiles_across(640))                        \
+    VALUE(tiles_across(641))                        \
+    VALUE(NEARLIGHT_LAYER_CHANNELS)                 \
+    VALUE(NEARLIGHT_FILM_CHANNELS)
+
+#endif
