@@ -62,8 +62,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
 }
 
 // How the sums of a pixel become a layer of `count` channels, a function for each word of the column
-// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples; all have the
-// same parameters, used or not.
+// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples; all have
+// the same parameters, used or not.
 
 inline void resolve_mean(const global float* sums, uint first, uint count, float scale, global float* layer) {
     for (uint c = 0; c < count; ++c) {

@@ -2,21 +2,21 @@
 // Sums a VPL set over receivers, for CPUs:
 // irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²) · V.
 //
-// A work-item takes packets of GATHER_PACKET_WIDTH receivers, each against a run of VPLs. The compiler
+// A work-item takes packets of GATHER_BEAM_WIDTH receivers, each against a run of VPLs. The compiler
 // does not turn a divergent traversal loop into vector code, so the vectors are written out: a packet is
-// groups of 16 lanes that go through the wide tree together. What makes this fast:
+// rows of 16 lanes that go through the wide tree together. What makes this fast:
 // - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle
 //   test is four dot products a lane with constants of the (VPL, triangle) pair, without a division.
 // - Receivers are put in order once, so that 16 runs of them are clusters with small boxes
-//   (lib/packet_receivers.cl).
+//   (lib/beam_receivers.cl).
 // - A node tests its eight children at once against the shaft from the VPL to the box of all receivers,
 //   and each that meets it against the shafts to the boxes of the 16 clusters at once (lib/shaft.cl).
 //   Only where a cluster meets a box are its lanes tested with it.
 // - Nodes and leaves are taken several at a time, almost without branches that depend on tests
 //   (lib/wide_traverse.cl).
 // - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in
-//   one vector (lib/packet_blocks.cl).
-// - Which lanes are neither culled nor occluded is a bit mask of each group. Leaves that some nodes led
+//   one vector (lib/beam_blocks.cl).
+// - Which lanes are neither culled nor occluded is a bit mask of each row. Leaves that some nodes led
 //   to ask it again when their turn comes: by then some lanes have met their occluder.
 // A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other
 // lanes, and all tests before them are conservative: what shares a packet does not change a bit of the
@@ -27,33 +27,33 @@
 #include "lib/gather.cl"
 #include "lib/wide_traverse.cl"
 
-#define ITEMS_PER_BUNDLE (BUNDLE_SIZE / GATHER_PACKET_WIDTH)
+#define BEAMS_PER_BUNDLE (BUNDLE_SIZE / GATHER_BEAM_WIDTH)
 
 typedef struct Accumulator {
-    float16 r[GATHER_GROUPS], g[GATHER_GROUPS], b[GATHER_GROUPS];
+    float16 r[GATHER_ROWS], g[GATHER_ROWS], b[GATHER_ROWS];
 } Accumulator;
 
 inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
-    for (uint open = s->open; open != 0; open &= ~clusters_of_group(first_group(open))) {
-        const uint group = first_group(open);
-        const float16 term = lanes_of(s->lanes[group]) ? s->weight[group] : (float16)0.0f;
+    for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
+        const uint row = first_row(open);
+        const float16 term = lanes_of(s->lanes[row]) ? s->weight[row] : (float16)0.0f;
         const float16 weight = squared ? term * term : term;
-        sum->r[group] += scale.x * weight;
-        sum->g[group] += scale.y * weight;
-        sum->b[group] += scale.z * weight;
+        sum->r[row] += scale.x * weight;
+        sum->g[row] += scale.y * weight;
+        sum->b[row] += scale.z * weight;
     }
 }
 
 inline void clear(Accumulator* sum) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        sum->r[group] = sum->g[group] = sum->b[group] = (float16)0.0f;
+    for (uint row = 0; row < GATHER_ROWS; ++row) {
+        sum->r[row] = sum->g[row] = sum->b[row] = (float16)0.0f;
     }
 }
 
 /// irradiance (+)= sum, where `replace` says not to add. Lane i has receiver first + order[i] of the bundle.
 inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle* bundle, uint first,
                               const uchar* order, const Accumulator* sum, bool replace) {
-    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
         if (packet < bundle->count) {
@@ -69,7 +69,7 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle*
 /// Notes which segments are open: `before` tracing, and then which of those are not any more.
 inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bundle* bundle, uint first,
                         const uchar* order, const Segments* s, bool before) {
-    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
         const bool open = (s->lanes[i / 16] >> i % 16 & 1) != 0;
@@ -83,7 +83,7 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 #endif
 
 /// Takes packets of the bundles [first_bundle, end_bundle) over the VPLs [first_vpl, end_vpl), one after
-/// another from the queue, until none is left: `next_packet`, 0 at the start, is the next one. Packets differ
+/// another from the queue, until none is left: `next_beam`, 0 at the start, is the next one. Packets differ
 /// in cost by ten times, and runtimes deal work-items to threads by the dozen; launch as many work-items as
 /// there are packets, so that each thread has one.
 ///
@@ -100,18 +100,18 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls,
     const global ReceiverPacket* packets, const global GatherParams* launch_params,
     const global float* thresholds, global IrradiancePacket* sums, global IrradiancePacket* group_sums,
-    volatile global uint* next_packet GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
+    volatile global uint* next_beam GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
-    PacketBounds bounds;
+    BeamBounds bounds;
     Segments segments;
     Accumulator sum, squares;
     const GatherParams params = *launch_params;
     const uint chunk_size = gather_chunk_size(params.group_size);
-    const uint count = (params.end_bundle - params.first_bundle) * ITEMS_PER_BUNDLE;
-    for (uint item = atomic_inc(next_packet); item < count; item = atomic_inc(next_packet)) {
-        const uint index = params.first_bundle + item / ITEMS_PER_BUNDLE;
+    const uint count = (params.end_bundle - params.first_bundle) * BEAMS_PER_BUNDLE;
+    for (uint item = atomic_inc(next_beam); item < count; item = atomic_inc(next_beam)) {
+        const uint index = params.first_bundle + item / BEAMS_PER_BUNDLE;
         const Bundle bundle = bundle_at(index, params.packet_count, params.run_packets);
-        const uint first = item % ITEMS_PER_BUNDLE * GATHER_PACKET_WIDTH;
+        const uint first = item % BEAMS_PER_BUNDLE * GATHER_BEAM_WIDTH;
         if (first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
             continue;
         }

@@ -27,8 +27,8 @@ inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* 
                             float clamp_radius_squared) {
     float16 squares = (float16)0.0f;
     for (uint i = 0; i < bundle->count; ++i) {
-        for (uint group = 0; group < NEARLIGHT_PACKET_SIZE / 16; ++group) {
-            squares += squared_terms(vpl, packets + bundle->first + i, group, clamp_radius_squared);
+        for (uint row = 0; row < NEARLIGHT_PACKET_SIZE / 16; ++row) {
+            squares += squared_terms(vpl, packets + bundle->first + i, row, clamp_radius_squared);
         }
     }
     return sqrt(sum_of_lanes(squares) / (float)(max(bundle->count, 1u) * NEARLIGHT_PACKET_SIZE));

@@ -59,7 +59,7 @@ kernel void importance_thresholds(const global Importon* restrict importons, uin
                                   float clamp_radius_squared, float part, global float* restrict thresholds) {
     const uint item = (uint)get_global_id(0);
     const uint packet = item / (NEARLIGHT_PACKET_SIZE / 16);
-    const uint group = item % (NEARLIGHT_PACKET_SIZE / 16);
+    const uint row = item % (NEARLIGHT_PACKET_SIZE / 16);
     if (packet >= packet_count) {
         return;
     }
@@ -67,7 +67,7 @@ kernel void importance_thresholds(const global Importon* restrict importons, uin
     for (uint i = 0; i < importon_count; ++i) {
         const global Vpl* importon = as_source(importons + i);
         const float square_scale = gather_square_scale(importon, gather_scale(importon));
-        squares += square_scale * squared_terms(importon, receivers + packet, group, clamp_radius_squared);
+        squares += square_scale * squared_terms(importon, receivers + packet, row, clamp_radius_squared);
     }
     vstore16(squares * (part / (float)importon_count), item, thresholds);
 }

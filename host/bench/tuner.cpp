@@ -139,7 +139,7 @@ std::vector<Trial> make_trials(Device& device, const Room& room, const TunerConf
     const auto picture = [&] { return picture_work(device, room); };
     const auto gather = [&] { return gather_work(device, room); };
     if (choose_kernel(GatherKernel::automatic, device) == GatherKernel::packets) {
-        trials.push_back({&Tunables::packet_width, "gather", cpu, 16, 256, gather});
+        trials.push_back({&Tunables::beam_width, "gather", cpu, 16, 256, gather});
         trials.push_back({&Tunables::local_size, "camera pass and direct light", cpu, 1, 64, picture});
     } else {
         trials.push_back({&Tunables::local_size, "gather", cpu, 32, 256, gather});

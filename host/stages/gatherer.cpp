@@ -27,15 +27,15 @@ constexpr double kMaxLaunchPairs = 0x1p40;
 
 GatherConfig resolved(GatherConfig config, const Device& device) {
     config.kernel = choose_kernel(config.kernel, device);
-    if (config.packet_width == 0) {
-        config.packet_width = device.tunables().packet_width;
+    if (config.beam_width == 0) {
+        config.beam_width = device.tunables().beam_width;
     }
     if (config.launch_seconds == 0.0) {
         config.launch_seconds = 1e-3 * device.tunables().launch_ms;
     }
-    if (config.packet_width < 16 || config.packet_width > 256 || !std::has_single_bit(config.packet_width)) {
-        throw Error(ErrorKind::invalid_argument, "a gather packet has 16, 32, 64, 128 or 256 lanes, not " +
-                                                     std::to_string(config.packet_width));
+    if (config.beam_width < 16 || config.beam_width > 256 || !std::has_single_bit(config.beam_width)) {
+        throw Error(ErrorKind::invalid_argument, "a gather beam has 16, 32, 64, 128 or 256 lanes, not " +
+                                                     std::to_string(config.beam_width));
     }
     return config;
 }
@@ -71,7 +71,7 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
       config_(resolved(config, device)),
       launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMaxLaunchPairs)),
       params_(device, 1),
-      next_packet_(device, 1),
+      next_beam_(device, 1),
       no_thresholds_(device, 0) {
     kernel_of(false, false);
 }
@@ -95,7 +95,7 @@ Kernel Gatherer::make_kernel(bool lists, bool recording) const {
     if (config_.kernel == GatherKernel::rays) {
         return {Program(*device_, "gather_rays.cl", defines), "gather_rays"};
     }
-    defines.emplace("GATHER_PACKET_WIDTH", std::to_string(config_.packet_width));
+    defines.emplace("GATHER_BEAM_WIDTH", std::to_string(config_.beam_width));
     return {Program(*device_, "gather_packets.cl", defines), "gather_packets"};
 }
 
@@ -158,8 +158,8 @@ void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, con
     if (config_.kernel == GatherKernel::rays) {
         launch_on(receivers, device_->tunables().local_size, input.tree.nodes, input.tree.triangles, more...);
     } else {
-        next_packet_.fill_zero();
-        launch_on(receivers / config_.packet_width, 1, input.tree.wide_nodes, input.tree.blocks, next_packet_,
+        next_beam_.fill_zero();
+        launch_on(receivers / config_.beam_width, 1, input.tree.wide_nodes, input.tree.blocks, next_beam_,
                   more...);
     }
 }

@@ -22,7 +22,7 @@ struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
     /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it. 0:
     /// what suits the device (Tunables).
-    uint packet_width = 0;
+    uint beam_width = 0;
     /// The first launch takes at most this many (receiver, VPL) pairs; those that follow, also of later
     /// gathers, are sized by the time it took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
@@ -143,7 +143,7 @@ class Gatherer {
     GatherConfig config_;
     double launch_pairs_;          ///< of the next gather's first launch
     Buffer<GatherParams> params_;  ///< of a launch
-    Buffer<uint> next_packet_;     ///< the queue of a launch of gather_packets: one number
+    Buffer<uint> next_beam_;       ///< the queue of a launch of gather_packets: one number
     Buffer<float> no_thresholds_;
     // Made when first asked for, but for the plain kernel. Those with lists come last, of both kinds the
     // recording one second.

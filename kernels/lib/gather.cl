@@ -74,16 +74,16 @@ inline float gather_square_scale(const global Vpl* vpl, float3 scale) {
 
 /// Squares of the geometry term without visibility, of 16 receivers of the packet; 0 where a cosine is not
 /// positive or the term is not finite.
-inline float16 squared_terms(const global Vpl* vpl, const global ReceiverPacket* packet, uint group,
+inline float16 squared_terms(const global Vpl* vpl, const global ReceiverPacket* packet, uint row,
                              float clamp_radius_squared) {
     const float3 origin = load3(vpl->position);
     const float3 vpl_normal = load3(vpl->normal);
-    const float16 dx = vload16(group, packet->px) - origin.x;
-    const float16 dy = vload16(group, packet->py) - origin.y;
-    const float16 dz = vload16(group, packet->pz) - origin.z;
+    const float16 dx = vload16(row, packet->px) - origin.x;
+    const float16 dy = vload16(row, packet->py) - origin.y;
+    const float16 dz = vload16(row, packet->pz) - origin.z;
     const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
-    const float16 cos_receiver = -(vload16(group, packet->nx) * dx + vload16(group, packet->ny) * dy +
-                                   vload16(group, packet->nz) * dz);
+    const float16 cos_receiver =
+        -(vload16(row, packet->nx) * dx + vload16(row, packet->ny) * dy + vload16(row, packet->nz) * dz);
     const float16 r2 = dx * dx + dy * dy + dz * dz;
     const float16 term = cos_vpl * cos_receiver / (r2 * fmax(r2, (float16)clamp_radius_squared));
     const int16 open = (cos_vpl > 0.0f) & (cos_receiver > 0.0f) & (term < INFINITY);

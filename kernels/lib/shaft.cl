@@ -4,7 +4,7 @@
 #ifndef NEARLIGHT_LIB_SHAFT
 #define NEARLIGHT_LIB_SHAFT
 
-#include "lib/packet_receivers.cl"
+#include "lib/beam_receivers.cl"
 #include "lib/ray.cl"
 #include "lib/wide_tree.cl"
 
@@ -39,7 +39,7 @@ typedef struct Planes {
 } Planes;
 
 /// What holds the segments from `origin` to everything within the bounds.
-inline void make_shaft(Shaft* shaft, float3 origin, const PacketBounds* bounds) {
+inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bounds) {
     const float3 low = bounds->low - origin;
     const float3 high = bounds->high - origin;
     shaft->center = 0.5f * (low + high);
@@ -65,7 +65,7 @@ inline void make_shaft(Shaft* shaft, float3 origin, const PacketBounds* bounds) 
 }
 
 inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, float3 from,
-                                const PacketBounds* bounds) {
+                                const BeamBounds* bounds) {
     const float origin[3] = {from.x, from.y, from.z};
     for (uint axis = 0; axis < 3; ++axis) {
         const float16 by_low = reciprocal16(bounds->cluster_low[axis] - origin[axis]);

@@ -7,7 +7,7 @@
 #ifndef NEARLIGHT_LIB_WIDE_TRAVERSE
 #define NEARLIGHT_LIB_WIDE_TRAVERSE
 
-#include "lib/packet_blocks.cl"
+#include "lib/beam_blocks.cl"
 
 #define NODES_AT_ONCE 4
 // Entries lie deeper in the tree the nearer they are to the top, so that when nodes of a level are taken,
@@ -23,7 +23,7 @@ typedef struct Traversal {
     NodeVisit stack[GATHER_STACK_SIZE];
     uint top;
     LeafVisit
-        leaves[NODES_AT_ONCE * NEARLIGHT_WIDE_CHILDREN * GATHER_GROUPS + 1];  // and one that does not count
+        leaves[NODES_AT_ONCE * NEARLIGHT_WIDE_CHILDREN * GATHER_ROWS + 1];  // and one that does not count
     uint leaf_count;
 } Traversal;
 
@@ -33,33 +33,33 @@ LANES_INLINE void keep_node(Traversal* work, uint node, uint clusters) {
     work->stack[work->top] = visit;
     work->top += clusters != 0 ? 1 : 0;
 }
-LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint group, uint lanes) {
-    const LeafVisit visit = {leaf, group, lanes};
+LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint row, uint lanes) {
+    const LeafVisit visit = {leaf, row, lanes};
     work->leaves[work->leaf_count] = visit;
     work->leaf_count += lanes != 0 ? 1 : 0;
 }
 
-/// Keeps an inner child that some clusters may meet: it is tested with the lanes of two groups, and may pass
+/// Keeps an inner child that some clusters may meet: it is tested with the lanes of two rows, and may pass
 /// for the sake of others.
 LANES_INLINE void visit_inner(Traversal* work, const Segments* s, const Planes* planes, uint child,
                               uint meeting) {
-    const uint group0 = first_group(meeting);
-    const uint others = meeting & ~clusters_of_group(group0);
-    const uint group1 = others != 0 ? first_group(others) : group0;
-    const uint lanes0 = lanes_in_box(s, group0, planes);
-    const uint lanes1 = lanes_in_box(s, group1, planes);
-    keep_node(work, child,
-              meeting & ~(lanes0 == 0 ? clusters_of_group(group0) : 0) &
-                  ~(lanes1 == 0 ? clusters_of_group(group1) : 0));
+    const uint row0 = first_row(meeting);
+    const uint others = meeting & ~clusters_of_row(row0);
+    const uint row1 = others != 0 ? first_row(others) : row0;
+    const uint lanes0 = lanes_in_box(s, row0, planes);
+    const uint lanes1 = lanes_in_box(s, row1, planes);
+    keep_node(
+        work, child,
+        meeting & ~(lanes0 == 0 ? clusters_of_row(row0) : 0) & ~(lanes1 == 0 ? clusters_of_row(row1) : 0));
 }
 
 /// Keeps a leaf with those lanes of some clusters that meet it.
 LANES_INLINE void visit_leaf(Traversal* work, const Segments* s, const Planes* planes, uint child,
                              uint meeting) {
     do {
-        const uint group = first_group(meeting);
-        meeting &= ~clusters_of_group(group);
-        keep_leaf(work, child, group, lanes_in_box(s, group, planes));
+        const uint row = first_row(meeting);
+        meeting &= ~clusters_of_row(row);
+        keep_leaf(work, child, row, lanes_in_box(s, row, planes));
     } while (meeting != 0);
 }
 
@@ -96,17 +96,17 @@ LANES_INLINE void visit_children_alone(Traversal* work, const Segments* s, const
                                        const global TriangleBlock* blocks, NodeVisit visit,
                                        const ChildPlanes* relative, uint met) {
     const global WideNode* node = nodes + visit.node;
-    const uint group = first_group(visit.clusters);
+    const uint row = first_row(visit.clusters);
     for (; met != 0; met &= met - 1) {
         const uint slot = lowest_bit(met);
         const uint child = node->child[slot];
         prefetch_child(nodes, blocks, child);
         const Planes planes = planes_of(relative, slot);
-        const uint lanes = lanes_in_box(s, group, &planes);
+        const uint lanes = lanes_in_box(s, row, &planes);
         if ((child & NEARLIGHT_LEAF_BIT) == 0) {
             keep_node(work, child, lanes != 0 ? visit.clusters : 0);
         } else {
-            keep_leaf(work, child, group, lanes);
+            keep_leaf(work, child, row, lanes);
         }
     }
 }
@@ -154,7 +154,7 @@ LANES_INLINE void visit_leaves(Traversal* work, Segments* s, const global Triang
 }
 
 /// Ends the segments that meet anything.
-LANES_INLINE void trace_segments(Segments* s, const PacketBounds* bounds, const global WideNode* nodes,
+LANES_INLINE void trace_segments(Segments* s, const BeamBounds* bounds, const global WideNode* nodes,
                                  const global TriangleBlock* blocks) {
     if (s->open == 0) {
         return;

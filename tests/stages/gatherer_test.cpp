@@ -182,7 +182,7 @@ TEST_F(GathererTest, DivisionIntoLaunchesDoesNotChangeABit) {
     });
 }
 
-TEST_F(GathererTest, PacketWidthDoesNotChangeABit) {
+TEST_F(GathererTest, BeamWidthDoesNotChangeABit) {
     for (const GatherCase& data : {random_triangles(500, 257, 13, 14), room_of_boxes(60, 100, 13, 15),
                                    points_on_grid(64, 13, 16), needles(400, 100, 13, 17)}) {
         on_each_device([&](Device& device) {
@@ -200,7 +200,7 @@ TEST_F(GathererTest, PacketWidthDoesNotChangeABit) {
 TEST_F(GathererTest, ProgressCountsPairsAndCancels) {
     const GatherCase data = random_triangles(50, 1000, 5, 10);
     on_each_device([&](Device& device) {
-        GatherConfig config{.packet_width = NEARLIGHT_PACKET_SIZE};
+        GatherConfig config{.beam_width = NEARLIGHT_PACKET_SIZE};
         config.first_launch_pairs = 1;
         config.launch_seconds = 1e-9;
         Gatherer gatherer(device, config);
@@ -421,7 +421,7 @@ TEST_F(GathererTest, RefusesASelectionByGroups) {
     });
 }
 
-TEST_F(GathererTest, RefusesAnOddPacketWidth) {
+TEST_F(GathererTest, RefusesAnOddBeamWidth) {
     on_each_device([&](Device& device) {
         EXPECT_THROW(Gatherer(device, {GatherKernel::packets, 48}), Error);
     });

@@ -212,13 +212,13 @@ TEST_F(RouletteTest, SameBitsForAnyBandAndBatch) {
     });
 }
 
-TEST_F(RouletteTest, PacketWidthDoesNotChangeABit) {
+TEST_F(RouletteTest, BeamWidthDoesNotChangeABit) {
     const GatherCase data = room_of_boxes(40, 300, 7, 24);
     on_each_device([&](Device& device) {
         Gatherer wide(device, {.kernel = GatherKernel::packets});
         const auto expected = Uploaded(device, data).gather(wide, kThreshold, 3);
         for (const uint width : {16u, 64u}) {
-            Gatherer gatherer(device, {.kernel = GatherKernel::packets, .packet_width = width});
+            Gatherer gatherer(device, {.kernel = GatherKernel::packets, .beam_width = width});
             EXPECT_TRUE(same_bits(Uploaded(device, data).gather(gatherer, kThreshold, 3), expected));
         }
     });

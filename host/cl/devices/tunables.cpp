@@ -9,7 +9,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::array kFields{
-    TunableField{"packet_width", &Tunables::packet_width, 16, 256, true},
+    TunableField{"packet_width", &Tunables::beam_width, 16, 256, true},
     TunableField{"local_size", &Tunables::local_size, 1, 256, true},
     TunableField{"run_local_size", &Tunables::run_local_size, 1, 256, true},
     TunableField{"runs_per_unit", &Tunables::runs_per_unit, 1, 1024, false},
@@ -24,7 +24,7 @@ constexpr std::array kFields{
 /// CPUs: a group is what one thread runs, so few and long work-items, several a core to even out, and more
 /// VPLs rather than more bundles in a launch, because a bundle's start costs something. GPUs: enough items to
 /// fill their lanes.
-constexpr Tunables kCpu{.packet_width = 256,
+constexpr Tunables kCpu{.beam_width = 256,
                         .local_size = 8,
                         .run_local_size = 1,
                         .runs_per_unit = 4,
@@ -34,7 +34,7 @@ constexpr Tunables kCpu{.packet_width = 256,
                         .launch_bundles = 256,
                         .launch_ms = 200,
                         .batch_receivers = 1u << 18u};
-constexpr Tunables kGpu{.packet_width = 256,
+constexpr Tunables kGpu{.beam_width = 256,
                         .local_size = 64,
                         .run_local_size = 64,
                         .runs_per_unit = 128,

@@ -12,7 +12,7 @@
 namespace nearlight::core {
 
 struct Tunables {
-    std::uint32_t packet_width;       ///< receivers that gather_packets takes through the tree together
+    std::uint32_t beam_width;         ///< receivers that gather_packets takes through the tree together
     std::uint32_t local_size;         ///< work-group of kernels whose work-items are independent
     std::uint32_t run_local_size;     ///< the same where each has a run of elements (host/stages/chunks.h)
     std::uint32_t runs_per_unit;      ///< such runs for each compute unit of the device

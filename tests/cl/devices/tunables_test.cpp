@@ -23,7 +23,7 @@ DeviceEntry make_entry() {
 
 Tunables unusual() {
     Tunables tunables = tunables_row(DeviceKind::cpu).values;
-    tunables.packet_width = 32;
+    tunables.beam_width = 32;
     tunables.runs_per_unit = 7;
     return tunables;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of four triangles against segments that meet their box: for groups of which many lanes do, triangle
+// Blocks of four triangles against segments that meet their box: for rows of which many lanes do, triangle
 // by triangle, if the shaft may hit it; for others, lane by lane with all four triangles in one vector. (Half
 // of the latter have a single lane, so that a vector for four of them was slower.)
-#ifndef NEARLIGHT_LIB_PACKET_BLOCKS
-#define NEARLIGHT_LIB_PACKET_BLOCKS
+#ifndef NEARLIGHT_LIB_BEAM_BLOCKS
+#define NEARLIGHT_LIB_BEAM_BLOCKS
 
 #include "lib/segments.cl"
 
@@ -16,12 +16,12 @@ typedef struct BlockAxes {
     float4 t;
 } BlockAxes;
 
-/// A leaf, a group, and which of its lanes meet the box of the leaf.
+/// A leaf, a row, and which of its lanes meet the box of the leaf.
 typedef struct LeafVisit {
-    uint leaf, group, lanes;
+    uint leaf, row, lanes;
 } LeafVisit;
 
-// Lanes of a group, at most, that are tested one after the other.
+// Lanes of a row, at most, that are tested one after the other.
 #define FEW_LANES 8
 
 LANES_INLINE Axis4 minus4(Axis4 a, Axis4 b) {
@@ -86,7 +86,7 @@ LANES_INLINE int16 hits(float16 det, float16 u, float16 v, float16 w, float16 t)
 /// Ends the segments of a visit that hit any of some triangles of a block.
 LANES_INLINE void intersect_triangles(Segments* s, const BlockAxes* axes, uint triangles,
                                       const LeafVisit* visit) {
-    const float16 dx = s->dx[visit->group], dy = s->dy[visit->group], dz = s->dz[visit->group];
+    const float16 dx = s->dx[visit->row], dy = s->dy[visit->row], dz = s->dz[visit->row];
     int16 hit = (int16)0;
     for (; triangles != 0; triangles &= triangles - 1) {
         const uint i = lowest_bit(triangles);
@@ -100,7 +100,7 @@ LANES_INLINE void intersect_triangles(Segments* s, const BlockAxes* axes, uint t
                     dot16((float16)v[0], (float16)v[4], (float16)v[8], dx, dy, dz),
                     dot16((float16)w[0], (float16)w[4], (float16)w[8], dx, dy, dz), (float16)*t);
     }
-    end_lanes(s, visit->group, lane_bits16(hit) & visit->lanes);
+    end_lanes(s, visit->row, lane_bits16(hit) & visit->lanes);
 }
 
 LANES_INLINE float4 dot4(Axis4 axis, float dx, float dy, float dz) {
@@ -115,9 +115,9 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
     uint hit_lanes = 0;
     for (uint lanes = visit->lanes; lanes != 0; lanes &= lanes - 1) {
         const uint lane = lowest_bit(lanes);
-        const float dx = ((const float*)(s->dx + visit->group))[lane];
-        const float dy = ((const float*)(s->dy + visit->group))[lane];
-        const float dz = ((const float*)(s->dz + visit->group))[lane];
+        const float dx = ((const float*)(s->dx + visit->row))[lane];
+        const float dy = ((const float*)(s->dy + visit->row))[lane];
+        const float dz = ((const float*)(s->dz + visit->row))[lane];
         const float4 det = dot4(axes->n, dx, dy, dz);
         const float4 smallest =
             min4(min4(dot4(axes->u, dx, dy, dz), dot4(axes->v, dx, dy, dz)), dot4(axes->w, dx, dy, dz));
@@ -125,13 +125,13 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
                          (axes->t < NEARLIGHT_SEGMENT_T_MAX * det);
         hit_lanes |= (lane_bits4(hit) != 0 ? 1u : 0u) << lane;
     }
-    end_lanes(s, visit->group, hit_lanes);
+    end_lanes(s, visit->row, hit_lanes);
 }
 
 /// Ends the segments of some visits to one leaf that hit a triangle of it.
 LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks, const LeafVisit* visits,
                                  uint count) {
-    LeafVisit dense[GATHER_GROUPS + 1];
+    LeafVisit dense[GATHER_ROWS + 1];
     const uint last = last_block(visits->leaf);
     for (uint block = first_block(visits->leaf); block <= last; ++block) {
         BlockAxes axes;
@@ -139,7 +139,7 @@ LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks
         uint dense_count = 0;
         for (uint i = 0; i < count; ++i) {
             LeafVisit visit = visits[i];
-            visit.lanes &= s->lanes[visit.group];
+            visit.lanes &= s->lanes[visit.row];
             if (popcount(visit.lanes) > FEW_LANES) {
                 dense[dense_count++] = visit;
             } else {

@@ -1,70 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 // The receivers of a work-item: loaded once, put in order so that neighbours form clusters, and bounded.
-#ifndef NEARLIGHT_LIB_PACKET_RECEIVERS
-#define NEARLIGHT_LIB_PACKET_RECEIVERS
+#ifndef NEARLIGHT_LIB_BEAM_RECEIVERS
+#define NEARLIGHT_LIB_BEAM_RECEIVERS
 
 #include "lib/bundle.cl"
 #include "lib/lanes.cl"
 
-// Receivers that go through the tree together: 16, 32, 64, 128 or 256, in groups of 16 lanes. They form 16
-// clusters, each of neighbouring lanes of one group.
+// Receivers that go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They form 16
+// clusters, each of neighbouring lanes of one row.
 #define BUNDLE_SIZE (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
-#ifndef GATHER_PACKET_WIDTH
-#define GATHER_PACKET_WIDTH BUNDLE_SIZE
+#ifndef GATHER_BEAM_WIDTH
+#define GATHER_BEAM_WIDTH BUNDLE_SIZE
 #endif
-#define GATHER_GROUPS (GATHER_PACKET_WIDTH / 16)
+#define GATHER_ROWS (GATHER_BEAM_WIDTH / 16)
 #define CLUSTERS 16
-#define CLUSTER_SIZE (GATHER_PACKET_WIDTH / CLUSTERS)
-#define GROUP_CLUSTERS (CLUSTERS / GATHER_GROUPS)
+#define CLUSTER_SIZE (GATHER_BEAM_WIDTH / CLUSTERS)
+#define ROW_CLUSTERS (CLUSTERS / GATHER_ROWS)
 
 typedef struct Receivers {
-    float16 x[GATHER_GROUPS], y[GATHER_GROUPS], z[GATHER_GROUPS];
-    float16 nx[GATHER_GROUPS], ny[GATHER_GROUPS], nz[GATHER_GROUPS];
-    float16 threshold[GATHER_GROUPS];  // squares of light below it are left out; see load_thresholds()
-    uchar order[GATHER_PACKET_WIDTH];  // which receiver, counted from the work-item's first, a lane has
+    float16 x[GATHER_ROWS], y[GATHER_ROWS], z[GATHER_ROWS];
+    float16 nx[GATHER_ROWS], ny[GATHER_ROWS], nz[GATHER_ROWS];
+    float16 threshold[GATHER_ROWS];  // squares of light below it are left out; see load_thresholds()
+    uchar order[GATHER_BEAM_WIDTH];  // which receiver, counted from the work-item's first, a lane has
 } Receivers;
 
 /// Boxes around receivers: of all that are there, and of each cluster in a lane of its own (x, y, z).
-typedef struct PacketBounds {
+typedef struct BeamBounds {
     float3 low, high;
     float16 cluster_low[3], cluster_high[3];
-} PacketBounds;
+} BeamBounds;
 
 /// Positions by lane; +∞ where a receiver is absent or not finite: it is culled, and must not widen any
 /// bounds.
 typedef struct Places {
-    float at[3][GATHER_PACKET_WIDTH];
+    float at[3][GATHER_BEAM_WIDTH];
 } Places;
 
 /// Loads the receivers of a bundle from `first` on; those beyond its last packet are absent.
 inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, const Bundle* bundle,
                            uint first) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const uint lane = first + 16 * group;
+    for (uint row = 0; row < GATHER_ROWS; ++row) {
+        const uint lane = first + 16 * row;
         const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
         const global ReceiverPacket* packet =
             packets + bundle->first + (there ? lane / NEARLIGHT_PACKET_SIZE : 0);
         const uint at = lane % NEARLIGHT_PACKET_SIZE / 16;
         const float16 absent = (float16)0.0f;
-        to->x[group] = vload16(at, packet->px);
-        to->y[group] = vload16(at, packet->py);
-        to->z[group] = vload16(at, packet->pz);
-        to->nx[group] = there ? vload16(at, packet->nx) : absent;
-        to->ny[group] = there ? vload16(at, packet->ny) : absent;
-        to->nz[group] = there ? vload16(at, packet->nz) : absent;
+        to->x[row] = vload16(at, packet->px);
+        to->y[row] = vload16(at, packet->py);
+        to->z[row] = vload16(at, packet->pz);
+        to->nx[row] = there ? vload16(at, packet->nx) : absent;
+        to->ny[row] = there ? vload16(at, packet->ny) : absent;
+        to->nz[row] = there ? vload16(at, packet->nz) : absent;
     }
 }
 
 inline void place_receivers(Places* places, const Receivers* receivers) {
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        const float16 x = receivers->x[group], y = receivers->y[group], z = receivers->z[group];
+    for (uint row = 0; row < GATHER_ROWS; ++row) {
+        const float16 x = receivers->x[row], y = receivers->y[row], z = receivers->z[row];
         const int16 present =
-            (receivers->nx[group] != 0.0f) | (receivers->ny[group] != 0.0f) | (receivers->nz[group] != 0.0f);
+            (receivers->nx[row] != 0.0f) | (receivers->ny[row] != 0.0f) | (receivers->nz[row] != 0.0f);
         const int16 good = present & isfinite(x + y + z);
         const float16 nowhere = (float16)INFINITY;
-        vstore16(good ? x : nowhere, group, places->at[0]);
-        vstore16(good ? y : nowhere, group, places->at[1]);
-        vstore16(good ? z : nowhere, group, places->at[2]);
+        vstore16(good ? x : nowhere, row, places->at[0]);
+        vstore16(good ? y : nowhere, row, places->at[1]);
+        vstore16(good ? z : nowhere, row, places->at[2]);
     }
 }
 
@@ -83,7 +83,7 @@ inline void bound_places(const Places* places, const uchar* order, uint count, f
 #define ORDER_BINS 64
 inline void order_by(const float* key, float low, float high, uchar* order, uint count) {
     ushort ends[ORDER_BINS + 1];
-    uchar bins[GATHER_PACKET_WIDTH], sorted[GATHER_PACKET_WIDTH];
+    uchar bins[GATHER_BEAM_WIDTH], sorted[GATHER_BEAM_WIDTH];
     for (uint i = 0; i <= ORDER_BINS; ++i) {
         ends[i] = 0;
     }
@@ -110,11 +110,11 @@ inline float component(float3 v, uint axis) {
 /// Finds clusters: four slices along the longest side of the box, each cut in four along its own longest
 /// side.
 inline void find_clusters(const Places* places, uchar* order) {
-    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         order[i] = (uchar)i;
     }
-    for (uint size = GATHER_PACKET_WIDTH; size > CLUSTER_SIZE; size /= 4) {
-        for (uint first = 0; first < GATHER_PACKET_WIDTH; first += size) {
+    for (uint size = GATHER_BEAM_WIDTH; size > CLUSTER_SIZE; size /= 4) {
+        for (uint first = 0; first < GATHER_BEAM_WIDTH; first += size) {
             float3 low, high;
             bound_places(places, order + first, size, &low, &high);
             const float3 sides = high - low;
@@ -125,17 +125,17 @@ inline void find_clusters(const Places* places, uchar* order) {
 }
 
 inline void permute(float16* lanes, const uchar* order) {
-    float unordered[GATHER_PACKET_WIDTH];
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        vstore16(lanes[group], group, unordered);
+    float unordered[GATHER_BEAM_WIDTH];
+    for (uint row = 0; row < GATHER_ROWS; ++row) {
+        vstore16(lanes[row], row, unordered);
     }
-    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         ((float*)lanes)[i] = unordered[order[i]];
     }
 }
 
 /// Loads receivers in the order of their clusters, with their bounds.
-inline void gather_receivers(Receivers* receivers, PacketBounds* bounds, const global ReceiverPacket* packets,
+inline void gather_receivers(Receivers* receivers, BeamBounds* bounds, const global ReceiverPacket* packets,
                              const Bundle* bundle, uint first) {
     Places places;
     load_receivers(receivers, packets, bundle, first);
@@ -166,14 +166,14 @@ inline void gather_receivers(Receivers* receivers, PacketBounds* bounds, const g
 /// Fills in the thresholds of receivers that are in order, from one number for each receiver of all packets.
 inline void load_thresholds(Receivers* receivers, const global float* thresholds, const Bundle* bundle,
                             uint first) {
-    float lanes[GATHER_PACKET_WIDTH];
-    for (uint i = 0; i < GATHER_PACKET_WIDTH; ++i) {
+    float lanes[GATHER_BEAM_WIDTH];
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint lane = first + receivers->order[i];
         const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
         lanes[i] = there ? thresholds[(size_t)bundle->first * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
     }
-    for (uint group = 0; group < GATHER_GROUPS; ++group) {
-        receivers->threshold[group] = vload16(group, lanes);
+    for (uint row = 0; row < GATHER_ROWS; ++row) {
+        receivers->threshold[row] = vload16(row, lanes);
     }
 }
 
