@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of four triangles against segments that meet their box: for rows of which many lanes do, triangle
-// by triangle, if the shaft may hit it; for others, lane by lane with all four triangles in one vector. (Half
-// of the latter have a single lane, so that a vector for four of them was slower.)
+// Tests blocks of four triangles against the segments that meet the box of their leaf. A row with many such
+// lanes is tested triangle by triangle, with the triangles that the shaft may hit. A row with few of them is
+// tested lane by lane, with all four triangles in one vector. (Half of the rows with few lanes have a single
+// one, which is why testing four lanes in one vector was slower.)
 #ifndef NEARLIGHT_LIB_BEAM_BLOCKS
 #define NEARLIGHT_LIB_BEAM_BLOCKS
 
 #include "lib/segments.cl"
 
-/// For each triangle of a block, which are turned towards the origin so that the sign of t is the same for
-/// all segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
-/// numbers w = n − u − v, but the rounding of u and v grows with the longest edge, that of w only with its
-/// own: a sliver would reach far beyond its short edge.
+/// The axes of each triangle of a block, turned towards the origin so that the sign of t is the same for all
+/// segments: a direction d hits if 0 ≤ u·d, 0 ≤ v·d, 0 ≤ w·d and t_min·(n·d) < t < t_max·(n·d). In exact
+/// arithmetic w = n − u − v. But the rounding error of u and v grows with the longest edge, and that of w
+/// only with its own edge: computed as n − u − v, w would let a sliver reach far beyond its short edge.
 typedef struct BlockAxes {
     Axis4 u, v, w, n;
     float4 t;
 } BlockAxes;
 
-/// A leaf, a row, and which of its lanes meet the box of the leaf.
+/// A leaf, a row of lanes, and one bit for each lane of the row that meets the box of the leaf.
 typedef struct LeafVisit {
     uint leaf, row, lanes;
 } LeafVisit;
 
-// Lanes of a row, at most, that are tested one after the other.
+// The maximum number of lanes of a row that are tested one after the other.
 #define FEW_LANES 8
 
 LANES_INLINE Axis4 minus4(Axis4 a, Axis4 b) {
@@ -32,13 +33,13 @@ LANES_INLINE Axis4 scale4(Axis4 a, float4 by) {
     const Axis4 axis = {a.x * by, a.y * by, a.z * by};
     return axis;
 }
-/// The greatest axis · d of all directions in the shaft.
-LANES_INLINE float4 greatest_in_shaft(Axis4 axis, const Shaft* shaft) {
+/// The maximum of axis · d over all directions d in the shaft.
+LANES_INLINE float4 max_in_shaft(Axis4 axis, const Shaft* shaft) {
     return axis.x * shaft->center.x + axis.y * shaft->center.y + axis.z * shaft->center.z +
            (fabs(axis.x) * shaft->extent.x + fabs(axis.y) * shaft->extent.y + fabs(axis.z) * shaft->extent.z);
 }
 
-/// Prepares a block's triangles.
+/// Computes the axes of a block's triangles for segments from `origin`.
 LANES_INLINE void prepare_block(BlockAxes* axes, float3 origin, const global TriangleBlock* block) {
     const Axis4 edge1 = load_axis(block->edge1[0]);
     const Axis4 edge2 = load_axis(block->edge2[0]);
@@ -60,14 +61,14 @@ LANES_INLINE uint triangles_in_shaft(const Shaft* shaft, const BlockAxes* axes) 
     const float4 slack = SHAFT_SLACK * ((fabs(u.x) + fabs(v.x) + fabs(n.x)) * shaft->reach.x +
                                         (fabs(u.y) + fabs(v.y) + fabs(n.y)) * shaft->reach.y +
                                         (fabs(u.z) + fabs(v.z) + fabs(n.z)) * shaft->reach.z);
-    const int4 may = (greatest_in_shaft(u, shaft) >= -slack) & (greatest_in_shaft(v, shaft) >= -slack) &
-                     (greatest_in_shaft(w, shaft) >= -slack) &
-                     (axes->t * (1.0f - SHAFT_SLACK) < greatest_in_shaft(n, shaft) + slack);
+    const int4 may = (max_in_shaft(u, shaft) >= -slack) & (max_in_shaft(v, shaft) >= -slack) &
+                     (max_in_shaft(w, shaft) >= -slack) &
+                     (axes->t * (1.0f - SHAFT_SLACK) < max_in_shaft(n, shaft) + slack);
     return lane_bits4(may);
 }
 
-// Fused, so that a lane gets the same bits whichever way it is tested. Where fma() would be a call, the
-// compiler is left to choose.
+// The operations are fused, so that a lane gets the same bits whichever way it is tested. Where fma() would
+// be a call, the compiler may choose.
 #if defined(FP_FAST_FMAF) || defined(__FMA__)
 #define FUSED(a, b, c) fma(a, b, c)
 #else
@@ -77,13 +78,14 @@ LANES_INLINE float16 dot16(float16 x, float16 y, float16 z, float16 dx, float16 
     return FUSED(z, dz, FUSED(x, dx, y * dy));
 }
 
-/// −1 where a segment hits, of axes and directions lane by lane.
+/// −1 in each lane whose segment hits a triangle. `det`, `u`, `v` and `w` are the products of its direction
+/// with the axes n, u, v and w.
 LANES_INLINE int16 hits(float16 det, float16 u, float16 v, float16 w, float16 t) {
     return (min16(min16(u, v), w) >= 0.0f) & (t > NEARLIGHT_SEGMENT_T_MIN * det) &
            (t < NEARLIGHT_SEGMENT_T_MAX * det);
 }
 
-/// Ends the segments of a visit that hit any of some triangles of a block.
+/// Ends the segments of a visit that hit one of the triangles of a block whose bits are set in `triangles`.
 LANES_INLINE void intersect_triangles(Segments* s, const BlockAxes* axes, uint triangles,
                                       const LeafVisit* visit) {
     const float16 dx = s->dx[visit->row], dy = s->dy[visit->row], dz = s->dz[visit->row];
@@ -110,7 +112,7 @@ LANES_INLINE float4 min4(float4 a, float4 b) {
     return a < b ? a : b;
 }
 
-/// Ends the segments of a visit of few lanes that hit any triangle of a block.
+/// Ends the segments that hit any triangle of a block, for a visit with few lanes.
 LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVisit* visit) {
     uint hit_lanes = 0;
     for (uint lanes = visit->lanes; lanes != 0; lanes &= lanes - 1) {
@@ -128,7 +130,7 @@ LANES_INLINE void intersect_few(Segments* s, const BlockAxes* axes, const LeafVi
     end_lanes(s, visit->row, hit_lanes);
 }
 
-/// Ends the segments of some visits to one leaf that hit a triangle of it.
+/// Ends the segments that hit a triangle of a leaf. All of the `count` visits are to that leaf.
 LANES_INLINE void intersect_leaf(Segments* s, const global TriangleBlock* blocks, const LeafVisit* visits,
                                  uint count) {
     LeafVisit dense[GATHER_ROWS + 1];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The receivers of a work-item: loaded once, put in order so that neighbours form clusters, and bounded.
+// The receivers of a beam: loaded once, put in order so that neighbours form clusters, and bounded by boxes.
 #ifndef NEARLIGHT_LIB_BEAM_RECEIVERS
 #define NEARLIGHT_LIB_BEAM_RECEIVERS
 
 #include "lib/bundle.cl"
 #include "lib/lanes.cl"
 
-// Receivers that go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They form 16
-// clusters, each of neighbouring lanes of one row.
+// GATHER_BEAM_WIDTH receivers go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They
+// form 16 clusters, each of neighbouring lanes of one row.
 #define BUNDLE_SIZE (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
 #ifndef GATHER_BEAM_WIDTH
 #define GATHER_BEAM_WIDTH BUNDLE_SIZE
@@ -20,18 +20,19 @@
 typedef struct Receivers {
     float16 x[GATHER_ROWS], y[GATHER_ROWS], z[GATHER_ROWS];
     float16 nx[GATHER_ROWS], ny[GATHER_ROWS], nz[GATHER_ROWS];
-    float16 threshold[GATHER_ROWS];  // squares of light below it are left out; see load_thresholds()
-    uchar order[GATHER_BEAM_WIDTH];  // which receiver, counted from the work-item's first, a lane has
+    float16 threshold[GATHER_ROWS];  // for squared light, which is left out below it; see load_thresholds()
+    uchar order[GATHER_BEAM_WIDTH];  // receiver of each lane, counted from the first of the beam
 } Receivers;
 
-/// Boxes around receivers: of all that are there, and of each cluster in a lane of its own (x, y, z).
+/// The box around all receivers that are present, and the box around each cluster in a lane of its own (x, y,
+/// z).
 typedef struct BeamBounds {
     float3 low, high;
     float16 cluster_low[3], cluster_high[3];
 } BeamBounds;
 
-/// Positions by lane; +∞ where a receiver is absent or not finite: it is culled, and must not widen any
-/// bounds.
+/// The positions of the receivers, lane by lane. They are +∞ where a receiver is absent or not finite,
+/// because such a receiver is culled and must not widen any bounds.
 typedef struct Places {
     float at[3][GATHER_BEAM_WIDTH];
 } Places;
@@ -68,7 +69,7 @@ inline void place_receivers(Places* places, const Receivers* receivers) {
     }
 }
 
-/// The box of `count` places; inverted where none is there.
+/// The box of `count` places. Where no receiver is present, it is inverted: low is +∞ and high is −∞.
 inline void bound_places(const Places* places, const uchar* order, uint count, float3* low, float3* high) {
     *low = (float3)INFINITY;
     *high = (float3)-INFINITY;
@@ -79,7 +80,7 @@ inline void bound_places(const Places* places, const uchar* order, uint count, f
     }
 }
 
-/// Puts `order` into ascending order of `key`, as far as ORDER_BINS equal steps from `low` to `high` tell.
+/// Sorts `order` by ascending `key`, to the precision of ORDER_BINS equal steps from `low` to `high`.
 #define ORDER_BINS 64
 inline void order_by(const float* key, float low, float high, uchar* order, uint count) {
     ushort ends[ORDER_BINS + 1];
@@ -107,8 +108,8 @@ inline float component(float3 v, uint axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// Finds clusters: four slices along the longest side of the box, each cut in four along its own longest
-/// side.
+/// Puts `order` into the order of the clusters: four slices along the longest side of the box, each cut in
+/// four along its own longest side.
 inline void find_clusters(const Places* places, uchar* order) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         order[i] = (uchar)i;
@@ -134,7 +135,7 @@ inline void permute(float16* lanes, const uchar* order) {
     }
 }
 
-/// Loads receivers in the order of their clusters, with their bounds.
+/// Loads the receivers of a beam in the order of their clusters, and computes their bounds.
 inline void gather_receivers(Receivers* receivers, BeamBounds* bounds, const global ReceiverPacket* packets,
                              const Bundle* bundle, uint first) {
     Places places;
@@ -163,7 +164,8 @@ inline void gather_receivers(Receivers* receivers, BeamBounds* bounds, const glo
     permute(receivers->nz, receivers->order);
 }
 
-/// Fills in the thresholds of receivers that are in order, from one number for each receiver of all packets.
+/// Loads the thresholds of receivers that gather_receivers() has put in order. `thresholds` has one number
+/// for each receiver of all packets.
 inline void load_thresholds(Receivers* receivers, const global float* thresholds, const Bundle* bundle,
                             uint first) {
     float lanes[GATHER_BEAM_WIDTH];

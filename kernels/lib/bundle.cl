@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which packets of receivers go through the tree together, and with Russian roulette ask about the same VPLs.
-// host/base/receiver_bundles.h is the same on the host, and says why.
+// Which packets form a bundle: those that are gathered together and that, with Russian roulette, ask about
+// the same VPLs. host/base/receiver_bundles.h does the same on the host, and says why.
 #ifndef NEARLIGHT_LIB_BUNDLE
 #define NEARLIGHT_LIB_BUNDLE
 
 #include "shared/types.h"
 
-/// `count` packets that follow one another; 0: none.
+/// `count` packets that follow one another, from `first` on. The bundle is empty where `count` is 0.
 typedef struct Bundle {
     uint first, count;
 } Bundle;
 
-/// Bundle number `index` of packets that come in runs of `run_packets`; the last run may be incomplete.
+/// The bundle with the number `index`, of packets that come in runs of `run_packets`. The last run may be
+/// incomplete.
 inline Bundle bundle_at(uint index, uint packet_count, uint run_packets) {
     const uint run_bundles = (run_packets + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;
     const uint offset = index % run_bundles * NEARLIGHT_BUNDLE_PACKETS;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both gather kernels share.
 //
-// With GATHER_RECORD defined, the kernels also write one byte a (receiver, VPL) pair that says what became of
-// it, so that tests and benchmarks can compare hit by hit.
+// With GATHER_RECORD defined, the kernels also write one byte for each (receiver, VPL) pair that says what
+// became of it, so that tests and benchmarks can compare hit by hit.
 #ifndef NEARLIGHT_LIB_GATHER
 #define NEARLIGHT_LIB_GATHER
 
@@ -13,7 +13,8 @@
 #define GATHER_CHUNK 256  // VPLs that are summed before the sum is added to the irradiance
 #endif
 
-// Values of the record; 0: culled, because a cosine is not positive or the geometry term is not finite.
+// The values of the record. A pair that is culled has 0: a cosine is not positive, or the geometry term is
+// not finite.
 #define GATHER_RECORD_VISIBLE 1
 #define GATHER_RECORD_OCCLUDED 2
 #ifdef GATHER_RECORD
@@ -26,7 +27,8 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #endif
 
 // With GATHER_LISTS defined, each bundle of packets asks about a list of VPLs instead of all of them
-// (host/stages/vpl_selection.h). Below, `k` is a place in that list, or simply a VPL.
+// (host/stages/vpl_selection.h). The argument `k` of these macros is a place in that list, or without lists
+// the index of a VPL.
 #ifdef GATHER_LISTS
 #define GATHER_LIST_PARAMETERS \
     , const global uint *listed_vpls, const global float *list_weights, const global uint *list_lengths
@@ -44,36 +46,39 @@ inline size_t gather_list(uint bundle, const GatherParams* params) {
 #define GATHER_WEIGHT(bundle, params, k) 1.0f
 #endif
 
-/// VPLs that are summed by themselves.
+/// The number of VPLs that are summed by themselves: `group_size`, or GATHER_CHUNK where that is 0.
 inline uint gather_chunk_size(uint group_size) {
     return group_size != 0 ? group_size : GATHER_CHUNK;
 }
 
-/// As the gather sees an importon: types.h says why that may be.
+/// An importon as the gather reads it. The struct Importon in shared/types.h has the members of a Vpl in the
+/// same places.
 inline const global Vpl* as_source(const global Importon* importon) {
     return (const global Vpl*)importon;
 }
 
-/// Whether squares of the geometry term are summed, for which error a VPL would make rather than for light.
+/// Whether the gather sums squares of the geometry term, which tell the error that a VPL would leave, instead
+/// of light.
 inline bool gather_squared(const global Vpl* vpl) {
     return (vpl->flags & NEARLIGHT_IMPORTON_SQUARED) != 0;
 }
 
-/// Radiant intensity of the VPL along its normal, W/sr. A VPL whose power is not finite is left out.
+/// Radiant intensity of the VPL along its normal, W/sr, or 0 if its power is not finite, so that the VPL is
+/// left out.
 inline float3 gather_scale(const global Vpl* vpl) {
     const float3 power = load3(vpl->power);
     const bool finite = isfinite(power.x) && isfinite(power.y) && isfinite(power.z);
     return finite ? power * M_1_PI_F : (float3)0.0f;
 }
 
-/// What the square of a pair's geometry term counts: the square of the light that the pair stands for, R, G
-/// and B together, is the product of both. `scale` as of gather_scale().
+/// The factor from the square of a pair's geometry term to the square of the pair's light, R, G and B
+/// together. `scale` comes from gather_scale().
 inline float gather_square_scale(const global Vpl* vpl, float3 scale) {
     return gather_squared(vpl) ? scale.x + scale.y + scale.z : dot(scale, scale);
 }
 
-/// Squares of the geometry term without visibility, of 16 receivers of the packet; 0 where a cosine is not
-/// positive or the term is not finite.
+/// Squares of the geometry terms of the VPL and the 16 receivers of a row of the packet, without visibility.
+/// They are 0 where a cosine is not positive or the term is not finite.
 inline float16 squared_terms(const global Vpl* vpl, const global ReceiverPacket* packet, uint row,
                              float clamp_radius_squared) {
     const float3 origin = load3(vpl->position);

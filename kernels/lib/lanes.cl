@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of 4, 8 and 16 lanes: what OpenCL C leaves to drivers that do it badly.
+// Operations on vectors of 4, 8 and 16 lanes for which drivers compile OpenCL's own functions badly.
 #ifndef NEARLIGHT_LIB_LANES
 #define NEARLIGHT_LIB_LANES
 
@@ -14,7 +14,7 @@
 #define LANES_TRAILING_ZEROS
 #endif
 #endif
-// x86 with mask registers: a comparison's result is a number already.
+// On x86 with mask registers, the result of a comparison is already a number.
 #if defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define LANES_MASK_REGISTERS
 typedef int LanesInt4 __attribute__((__vector_size__(16)));
@@ -22,7 +22,7 @@ typedef int LanesInt8 __attribute__((__vector_size__(32)));
 typedef int LanesInt16 __attribute__((__vector_size__(64)));
 #endif
 
-// x86 without them: an instruction gathers the signs of floats.
+// On x86 without mask registers, one instruction collects the signs of floats.
 #if !defined(LANES_MASK_REGISTERS) && defined(__AVX__)
 #define LANES_SIGNS_OF_8
 typedef float LanesFloat8 __attribute__((__vector_size__(32)));
@@ -31,11 +31,11 @@ typedef float LanesFloat8 __attribute__((__vector_size__(32)));
 typedef float LanesFloat4 __attribute__((__vector_size__(16)));
 #endif
 
-/// For what inner loops call: left to itself the compiler makes calls of large functions, and every call
-/// spills.
+/// Marks functions that inner loops call. Left to itself, the compiler makes calls of large functions, and
+/// every call spills registers.
 #define LANES_INLINE inline __attribute__((always_inline))
 
-// The spelled-out comparisons compile to one instruction each; fmin() and fmax() have to look after NaN.
+// Each of these comparisons compiles to one instruction; fmin() and fmax() have to handle NaN.
 LANES_INLINE float16 min16(float16 a, float16 b) {
     return a < b ? a : b;
 }
@@ -49,7 +49,7 @@ LANES_INLINE float8 max8(float8 a, float8 b) {
     return a > b ? a : b;
 }
 
-/// All bits that are set in some lane.
+/// The bits that are set in any lane.
 LANES_INLINE uint any_bits8(int8 bits) {
 #if defined(LANES_REDUCE_OR)
     return (uint)__builtin_reduce_or(bits);
@@ -97,8 +97,8 @@ LANES_INLINE int16 lanes_of(uint bits) {
     return ((int16)(int)bits & lane) != 0;
 }
 
-/// Where the lowest bit is; there must be one. (OpenCL has ctz() from 2.0 on; clz() takes three instructions,
-/// and what is loaded next waits for them.)
+/// The index of the lowest bit that is set in `bits`, which must not be 0. OpenCL has ctz() only from version
+/// 2.0 on, and clz() takes three instructions, for which the next load has to wait.
 LANES_INLINE uint lowest_bit(uint bits) {
 #ifdef LANES_TRAILING_ZEROS
     return (uint)__builtin_ctz(bits);
@@ -112,7 +112,7 @@ LANES_INLINE float16 reciprocal16(float16 d) {
     return 1.0f / (fabs(d) < tiny ? copysign(tiny, d) : d);
 }
 
-/// Asks for the first four cache lines of what lies at `at`.
+/// Prefetches the four cache lines from `at` on.
 LANES_INLINE void prefetch_lines(const global void* at) {
 #ifdef LANES_PREFETCH
     __builtin_prefetch(at);

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// A packet of shadow rays from one VPL.
+// The shadow rays of a beam, which come from one VPL.
 #ifndef NEARLIGHT_LIB_SEGMENTS
 #define NEARLIGHT_LIB_SEGMENTS
 
 #include "lib/shaft.cl"
 
-/// Segments from one VPL to receivers; the points on them are origin + t·(dx, dy, dz).
+/// The segments from one VPL to the receivers of a beam. The points on them are origin + t·(dx, dy, dz).
 typedef struct Segments {
     float16 dx[GATHER_ROWS], dy[GATHER_ROWS], dz[GATHER_ROWS];
     float16 reciprocal_x[GATHER_ROWS], reciprocal_y[GATHER_ROWS], reciprocal_z[GATHER_ROWS];
-    float16 weight[GATHER_ROWS];  // what has no open lane is not set
+    float16 weight[GATHER_ROWS];  // geometry terms; undefined in rows without an open lane
     float3 origin;
-    uint lanes[GATHER_ROWS];  // of each row those neither culled nor occluded, a bit each
+    uint lanes[GATHER_ROWS];  // one bit for each lane of a row that is neither culled nor occluded
     uint open;                // one bit for each cluster that has a lane neither culled nor occluded
     Shaft shaft;
     ClusterShafts clusters;
 } Segments;
 
-/// The row that the first of some clusters belongs to, and all clusters of a row.
+/// The row that the first of some clusters belongs to. `clusters` has a bit for each and must not be 0.
 LANES_INLINE uint first_row(uint clusters) {
     return lowest_bit(clusters) / ROW_CLUSTERS;
 }
+/// One bit for each cluster of a row.
 LANES_INLINE uint clusters_of_row(uint row) {
     return ((1u << ROW_CLUSTERS) - 1) << ROW_CLUSTERS * row;
 }
 
-/// The clusters that some lanes of a row belong to.
+/// One bit for each cluster of a row that has one of the given lanes.
 LANES_INLINE uint clusters_of_lanes(uint row, uint lanes) {
     uint clusters = 0;
     for (uint i = 0; i < ROW_CLUSTERS; ++i) {
@@ -35,18 +36,19 @@ LANES_INLINE uint clusters_of_lanes(uint row, uint lanes) {
     return clusters << ROW_CLUSTERS * row;
 }
 
-/// Sets which of a row's segments are left.
+/// Sets which segments of a row are open: those whose bits are set in `lanes`.
 LANES_INLINE void set_lanes(Segments* s, uint row, uint lanes) {
     s->lanes[row] = lanes;
     s->open = (s->open & ~clusters_of_row(row)) | clusters_of_lanes(row, lanes);
 }
 
-/// Ends some of a row's segments. Cheap enough to be called for none, which no branch could predict.
+/// Ends the segments of a row whose bits are set in `lanes`. It is called even where no bit is set, because a
+/// branch around it could not be predicted.
 LANES_INLINE void end_lanes(Segments* s, uint row, uint lanes) {
     set_lanes(s, row, s->lanes[row] & ~lanes);
 }
 
-/// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry term.
+/// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry terms.
 inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receivers,
                     float clamp_radius_squared) {
     s->origin = load3(vpl->position);
@@ -59,14 +61,14 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
         const float16 cos_vpl = vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz;
         const float16 cos_receiver =
             -(receivers->nx[row] * dx + receivers->ny[row] * dy + receivers->nz[row] * dz);
-        // Half of the rows in a room face away: they need no division.
+        // In a room, half of the rows face away from a VPL and need no division.
         const int16 facing = (cos_vpl > 0.0f) & (cos_receiver > 0.0f);
         if (lane_bits16(facing) == 0) {
             s->lanes[row] = 0;
             continue;
         }
         const float16 r2 = dx * dx + dy * dy + dz * dz;
-        // Both cosines still carry a factor r.
+        // Each of the cosines still carries a factor r.
         const float16 weight = cos_vpl * cos_receiver / (r2 * max16(r2, (float16)clamp_radius_squared));
         const int16 open = facing & (weight < INFINITY);
         s->dx[row] = dx;
@@ -89,8 +91,8 @@ inline void leave_out_small(Segments* s, const Receivers* receivers, float squar
     }
 }
 
-/// One bit for each lane of a row whose segment meets the box. Whoever meets a box meets all that hold it,
-/// bit by bit: rounding keeps the order of numbers.
+/// One bit for each open lane of a row whose segment meets the box. A segment that meets a box also meets
+/// every box that contains it, even in rounded arithmetic, because rounding keeps the order of numbers.
 LANES_INLINE uint lanes_in_box(const Segments* s, uint row, const Planes* p) {
     const float16 x0 = p->x0 * s->reciprocal_x[row], x1 = p->x1 * s->reciprocal_x[row];
     const float16 y0 = p->y0 * s->reciprocal_y[row], y1 = p->y1 * s->reciprocal_y[row];

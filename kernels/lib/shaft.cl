@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shafts from a VPL to boxes around receivers, which hold all their segments: one of the whole packet, for
-// the eight children of a node at once, and one of each cluster, for one child and all clusters at once.
+// Shafts from a VPL to boxes around receivers. A shaft contains all segments to the receivers in its box. The
+// shaft of the whole beam is tested with the eight children of a node at once, and one child with the shafts
+// of all clusters at once.
 #ifndef NEARLIGHT_LIB_SHAFT
 #define NEARLIGHT_LIB_SHAFT
 
@@ -8,37 +9,40 @@
 #include "lib/ray.cl"
 #include "lib/wide_tree.cl"
 
-/// Bounds keep so far outside of what they bound, relatively: several roundings.
+/// The relative margin by which bounds lie outside of what they bound. It covers several roundings.
 #define SHAFT_SLACK 4e-7f
 
-/// What holds all segments of a packet: at fraction t of its way each is within t·[low, high] of the origin.
+/// The volume that contains all segments of a beam: at the fraction t of its length, each segment lies within
+/// t·[low, high], relative to the origin.
 typedef struct Shaft {
-    float3 center, extent;        // of [low, high], the extent with slack
+    float3 center, extent;        // of [low, high]; the extent is half its size, with slack
     float3 reach;                 // the greater of |low| and |high|
     float by_low[3], by_high[3];  // reciprocals of low and high
     uint straddles;               // 1: low and high differ in sign along some axis
-    uint near[3];                 // plane of a box taken for the nearer: 0 the lower, WIDE_UPPER the upper
-    float by_near[3], by_far[3];  // unless it straddles: what near and far planes are divided by, reciprocal
+    uint near[3];                 // nearer plane of a box: 0 for the lower, WIDE_UPPER for the upper
+    float by_near[3], by_far[3];  // unless it straddles: t = plane · factor, for near and far planes
 } Shaft;
 
-/// The same of each cluster, in its lane. Near is lower where the packet straddles.
+/// The shafts of all clusters, one in each lane. Where the beam straddles, the lower plane counts as the near
+/// one.
 typedef struct ClusterShafts {
     float16 by_near[3], by_far[3];
-    float16
-        endless[3];  // where the packet straddles: FLT_MAX if the cluster does along that axis, else −FLT_MAX
+    // Where the beam straddles: FLT_MAX if the cluster straddles along that axis, else −FLT_MAX.
+    float16 endless[3];
 } ClusterShafts;
 
-/// Planes of the children of a node, the near one of each axis first, relative to the origin of the segments.
+/// The planes of a node's eight children, the near one of each axis first, relative to the origin of the
+/// segments.
 typedef struct ChildPlanes {
     float8 at[6];
 } ChildPlanes;
 
-/// Planes of a box, with the near one of each axis first, relative to the origin of the segments.
+/// The planes of a box, the near one of each axis first, relative to the origin of the segments.
 typedef struct Planes {
     float x0, x1, y0, y1, z0, z1;
 } Planes;
 
-/// What holds the segments from `origin` to everything within the bounds.
+/// Makes the shaft that contains all segments from `origin` to points within the bounds.
 inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bounds) {
     const float3 low = bounds->low - origin;
     const float3 high = bounds->high - origin;
@@ -78,9 +82,9 @@ inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, flo
     }
 }
 
-/// −1 in the lanes of children that the shaft may meet: those for which some t has t·high above the lower
-/// plane and t·low below the upper one, on each axis. What this rejects, every segment misses. `relative`
-/// gets the planes.
+/// −1 in the lanes of children that the shaft may meet: those for which there is a t such that, on each axis,
+/// t·high is above the lower plane and t·low below the upper one. Every segment misses a child that this
+/// rejects. `relative` gets the planes of the children.
 LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const global WideNode* node,
                                     ChildPlanes* relative) {
     const float origin[3] = {from.x, from.y, from.z};
@@ -113,7 +117,8 @@ LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const globa
     return enter <= leave;
 }
 
-/// The same for the shaft of one cluster.
+/// −1 in the lanes of children that the shaft of one cluster may meet. Every segment of the cluster misses a
+/// child that this rejects. `relative` gets the planes of the children.
 LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft* shaft, uint cluster,
                                       float3 from, const global WideNode* node, ChildPlanes* relative) {
     const float origin[3] = {from.x, from.y, from.z};
@@ -141,7 +146,7 @@ LANES_INLINE int8 children_in_cluster(const ClusterShafts* clusters, const Shaft
         enter = max8(enter, max8(low, min8(high, (float8)endless)));
         leave = min8(leave, max8(high, (float8)endless));
     }
-    // Minima and maxima make a box of what has no child.
+    // The minima and maxima turn the planes of a missing child into a box.
     return (enter <= leave * (1.0f + SHAFT_SLACK)) & (vload8(0, node->low[0]) < INFINITY);
 }
 
@@ -163,7 +168,7 @@ LANES_INLINE uint clusters_in_box(const ClusterShafts* c, bool straddles, const 
         const float16 enter = max16(max16(x0, y0), max16(z0, t_min));
         return lane_bits16(enter <= slack * min16(min16(x1, y1), min16(z1, t_max)));
     }
-    // Along an axis where a cluster straddles, both planes only bound t from below.
+    // Along an axis where a cluster straddles, both planes bound t from below only.
     const float16 low_x = min16(x0, x1), low_y = min16(y0, y1), low_z = min16(z0, z1);
     const float16 high_x = max16(x0, x1), high_y = max16(y0, y1), high_z = max16(z0, z1);
     const float16 enter = max16(max16(max16(low_x, min16(high_x, c->endless[0])),  //

@@ -43,16 +43,17 @@
 #define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes) \
     +NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels)
 
-/// Channels of a finished picture.
+/// The number of channels of a finished picture.
 #define NEARLIGHT_LAYER_CHANNELS (0 NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_SIZE))
-/// Floats a pixel while samples are added.
+/// The number of floats in which a pixel adds up its samples.
 #define NEARLIGHT_FILM_CHANNELS (0 NEARLIGHT_FILM_LAYERS(NEARLIGHT_SUM_SIZE))
 
 #ifdef __cplusplus
 namespace nearlight::core {
 #endif
 
-// Each row names its first and its last channel, so that the first one of the next row follows.
+// Each row names its first and its last channel, so that the enumerator after them is the first channel of
+// the next row.
 #define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes) \
     NEARLIGHT_LAYER_##constant,                                          \
         NEARLIGHT_LAYER_##constant##_LAST = NEARLIGHT_LAYER_##constant + NEARLIGHT_CHANNELS_##channels - 1,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structs that host and kernels share, compiled by both: this is the only place where they stand.
-// Rules: no float3 (16 bytes that read as 12), bool, size_t, pointers, bit-fields or enums inside structs;
-// every struct is a multiple of 16 bytes. A `layout_probe` kernel and a test compare sizes and offsets on
-// every device.
+// The structs that host and kernels share. Both compile this file, so that each struct is defined only once.
+// Rules: structs have no float3 (16 bytes that read as 12), bool, size_t, pointers, bit-fields or enums, and
+// every size is a multiple of 16 bytes. A `layout_probe` kernel and a test compare sizes and offsets on every
+// device.
 #ifndef NEARLIGHT_SHARED_TYPES_H
 #define NEARLIGHT_SHARED_TYPES_H
 
@@ -17,23 +17,24 @@ using uint = std::uint32_t;
 #define NEARLIGHT_SHARED_FUNCTION inline
 #endif
 
-/// Three packed floats. Points and vectors in metres of the scene's world space, or linear sRGB colours.
+/// Three packed floats: a point or a vector in world space, in metres, or a linear sRGB colour.
 typedef struct Vec3 {
     float x, y, z;
 } Vec3;
 
-/// A child reference of a BvhNode: bit 31 clear, the index of an inner node; bit 31 set, a leaf, with
-/// triangle count − 1 in bits 27 to 30 and the first index into the BvhTriangle array in bits 0 to 26.
+/// A child reference of a BvhNode. If bit 31 is clear, it is the index of an inner node. If bit 31 is set, it
+/// is a leaf, with the triangle count − 1 in bits 27 to 30 and the first index into the BvhTriangle array in
+/// bits 0 to 26.
 #define NEARLIGHT_LEAF_BIT 0x80000000u
 #define NEARLIGHT_LEAF_COUNT_SHIFT 27
 #define NEARLIGHT_LEAF_COUNT_MASK 15u
 #define NEARLIGHT_LEAF_FIRST_MASK 0x07ffffffu
 #define NEARLIGHT_LEAF_MAX_TRIANGLES 16
-/// The builder keeps the tree at most this deep, so a traversal stack of this many entries never overflows.
+/// The maximum depth that the builder gives a tree. A traversal stack of this many entries never overflows.
 #define NEARLIGHT_MAX_BVH_DEPTH 60
 
 /// A binary node that holds the boxes of both its children. Node 0 is the root. A child that does not exist
-/// (a scene of one leaf) has an empty box far away and refers to the leaf of the other child.
+/// (in a scene of one leaf) has an empty box far away and refers to the leaf of the other child.
 typedef struct BvhNode {
     Vec3 left_min;
     uint left;
@@ -45,7 +46,8 @@ typedef struct BvhNode {
     uint pad1;
 } BvhNode;
 
-/// A triangle in the order of the leaves. normal = edge1 × edge2, not normalised; its side is the front.
+/// A triangle in the order of the leaves. Its normal is edge1 × edge2, not normalised, and points to the
+/// front.
 typedef struct BvhTriangle {
     Vec3 v0;
     Vec3 edge1;  // v1 − v0
@@ -53,10 +55,10 @@ typedef struct BvhTriangle {
     Vec3 normal;
 } BvhTriangle;
 
-/// A node of the wide tree, which packets of rays go through, and on CPUs single rays too: the boxes of eight
-/// children, plane by plane (x, y, z), so that a vector register holds one plane of all. Node 0 is the root.
-/// A child reference is that of a BvhNode, but a leaf counts and names TriangleBlocks. Where there is no
-/// child, low is +∞ and high −∞.
+/// A node of the wide tree, which beams go through, and on CPUs single rays too. It holds the boxes of eight
+/// children, plane by plane (x, y, z), so that a vector register holds one plane of all of them. Node 0 is
+/// the root. A child reference is that of a BvhNode, except that a leaf counts and names TriangleBlocks.
+/// Where there is no child, low is +∞ and high is −∞.
 #define NEARLIGHT_WIDE_CHILDREN 8
 typedef struct WideNode {
     float low[3][NEARLIGHT_WIDE_CHILDREN];
@@ -64,8 +66,8 @@ typedef struct WideNode {
     uint child[NEARLIGHT_WIDE_CHILDREN];
 } WideNode;
 
-/// Up to four triangles of a leaf, component by component; those that are missing are all zero, which nothing
-/// hits.
+/// Up to four triangles of a leaf, component by component. Missing triangles are all zero, and nothing hits
+/// them.
 #define NEARLIGHT_BLOCK_TRIANGLES 4
 typedef struct TriangleBlock {
     float v0[3][NEARLIGHT_BLOCK_TRIANGLES];
@@ -73,7 +75,8 @@ typedef struct TriangleBlock {
     float edge2[3][NEARLIGHT_BLOCK_TRIANGLES];  // v2 − v0
 } TriangleBlock;
 
-/// A ray to be cast: hits count with t strictly inside (t_min, t_max), in units of the direction's length.
+/// A ray to be cast. A hit counts if its t lies strictly inside (t_min, t_max), in units of the direction's
+/// length.
 typedef struct RayQuery {
     Vec3 origin;
     float t_min;
@@ -89,15 +92,16 @@ typedef struct RayHit {
     uint slot;  // index into the BvhTriangle array, or 4 · block + column of the wide tree; ~0u: nothing hit
 } RayHit;
 
-/// A vertex. A zero normal means: use the triangle's own.
+/// A vertex of the scene's triangles. Where its normal is zero, the triangle's own is used.
 typedef struct Vertex {
     Vec3 position;
     float u;
     Vec3 normal;
-    float v;  // 0 at the bottom row of the texture, as OBJ has it
+    float v;  // 0 at the bottom row of the texture, as in OBJ files
 } Vertex;
 
-/// Indices into the vertex array, counter-clockwise seen from the front, and the material.
+/// A triangle of the scene: indices into the vertex array, counter-clockwise as seen from the front, and the
+/// index of its material.
 typedef struct Triangle {
     uint v0, v1, v2;
     uint material;
@@ -111,14 +115,14 @@ typedef struct Triangle {
 #define NEARLIGHT_LOBE_DIELECTRIC 3u       // solid glass, no base
 #define NEARLIGHT_LOBE_THIN_DIELECTRIC 4u  // a pane of glass, no base
 
-#define NEARLIGHT_MATERIAL_TWO_SIDED 1u  // without it the back reflects nothing
+#define NEARLIGHT_MATERIAL_TWO_SIDED 1u  // without this flag the back reflects nothing
 
-/// Reflectance t = base × texture. The camera sees a Lambertian albedo t·base_scale / (1 − base_saturation·t)
-/// (times 1 − Fresnel under a coat), light transport sees t·light_scale / (1 − base_saturation·t) +
-/// light_offset.
+/// A material with the reflectance t = base × texture. The camera sees the Lambertian albedo t·base_scale /
+/// (1 − base_saturation·t), times 1 − Fresnel under a coat. Light transport sees t·light_scale / (1 −
+/// base_saturation·t) + light_offset.
 typedef struct Material {
     Vec3 base;
-    int base_texture;  // index, or −1
+    int base_texture;  // index of the texture, or −1
     Vec3 specular;     // tint of the lobe's reflection
     float roughness;   // GGX alpha of the lobe; 0 is smooth
     Vec3 eta;          // conductor: real index; otherwise x is interior ÷ exterior index
@@ -136,11 +140,11 @@ typedef struct Material {
 #define NEARLIGHT_TEXTURE_BITMAP 0u
 #define NEARLIGHT_TEXTURE_CHECKERBOARD 1u
 
-/// Looked up at (u, v)' = uv_to_st · (u, v, 1). Bitmaps are sRGB-encoded RGBA8 in one shared pool, top row
-/// first, repeated and filtered bilinearly.
+/// A texture, looked up at the point (s, t) that its members give for (u, v). Bitmaps are sRGB-encoded RGBA8
+/// in one shared pool, top row first, repeated and filtered bilinearly.
 typedef struct Texture {
     uint kind;
-    uint first_texel;  // into the pool
+    uint first_texel;  // index into the pool
     uint width, height;
     float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
     float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
@@ -155,8 +159,8 @@ typedef struct Texture {
 #define NEARLIGHT_EMITTER_TRIANGLE 2u
 #define NEARLIGHT_EMITTER_ENVIRONMENT 3u
 
-/// One entry of the flat table of lights: point and spot lights first, then each emissive triangle, then the
-/// environment. Selected with probability `probability`, in proportion to emitted power.
+/// One entry of the table of lights, which lists point and spot lights first, then each emissive triangle,
+/// then the environment. An entry is chosen with `probability`, in proportion to its emitted power.
 typedef struct Emitter {
     Vec3 position;  // point and spot
     uint type;
@@ -167,22 +171,22 @@ typedef struct Emitter {
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
-    float cutoff_angle;  // spot: none beyond it; linear in the angle between
+    float cutoff_angle;  // spot: no light beyond this angle, radians; linear between the two
 } Emitter;
 
-/// A latitude-longitude environment: pixel rows from +Y (top) to −Y, in the local frame of the light;
-/// a constant one has a single pixel. Its pixels are float4 (RGB radiance), importance sampled through
-/// tables of row and column distribution.
+/// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
+/// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
+/// sampled through tables of the row and column distributions.
 typedef struct Environment {
-    float world_to_local[9];  // rows
+    float world_to_local[9];  // rotation matrix, row by row
     uint width, height;       // 0 × 0: no environment
-    float scene_radius;       // of the sphere around the scene, m
+    float scene_radius;       // radius of the sphere around the scene, m
     Vec3 scene_center;
     float pad0;
 } Environment;
 
-/// Pinhole camera. The ray through film position (x, y), in pixels from the top left corner, has direction
-/// corner + x·step_x + y·step_y (not normalised), starting at `origin`.
+/// A pinhole camera. The ray through the film position (x, y), in pixels from the top left corner, starts at
+/// `origin` in the direction corner + x·step_x + y·step_y (not normalised).
 typedef struct PinholeCamera {
     Vec3 origin;
     uint width;
@@ -194,11 +198,12 @@ typedef struct PinholeCamera {
     float pad1;
 } PinholeCamera;
 
-/// A virtual point light: sends reflected flux `power` (W, albedo applied) into the hemisphere of `normal`
-/// with radiant intensity power/π · cosθ. The position stands off its surface by the ray epsilon.
+/// A virtual point light. It sends the reflected flux `power` (W, albedo applied) into the hemisphere of
+/// `normal`, with the radiant intensity power/π · cosθ. The position stands off its surface by the ray
+/// epsilon.
 typedef struct Vpl {
     Vec3 position;
-    uint depth;  // 1: lit by an emitter directly, 2: after one more bounce, …; 0: by light of all depths
+    uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;
@@ -223,18 +228,18 @@ typedef struct Importon {
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {
     Vec3 position;
-    uint triangle;  // in the scene's triangle array
-    Vec3 normal;    // unit, of the front
+    uint triangle;  // index into the scene's triangle array
+    Vec3 normal;    // unit vector on the front
     float u;        // texture coordinates
     float v;
     float pad0, pad1, pad2;
 } SurfaceSample;
 
-/// Receivers travel in packets of 64 (a tile of pixels, or 64 neighbours on a curve), component by component,
-/// so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The position
-/// stands off its surface by the ray epsilon.
+/// Receivers are stored in packets of 64 (those of a tile of pixels, or 64 neighbours on a curve), component
+/// by component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
+/// position stands off its surface by the ray epsilon.
 #define NEARLIGHT_PACKET_SIZE 64
-#define NEARLIGHT_BUNDLE_PACKETS 4  // that go through the tree together (lib/bundle.cl)
+#define NEARLIGHT_BUNDLE_PACKETS 4  // max packets of a bundle (lib/bundle.cl)
 typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
@@ -263,36 +268,37 @@ typedef struct ImportancePacket {
 /// One launch of a gather (gather_packets.cl, gather_rays.cl): which receivers ask about which VPLs or
 /// importons, and what is summed.
 typedef struct GatherParams {
-    uint first_vpl, end_vpl;        // of the set, or of each bundle's list
-    uint packet_count;              // of receivers
-    uint run_packets;               // of which bundles are formed together (lib/bundle.cl)
-    uint first_bundle, end_bundle;  // of this launch
-    float clamp_radius_squared;     // m²
+    uint first_vpl, end_vpl;        // range of VPLs in the set, or in each bundle's list
+    uint packet_count;              // packets of receivers
+    uint run_packets;               // packets of a run, from which bundles are formed (lib/bundle.cl)
+    uint first_bundle, end_bundle;  // range of bundles of this launch
+    float clamp_radius_squared;     // square of the clamp radius, m²
     uint group_size;                // VPLs that are summed by themselves; 0: all VPLs make one sum
     uint has_thresholds;            // 1: pairs below the threshold of their receiver are left out
-    uint first_listed_bundle;       // that has a list, where bundles have lists of VPLs
+    uint first_listed_bundle;       // first bundle with a list, where bundles have lists of VPLs
     uint list_stride;               // entries from one bundle's list to the next
-    uint recorded_vpls;             // VPLs of a packet in the record, where there is one
+    uint recorded_vpls;             // VPLs for each packet of the record, where there is one
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
-/// stand off their surfaces already; the margins only keep rounding at the ends from counting as hits.
+/// stand off their surfaces already, and the margins only keep rounding at the ends from counting as hits.
 #define NEARLIGHT_SEGMENT_T_MIN 1e-5f
 #define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-5f)
 
-/// What a camera sample found at the end of its way through glass and mirrors, one per receiver.
+/// What a camera sample finds at the end of its path through glass and mirrors. There is one for each
+/// receiver.
 typedef struct CameraVertex {
     Vec3 throughput;  // weight of light leaving the first diffuse surface towards the camera
-    float depth;      // distance from the camera to the first surface seen, m; 0: none
-    Vec3 albedo;      // Lambertian, at the first diffuse surface
+    float depth;      // distance from the camera to the first surface seen, m; 0: no surface
+    Vec3 albedo;      // Lambertian albedo of the first diffuse surface
     uint flags;
     Vec3 emitted;  // radiance of lights and environment seen on the way
     float pad0;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
 
-/// The close range: in the view frustum (five planes through or at the camera, inside where
-/// dot(plane.xyz, p) + w ≥ 0) and nearer to the camera than `range`.
+/// The close range: the points inside the view frustum and nearer to the camera than `range`. A point p is
+/// inside where dot(plane.xyz, p) + w ≥ 0 for each of the five planes, which go through or lie at the camera.
 typedef struct CloseRange {
     float planes[5][4];
     Vec3 origin;
