@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the binary tree by one ray: any hit and closest hit.
 //
-// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so it cannot overflow. NaN in a ray makes
-// every comparison false, so it hits nothing.
+// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so the stack cannot overflow. A ray with NaN
+// hits nothing, because NaN makes every comparison false.
 #ifndef NEARLIGHT_LIB_BVH_TRAVERSE
 #define NEARLIGHT_LIB_BVH_TRAVERSE
 
 #include "lib/ray.cl"
 
-/// Entry distance of the ray into the box, or infinity if it misses; t_max is finite, so the two differ.
+/// Entry distance of the ray into the box, or infinity if it misses. t_max must be finite, so that the two
+/// differ.
 inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min,
                        float t_max) {
     const float3 t0 = (load3(box_min) - origin) * reciprocal;
@@ -20,7 +21,8 @@ inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 recipro
     return t_near <= t_far ? t_near : INFINITY;
 }
 
-/// Möller–Trumbore without the division until something is hit. Both sides; t strictly inside (t_min, t_max).
+/// Möller–Trumbore test of both sides of a triangle, for t strictly inside (t_min, t_max). It divides only if
+/// the triangle is hit; otherwise it returns false and leaves `hit` as it is.
 inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, float3 direction, float t_min,
                          float t_max, RayHit* hit) {
     const float3 edge1 = load3(triangle->edge1);
@@ -90,7 +92,7 @@ inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* tria
     }
 }
 
-/// The closest hit strictly inside (t_min, t_max); slot ~0u if there is none.
+/// The closest hit strictly inside (t_min, t_max). Its slot is ~0u if nothing is hit.
 inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
                           float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};

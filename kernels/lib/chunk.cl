@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splitting an array into runs, one a work-item: long ones on CPUs, short ones on GPUs. The same arithmetic
-// as host/stages/chunks.h.
+// Splits an array into runs, one for each work-item: long ones on CPUs, short ones on GPUs.
+// host/stages/chunks.h has the same arithmetic.
 #ifndef NEARLIGHT_LIB_CHUNK
 #define NEARLIGHT_LIB_CHUNK
 
-/// First element of run `chunk`, and also the end of the one before; never beyond `count`.
+/// The first element of run `chunk`, which is also the end of the run before it. It is never beyond `count`.
 inline uint chunk_begin(uint chunk, uint chunk_size, uint count) {
     return (uint)min((ulong)chunk * chunk_size, (ulong)count);
 }

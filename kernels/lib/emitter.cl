@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights: choosing one, illuminating a point from it, sending a walk from it.
+// Lights: choosing one, lighting a point with it, and sending a walk from it.
 #ifndef NEARLIGHT_LIB_EMITTER
 #define NEARLIGHT_LIB_EMITTER
 
@@ -7,7 +7,7 @@
 #include "lib/sampling.cl"
 #include "lib/scene.cl"
 
-/// Smallest index with u < cdf[index]; the last one if rounding leaves u above all.
+/// The smallest index with u < cdf[index], or the last one if rounding leaves u above all entries.
 inline uint search_cdf(const global float* cdf, uint count, float u) {
     uint low = 0;
     uint high = count - 1;
@@ -22,7 +22,7 @@ inline uint search_cdf(const global float* cdf, uint count, float u) {
     return low;
 }
 
-/// The same over the emitter table.
+/// The first emitter of the table with u < cdf, or the last one if rounding leaves u above all entries.
 inline uint choose_emitter(const SceneView* scene, float u) {
     uint low = 0;
     uint high = scene->info->emitter_count - 1;
@@ -46,8 +46,8 @@ inline float3 rotate_to_world(const global float* m, float3 v) {
                     m[2] * v.x + m[5] * v.y + m[8] * v.z);
 }
 
-/// Column and row of the environment pixel that a world direction looks at; direction (sinφ·sinθ, cosθ,
-/// −cosφ·sinθ) in the light's frame has φ = 2π·column/width, θ = π·row/height.
+/// Column and row of the environment pixel that a world direction looks at. In the light's frame the
+/// direction is (sinφ·sinθ, cosθ, −cosφ·sinθ), with φ = 2π·column/width and θ = π·row/height.
 inline uint2 environment_pixel(const SceneView* scene, float3 direction) {
     const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
     const float u = atan2(d.x, -d.z) * (0.5f / M_PI_F);
@@ -66,8 +66,8 @@ inline float3 environment_radiance(const SceneView* scene, float3 direction) {
     return scene->environment_pixels[pixel.y * scene->environment->width + pixel.x].xyz;
 }
 
-/// Density (per steradian) with which sample_environment chooses directions inside a pixel. Inside a cell the
-/// cosine of the polar angle is uniform, so the density is constant there.
+/// Density (per steradian) with which sample_environment() chooses directions inside a pixel. The cosine of
+/// the polar angle is uniform inside a pixel, so the density is constant there.
 inline float environment_pixel_pdf(const SceneView* scene, uint2 pixel) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
@@ -79,7 +79,8 @@ inline float environment_pixel_pdf(const SceneView* scene, uint2 pixel) {
     return p_row * p_column * (float)width / (2.0f * M_PI_F * fmax(top - bottom, 1e-12f));
 }
 
-/// A direction in proportion to the table, with its density and radiance.
+/// A world direction, chosen by the tables. `pdf` gets its density (per steradian), and `radiance` what comes
+/// from there.
 inline float3 sample_environment(const SceneView* scene, float2 u, float* pdf, float3* radiance) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
@@ -133,7 +134,8 @@ inline float3 delta_irradiance(const SceneView* scene, const global Emitter* emi
     return intensity * (cosine / squared);
 }
 
-/// A corner-weighted point of the triangle `triangle_id` and its unit front normal.
+/// The point of the triangle `triangle_id` with the given weights of v1 and v2. `normal` gets the unit normal
+/// of its front.
 inline float3 triangle_point(const SceneView* scene, uint triangle_id, float2 barycentrics, float3* normal) {
     const Triangle triangle = scene->triangles[triangle_id];
     const float3 a = load3(scene->vertices[triangle.v0].position);
@@ -188,11 +190,13 @@ inline float3 environment_irradiance(const SceneView* scene, float3 x, float3 n,
     return radiance * (cosine / (0.5f * (cosine / M_PI_F + table_pdf)));
 }
 
-/// Point and spot lights up to this many are all asked; beyond it they are chosen by chance like the rest.
+/// Up to this many point and spot lights are all summed. If there are more, they are chosen by chance like
+/// the other lights.
 #define MAX_DELTA_LOOP 16u
 
-/// Irradiance at x (unit normal n, off its surface) from all lights. Point and spot lights are exact, the
-/// others estimated from `sample_count` samples, the sequence `seed` telling one receiver from another.
+/// Irradiance (W/m²) at x (unit normal n, off its surface) from all lights. Up to MAX_DELTA_LOOP point and
+/// spot lights are exact. The others are estimated from `sample_count` samples, for which `seed` tells one
+/// receiver from another.
 inline float3 direct_irradiance(const SceneView* scene, float3 x, float3 n, uint sample_count, uint seed) {
     const uint emitter_count = scene->info->emitter_count;
     const uint delta_count =
@@ -228,7 +232,7 @@ inline float3 direct_irradiance(const SceneView* scene, float3 x, float3 n, uint
 typedef struct EmittedParticle {
     float3 origin;
     float3 direction;
-    float3 flux;  // W, divided by the density it was chosen with
+    float3 flux;  // W, divided by the density with which the particle was chosen
 } EmittedParticle;
 
 inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position,
@@ -244,7 +248,8 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
         particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
         particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area * inverse_probability);
     } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-        // From a disk of the scene's size that faces the direction the light comes from.
+        // The particle starts on a disk of the scene's size that faces the direction from which the light
+        // comes.
         float pdf;
         float3 radiance;
         const float3 from = sample_environment(scene, u_direction, &pdf, &radiance);

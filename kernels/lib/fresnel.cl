@@ -3,8 +3,9 @@
 #ifndef NEARLIGHT_LIB_FRESNEL
 #define NEARLIGHT_LIB_FRESNEL
 
-/// At a smooth boundary between dielectrics; `eta` is the index on the far side ÷ that on the near side.
-/// Returns 1 under total reflection. `cos_far` gets the cosine on the far side.
+/// Reflectance at a smooth boundary between dielectrics. `eta` is the index on the far side ÷ that on the
+/// near side. `cos_far` gets the cosine on the far side. Under total reflection, the reflectance is 1 and
+/// `cos_far` 0.
 inline float fresnel_dielectric(float cos_near, float eta, float* cos_far) {
     const float sin2_far = (1.0f - cos_near * cos_near) / (eta * eta);
     if (sin2_far >= 1.0f) {
@@ -17,7 +18,8 @@ inline float fresnel_dielectric(float cos_near, float eta, float* cos_far) {
     return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// Of a metal with index eta + i·k, colour by colour. [Born & Wolf, Principles of Optics, §14.2]
+/// Reflectance of a metal with the index eta + i·k, colour by colour. [Born & Wolf, Principles of Optics,
+/// §14.2]
 inline float3 fresnel_conductor(float cosine, float3 eta, float3 k) {
     const float cos2 = cosine * cosine;
     const float sin2 = 1.0f - cos2;

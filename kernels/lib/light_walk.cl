@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a light walk, for stages that bring their own random numbers.
+// The steps of a walk, for stages that bring their own random numbers.
 #ifndef NEARLIGHT_LIB_LIGHT_WALK
 #define NEARLIGHT_LIB_LIGHT_WALK
 
@@ -7,8 +7,9 @@
 #include "lib/material.cl"
 #include "lib/vpl.cl"
 
-/// Follows the particle to where it lands: `hit` is what it met, its flux what is reflected there, its origin
-/// stands off the surface. False, with both undefined, if it meets nothing or a side that reflects nothing.
+/// Follows the particle to where it lands. `hit` gets what it met, its flux becomes what is reflected there,
+/// and its origin stands off the surface. Returns false, with both undefined, if the particle meets nothing
+/// or a side that reflects nothing.
 inline bool land(const SceneView* scene, EmittedParticle* particle, SurfaceHit* hit) {
     *hit = trace_opaque(scene, particle->origin, particle->direction, INFINITY);
     if (hit->t < 0.0f) {
@@ -23,13 +24,13 @@ inline bool land(const SceneView* scene, EmittedParticle* particle, SurfaceHit* 
     return true;
 }
 
-/// The VPL that a particle leaves where it landed.
+/// The deposit of a particle: the VPL that it leaves where it landed.
 inline Vpl make_deposit(const EmittedParticle* particle, const SurfaceHit* hit, uint depth, uint flags,
                         float3 power) {
     return make_vpl(particle->origin, hit->geometric, depth, flags, power);
 }
 
-/// Sends it on from there.
+/// Sends the particle on from where it landed, in a cosine-distributed direction.
 inline void scatter(EmittedParticle* particle, const SurfaceHit* hit, float2 u) {
     particle->direction = to_world_frame(square_to_cosine_hemisphere(u), hit->geometric);
 }

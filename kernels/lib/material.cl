@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures and the two albedos of a material, as host/scene/scene.h states them.
+// Textures and the two albedos of a material, as host/scene/scene.h defines them.
 #ifndef NEARLIGHT_LIB_MATERIAL
 #define NEARLIGHT_LIB_MATERIAL
 
@@ -27,7 +27,7 @@ inline float3 sample_texture(const SceneView* scene, uint index, float2 uv) {
         const bool t_low = t - floor(t) < 0.5f;
         return s_low == t_low ? load3(texture->color0) : load3(texture->color1);
     }
-    // Whole tiles are taken off first, so that far coordinates lose no precision; row 0 is the top.
+    // Whole repetitions are subtracted first, so that large coordinates lose no precision. Row 0 is the top.
     const float x = (s - floor(s)) * (float)texture->width - 0.5f;
     const float y = (1.0f - (t - floor(t))) * (float)texture->height - 0.5f;
     const int x0 = (int)floor(x);
@@ -45,19 +45,19 @@ inline float3 base_reflectance(const SceneView* scene, const global Material* ma
     return material->base_texture < 0 ? base : base * sample_texture(scene, (uint)material->base_texture, uv);
 }
 
-/// Lambertian reflectance that the camera sees, without the coat's Fresnel factor.
+/// The Lambertian reflectance that the camera sees, without the coat's Fresnel factor.
 inline float3 camera_albedo(const SceneView* scene, const global Material* material, float2 uv) {
     const float3 t = base_reflectance(scene, material, uv);
     return t * material->base_scale / (1.0f - material->base_saturation * t);
 }
 
-/// Reflectance that light transport sees.
+/// The reflectance that light transport sees.
 inline float3 light_albedo(const SceneView* scene, const global Material* material, float2 uv) {
     const float3 t = base_reflectance(scene, material, uv);
     return t * material->light_scale / (1.0f - material->base_saturation * t) + load3(material->light_offset);
 }
 
-/// True where the side that was met reflects at all.
+/// Whether the side that a ray met reflects anything; `front` is 0 for the back.
 inline bool reflects(const global Material* material, uint front) {
     return front || (material->flags & NEARLIGHT_MATERIAL_TWO_SIDED);
 }

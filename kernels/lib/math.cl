@@ -25,8 +25,8 @@ inline bool is_black(float3 c) {
     return !(max_component(c) > 0.0f);
 }
 
-/// How far a point must stand off its surface so that rays from it do not meet that surface again. The same
-/// formula as host/scene/ray_epsilon.h.
+/// How far a point must stand off its surface, in metres, so that rays from it do not meet that surface
+/// again. host/scene/ray_epsilon.h has the same formula.
 inline float ray_epsilon(float3 p, float extent) {
     return 2e-5f * fmax(max_component(fabs(p)), 0.05f * extent);
 }
@@ -52,7 +52,7 @@ inline float3 frame_to_world(const Frame* frame, float3 v) {
 inline float3 world_to_frame(const Frame* frame, float3 v) {
     return (float3)(dot(v, frame->tangent), dot(v, frame->bitangent), dot(v, frame->n));
 }
-/// Vector v, given in the frame about n, in world space.
+/// Converts a vector from the frame about n to world space.
 inline float3 to_world_frame(float3 v, float3 n) {
     const Frame frame = make_frame(n);
     return frame_to_world(&frame, v);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// 30-bit Morton codes: ten bits an axis, interleaved, x highest.
+// 30-bit Morton codes: ten bits for each axis, interleaved, with x highest.
 #ifndef NEARLIGHT_LIB_MORTON
 #define NEARLIGHT_LIB_MORTON
 
-#define NEARLIGHT_MORTON_CELLS 1024.0f  // along each axis
+#define NEARLIGHT_MORTON_CELLS 1024.0f  // cells along each axis
 
-/// Two zero bits before each of the low ten bits.
+/// The low ten bits of x, with two zero bits before each.
 inline uint spread_bits(uint x) {
     x = (x | (x << 16)) & 0x030000ffu;
     x = (x | (x << 8)) & 0x0300f00fu;
@@ -13,7 +13,8 @@ inline uint spread_bits(uint x) {
     return (x | (x << 2)) & 0x09249249u;
 }
 
-/// Coordinates outside [0, NEARLIGHT_MORTON_CELLS) count as the cell at that end; NaN as 0.
+/// The Morton code of a cell. Coordinates outside [0, NEARLIGHT_MORTON_CELLS) count as the cell at that end,
+/// and NaN counts as 0.
 inline uint morton_code(float3 cell) {
     const float last = NEARLIGHT_MORTON_CELLS - 1.0f;
     const uint x = (uint)fmin(fmax(cell.x, 0.0f), last);

@@ -10,7 +10,7 @@ typedef struct Polygon {
     uint count;  // 0: empty
 } Polygon;
 
-/// The part of the polygon where dot(normal, p) + offset ≥ 0. [Sutherland & Hodgman 1974]
+/// Keeps the part of the polygon where dot(normal, p) + offset ≥ 0. [Sutherland & Hodgman 1974]
 inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
     // Most triangles lie on one side of a plane.
     uint inside = 0;
@@ -42,8 +42,8 @@ inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
     *polygon = clipped;
 }
 
-/// Squared distance from the origin to the segment.
-inline float squared_distance_to_segment(float3 a, float3 b) {
+/// Squared distance from the origin to the edge from a to b.
+inline float squared_distance_to_edge(float3 a, float3 b) {
     const float3 edge = b - a;
     const float squared = dot(edge, edge);
     const float t = squared > 0.0f ? clamp(-dot(a, edge) / squared, 0.0f, 1.0f) : 0.0f;
@@ -51,8 +51,8 @@ inline float squared_distance_to_segment(float3 a, float3 b) {
     return dot(nearest, nearest);
 }
 
-/// Squared distance from the origin to the polygon, whose plane has the normal `normal` (any length; where it
-/// is zero, only the edges count); infinite if the polygon is empty.
+/// Squared distance from the origin to the polygon; infinite if the polygon is empty. `normal` is normal to
+/// its plane and may have any length. Where it is zero, only the edges count.
 inline float squared_distance_to_polygon(const Polygon* polygon, float3 normal) {
     float nearest = INFINITY;
     bool left_of_all = true;
@@ -60,7 +60,7 @@ inline float squared_distance_to_polygon(const Polygon* polygon, float3 normal) 
     for (uint i = 0; i < polygon->count; ++i) {
         const float3 a = polygon->vertices[i];
         const float3 b = polygon->vertices[i + 1 == polygon->count ? 0 : i + 1];
-        nearest = fmin(nearest, squared_distance_to_segment(a, b));
+        nearest = fmin(nearest, squared_distance_to_edge(a, b));
         const float side = dot(cross(a, b), normal);
         left_of_all = left_of_all && side >= 0.0f;
         right_of_all = right_of_all && side <= 0.0f;

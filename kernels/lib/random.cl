@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random and quasi-random numbers without state: a function of what they are for, so that no result depends
-// on the order in which work-items run.
+// Random and quasi-random numbers without state. Each is a function of what it is used for, so that no result
+// depends on the order in which work-items run.
 #ifndef NEARLIGHT_LIB_RANDOM
 #define NEARLIGHT_LIB_RANDOM
 
-/// Four independent words for a key. [Jarzynski & Olano, Hash Functions for GPU Rendering, JCGT 2020: pcg4d]
+/// Four independent random words for a key. [Jarzynski & Olano, Hash Functions for GPU Rendering, JCGT 2020:
+/// pcg4d]
 inline uint4 random_uint4(uint4 key) {
     uint4 v = key * 1664525u + 1013904223u;
     v.x += v.y * v.w;
@@ -19,7 +20,7 @@ inline uint4 random_uint4(uint4 key) {
     return v;
 }
 
-/// Uniform in [0, 1).
+/// The number in [0, 1) that random bits stand for.
 inline float to_unit_float(uint bits) {
     return (float)(bits >> 8) * 0x1p-24f;
 }
@@ -45,8 +46,8 @@ inline uint owen_scramble(uint x, uint seed) {
 }
 
 /// Second coordinate of the (0, 2)-sequence of Sobol' from the first, which is reverse_bits(index). Its
-/// matrix is Pascal's triangle modulo 2, where binomial (k, j) is odd if all bits of j are set in k: so each
-/// bit of a position is a step by itself.
+/// matrix is Pascal's triangle modulo 2, where the binomial (k, j) is odd if all bits of j are set in k. Each
+/// bit of a position is therefore a step of its own.
 inline uint sobol_second(uint first) {
     first ^= (first << 1) & 0xaaaaaaaau;
     first ^= (first << 2) & 0xccccccccu;
@@ -55,8 +56,8 @@ inline uint sobol_second(uint first) {
     return first ^ (first << 16);
 }
 
-/// Point `index` of a randomised (0, 2)-sequence. Different `dimension`s are independent of each other: the
-/// sequence is shuffled and scrambled anew for each, so that any number of them can be put side by side.
+/// Point `index` of a randomised (0, 2)-sequence. The sequence is shuffled and scrambled anew for each
+/// `dimension`, so that dimensions are independent and any number of them can be combined.
 inline float2 sample_2d(uint index, uint dimension, uint seed) {
     const uint4 keys = random_uint4((uint4)(dimension, seed, 0x9e3779b9u, 0x7f4a7c15u));
     const uint first = reverse_bits(owen_scramble(index, keys.x));

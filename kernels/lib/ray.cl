@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What traversals share. Directions are kept away from zero, so that slab tests meet no 0·∞.
+// What the traversals share. Components of directions are kept away from zero, so that slab tests meet no
+// 0·∞.
 #ifndef NEARLIGHT_LIB_RAY
 #define NEARLIGHT_LIB_RAY
 
@@ -12,8 +13,8 @@ inline float3 safe_reciprocal(float3 d) {
     return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
 }
 
-/// A ray with NaN or infinity in it (other than an infinite t_max) hits nothing; without this test it would
-/// visit every node, for fmin and fmax pass over NaN.
+/// Whether a ray is free of NaN and infinity, except that t_max may be infinite. A ray that is not hits
+/// nothing; without this test it would visit every node, because fmin and fmax ignore NaN.
 inline bool is_finite_ray(float3 origin, float3 direction, float t_max) {
     return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z) &&
            !isnan(t_max);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree that single rays go through: the wide one where NEARLIGHT_WIDE_RAYS is 1 (on CPUs, which have
-// vectors for a single ray), else the binary one. A *slot* names a triangle of it.
+// vectors for a single ray), else the binary one. A slot is the place of a triangle in it.
 #ifndef NEARLIGHT_LIB_RAY_TREE
 #define NEARLIGHT_LIB_RAY_TREE
 
 #include "lib/bvh_traverse.cl"
 #include "lib/wide_ray.cl"
 
-/// A triangle of the tree. normal = edge1 × edge2.
+/// A triangle of the tree. Its normal is edge1 × edge2, not normalised.
 typedef struct TreeTriangle {
     float3 v0, edge1, edge2, normal;
 } TreeTriangle;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the unit square to directions and triangles.
+// Maps from the unit square to directions and triangles.
 #ifndef NEARLIGHT_LIB_SAMPLING
 #define NEARLIGHT_LIB_SAMPLING
 
 #include "lib/math.cl"
 
-/// About +Z, density cosθ/π.
+/// A direction about +Z with the density cosθ/π.
 inline float3 square_to_cosine_hemisphere(float2 u) {
     const float r = sqrt(u.x);
     const float phi = 2.0f * M_PI_F * u.y;
     return (float3)(r * cos(phi), r * sin(phi), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
-/// About +Z within the angle of cosine `cos_max`, density 1 / (2π(1 − cos_max)); −1 gives the whole sphere.
+/// A direction within the angle of cosine `cos_max` about +Z, with the density 1 / (2π(1 − cos_max)). A
+/// cosine of −1 gives the whole sphere.
 inline float3 square_to_cone(float2 u, float cos_max) {
     const float z = 1.0f - u.x * (1.0f - cos_max);
     const float r = sqrt(fmax(0.0f, 1.0f - z * z));
@@ -20,15 +21,15 @@ inline float3 square_to_cone(float2 u, float cos_max) {
     return (float3)(r * cos(phi), r * sin(phi), z);
 }
 
-/// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that stratified
-/// points of the square are so in the triangle. [Heitz, A Low-Distortion Map Between Triangle and Square,
-/// 2019]
+/// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that points that are
+/// stratified in the square are stratified in the triangle. [Heitz, A Low-Distortion Map Between Triangle and
+/// Square, 2019]
 inline float2 square_to_triangle(float2 u) {
     return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
 }
 
-/// The visible normals of GGX: a microfacet normal seen from `wo` (wo.z > 0), in the frame of the surface.
-/// [Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 2018]
+/// A microfacet normal of GGX as seen from `wo` (wo.z > 0), in the frame of the surface. [Heitz, Sampling the
+/// GGX Distribution of Visible Normals, JCGT 2018]
 inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
     const float3 stretched = normalize((float3)(alpha * wo.x, alpha * wo.y, wo.z));
     const float planar = stretched.x * stretched.x + stretched.y * stretched.y;
@@ -44,7 +45,8 @@ inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
     return normalize((float3)(alpha * h.x, alpha * h.y, fmax(0.0f, h.z)));
 }
 
-/// Smith's masking of GGX for a direction with cosine `z`: what sampling visible normals leaves as weight.
+/// Smith's masking of GGX for a direction with the cosine `z`, which is the weight that remains when visible
+/// normals are sampled.
 inline float ggx_masking(float z, float alpha) {
     const float cos2 = z * z;
     return z > 0.0f ? 2.0f * z / (z + sqrt(alpha * alpha + (1.0f - alpha * alpha) * cos2)) : 0.0f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as kernels see it: one parameter list, one struct of pointers, and what a ray finds on a surface.
+// The scene as kernels see it: a parameter list, a struct of pointers, and what a ray finds on a surface.
 //
-// A kernel declares SCENE_PARAMETERS and gathers them with `const SceneView scene = SCENE_VIEW;`. The host
+// A kernel declares SCENE_PARAMETERS and collects them with `const SceneView scene = SCENE_VIEW;`. The host
 // passes a DeviceScene, which sets the same arguments in the same order (host/stages/device_scene.h).
 #ifndef NEARLIGHT_LIB_SCENE
 #define NEARLIGHT_LIB_SCENE
@@ -27,9 +27,9 @@
     }
 
 typedef struct SceneView {
-    const global TreeNode* nodes;  // opaque
+    const global TreeNode* nodes;  // tree of the opaque triangles
     const global TreeTriangles* tree_triangles;
-    const global uint* triangle_ids;  // of a slot of the tree, in `triangles`
+    const global uint* triangle_ids;  // index into `triangles` for each slot of the tree
     const global TreeNode* glass_nodes;
     const global TreeTriangles* glass_triangles;
     const global uint* glass_ids;
@@ -46,14 +46,14 @@ typedef struct SceneView {
     const global SceneInfo* info;
 } SceneView;
 
-/// What a ray found. Normals are unit vectors on the side the ray came from.
+/// What a ray found. Normals are unit vectors on the side that the ray came from.
 typedef struct SurfaceHit {
-    float t;           // < 0: nothing
+    float t;           // in units of the direction's length; < 0: no hit
     float3 position;   // on the surface
     float3 geometric;  // normal of the triangle
-    float3 shading;    // interpolated; the geometric one where the mesh has none
+    float3 shading;    // interpolated normal; the geometric one where the mesh has none
     float2 uv;         // texture coordinates
-    uint triangle;     // in SceneView.triangles
+    uint triangle;     // index into SceneView.triangles
     uint material;
     uint front;  // 1: the ray met the front
 } SurfaceHit;
@@ -69,7 +69,7 @@ inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* o
     const global Vertex* c = scene->vertices + triangle.v2;
     const float w = 1.0f - u - v;
     hit.t = ray_hit.t;
-    // From the triangle, not from the ray: as exact as the vertices are.
+    // The position comes from the triangle and not from the ray, so that it is as exact as the vertices are.
     hit.position = of_tree->v0 + u * of_tree->edge1 + v * of_tree->edge2;
     const float3 normal = normalize(of_tree->normal);
     hit.front = dot(normal, direction) < 0.0f;
@@ -90,7 +90,7 @@ inline SurfaceHit no_surface(void) {
     return none;
 }
 
-/// The nearest opaque surface.
+/// The nearest opaque surface on a ray before t_max. Its t is negative if there is none.
 inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 direction, float t_max) {
     const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, 0.0f, t_max);
     if (hit.slot == ~0u) {
@@ -100,7 +100,7 @@ inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 dir
     return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
 }
 
-/// The nearest surface, glass included: for camera paths only.
+/// The nearest surface on a ray, glass included, for camera paths only. Its t is negative if there is none.
 inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 direction) {
     const global TreeTriangles* triangles = scene->tree_triangles;
     const global uint* ids = scene->triangle_ids;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear values of the 256 sRGB codes (IEC 61966-2-1), rounded to float: a texture's sample takes twelve, and
-// as many calls of pow() took longer than finding the surface.
+// Linear values of the 256 sRGB codes (IEC 61966-2-1), rounded to float. A sample of a texture takes twelve
+// of them, and twelve calls of pow() take longer than finding the surface.
 #ifndef NEARLIGHT_LIB_SRGB_TABLE
 #define NEARLIGHT_LIB_SRGB_TABLE
 

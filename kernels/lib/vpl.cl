@@ -5,7 +5,8 @@
 
 #include "lib/math.cl"
 
-/// `position` stands off its surface; `depth` and `flags` as types.h says.
+/// A VPL with the given members; shared/types.h explains `depth` and `flags`. `position` must stand off its
+/// surface.
 inline Vpl make_vpl(float3 position, float3 normal, uint depth, uint flags, float3 power) {
     Vpl vpl;
     vpl.position = store3(position);
@@ -20,7 +21,7 @@ inline Vpl make_vpl(float3 position, float3 normal, uint depth, uint flags, floa
 inline float3 receiver_position(const global ReceiverPacket* packet, uint lane) {
     return (float3)(packet->px[lane], packet->py[lane], packet->pz[lane]);
 }
-/// Zero where the receiver is absent.
+/// The normal of a receiver; zero where the receiver is absent.
 inline float3 receiver_normal(const global ReceiverPacket* packet, uint lane) {
     return (float3)(packet->nx[lane], packet->ny[lane], packet->nz[lane]);
 }

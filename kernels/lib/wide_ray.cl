@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the wide tree by one ray: any hit and closest hit, with the eight boxes of a node in one
-// vector and the four triangles of a block in another. For CPUs; what it finds is what lib/bvh_traverse.cl
-// finds, bit by bit, but for rays that meet two triangles at the same distance.
+// Traversal of the wide tree by one ray, for CPUs: any hit and closest hit, with the eight boxes of a node in
+// one vector and the four triangles of a block in another. It finds what lib/bvh_traverse.cl finds, bit by
+// bit, except for rays that meet two triangles at the same distance.
 //
-// Stack: a path has at most NEARLIGHT_MAX_BVH_DEPTH nodes, each of which leaves all children but one.
+// Stack: a path has at most NEARLIGHT_MAX_BVH_DEPTH nodes, each of which leaves all of its children but one.
 #ifndef NEARLIGHT_LIB_WIDE_RAY
 #define NEARLIGHT_LIB_WIDE_RAY
 
@@ -14,12 +14,12 @@
 
 #define WIDE_RAY_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + 1)
 
-// Inlined wherever a ray is traced it would be no faster, and more to compile.
+// Inlining these functions wherever a ray is traced makes them no faster, but takes longer to compile.
 #define ONCE_A_PROGRAM __attribute__((noinline))
 
 typedef struct WideRay {
     float3 origin, direction;
-    float3 by;     // reciprocals of the direction, neither 0 nor infinite
+    float3 by;     // reciprocals of the direction's components, neither 0 nor infinite
     uint near[3];  // floats from a plane of a node's `low` to the one where the ray enters
     float t_min;
 } WideRay;
@@ -28,7 +28,7 @@ LANES_INLINE WideRay make_wide_ray(float3 origin, float3 direction, float t_min)
     WideRay ray;
     ray.origin = origin;
     ray.direction = direction;
-    // The infinite planes of missing children times 0 would be not-a-number.
+    // A reciprocal of 0 would turn the infinite planes of missing children into NaN.
     ray.by = safe_reciprocal(clamp(direction, -1e37f, 1e37f));
     ray.near[0] = ray.by.x < 0.0f ? WIDE_UPPER : 0;
     ray.near[1] = ray.by.y < 0.0f ? WIDE_UPPER : 0;
@@ -37,7 +37,8 @@ LANES_INLINE WideRay make_wide_ray(float3 origin, float3 direction, float t_min)
     return ray;
 }
 
-/// One bit for each child of which the ray meets the box before t_max; `enter` gets the distances.
+/// One bit for each child whose box the ray meets before t_max. `enter` gets the distances at which it enters
+/// the boxes.
 LANES_INLINE uint children_on_ray(const WideRay* ray, const global WideNode* node, float t_max,
                                   float8* enter) {
     const global float* x = node->low[0] + ray->near[0];
@@ -56,7 +57,7 @@ LANES_INLINE uint children_on_ray(const WideRay* ray, const global WideNode* nod
     return lane_bits8(*enter <= min8(min8(x1, y1), min8(z1, (float8)t_max)));
 }
 
-// As dot() and cross() of one vector compute them, without fused operations.
+// The next two functions compute what dot() and cross() of one vector do, without fused operations.
 LANES_INLINE float4 plain_dot4(Axis4 a, Axis4 b) {
 #pragma OPENCL FP_CONTRACT OFF
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -68,7 +69,7 @@ LANES_INLINE Axis4 plain_cross4(Axis4 a, Axis4 b) {
     return axis;
 }
 
-/// What hit_triangle computes before it divides, of four triangles.
+/// What hit_triangle() computes before it divides, for each of four triangles.
 typedef struct BlockHit {
     float4 scale, t, u, v;
 } BlockHit;
@@ -122,7 +123,7 @@ ONCE_A_PROGRAM bool wide_occluded(const global WideNode* nodes, const global Tri
             const global WideNode* node = nodes + child;
             uint met = children_on_ray(&ray, node, t_max, &ignored);
             if (met != 0) {
-                // The last is the largest, which is likeliest to occlude.
+                // The last child is the largest, which is likeliest to occlude.
                 child = node->child[lowest_bit(met)];
                 for (met &= met - 1; met != 0; met &= met - 1) {
                     stack[top++] = child;
@@ -141,7 +142,7 @@ ONCE_A_PROGRAM bool wide_occluded(const global WideNode* nodes, const global Tri
     }
 }
 
-/// Takes over those hits in a leaf that are nearer than `best`, one after the other.
+/// Updates `best` with each hit in a leaf that is nearer, one after the other.
 LANES_INLINE void keep_nearest(const global TriangleBlock* blocks, uint leaf, const WideRay* ray,
                                RayHit* best) {
     BlockHit hit;
@@ -161,7 +162,8 @@ LANES_INLINE void keep_nearest(const global TriangleBlock* blocks, uint leaf, co
     }
 }
 
-/// A child to be visited: its distance in the upper half, so that the nearest is the least.
+/// A child to be visited, with its distance in the upper half, so that the nearest child is the smallest
+/// number.
 typedef ulong RayVisit;
 LANES_INLINE RayVisit make_visit(float enter, uint child) {
     return (ulong)as_uint(enter) << 32 | child;
@@ -170,8 +172,8 @@ LANES_INLINE float enter_of(RayVisit visit) {
     return as_float((uint)(visit >> 32));
 }
 
-/// The nearest child of those in `met`, of which there are some; the others are put onto the stack, the
-/// nearer the higher.
+/// The nearest child of those in `met`, which must not be 0. The others are pushed onto the stack, the
+/// nearest of them last.
 LANES_INLINE uint take_nearest(RayVisit* stack, uint* top, const global WideNode* nodes,
                                const global TriangleBlock* blocks, const global WideNode* node, uint met,
                                const float8* enter) {
@@ -199,7 +201,7 @@ LANES_INLINE uint take_nearest(RayVisit* stack, uint* top, const global WideNode
     return (uint)nearest;
 }
 
-/// The closest hit strictly inside (t_min, t_max): slot is 4 · block + column, or ~0u if there is none.
+/// The closest hit strictly inside (t_min, t_max). Its slot is 4 · block + column, or ~0u if nothing is hit.
 ONCE_A_PROGRAM RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
                                        float3 origin, float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};

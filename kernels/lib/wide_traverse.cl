@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the wide tree by a packet of segments: any hit.
+// Any-hit traversal of the wide tree by the segments of a beam.
 //
-// Nodes come from a stack, a few at a time, and the leaves that they lead to are looked at after them. That
-// makes long runs of work that does not depend on the step before, which hides latencies, and asks for memory
-// well before it is used.
+// Nodes are taken from a stack, a few at a time, and the leaves that they lead to are tested after them. Long
+// runs of work thus do not depend on the step before, which hides latencies, and memory is prefetched well
+// before it is used.
 #ifndef NEARLIGHT_LIB_WIDE_TRAVERSE
 #define NEARLIGHT_LIB_WIDE_TRAVERSE
 
 #include "lib/beam_blocks.cl"
 
 #define NODES_AT_ONCE 4
-// Entries lie deeper in the tree the nearer they are to the top, so that when nodes of a level are taken,
-// nothing is left of the level below: no level ever has more entries than one taking adds.
+// The nearer an entry is to the top of the stack, the deeper its node lies in the tree. When nodes of a level
+// are taken, nothing is left of the level below, so no level ever has more entries than one such step adds.
 #define GATHER_STACK_SIZE (NEARLIGHT_WIDE_CHILDREN * NODES_AT_ONCE * (NEARLIGHT_MAX_BVH_DEPTH + 1))
 
-/// An inner node, and the clusters that may meet it.
+/// An inner node, and one bit for each cluster that may meet it.
 typedef struct NodeVisit {
     uint node, clusters;
 } NodeVisit;
@@ -22,12 +22,13 @@ typedef struct NodeVisit {
 typedef struct Traversal {
     NodeVisit stack[GATHER_STACK_SIZE];
     uint top;
-    LeafVisit
-        leaves[NODES_AT_ONCE * NEARLIGHT_WIDE_CHILDREN * GATHER_ROWS + 1];  // and one that does not count
+    // keep_leaf() also writes leaves that it does not count, which takes one entry more.
+    LeafVisit leaves[NODES_AT_ONCE * NEARLIGHT_WIDE_CHILDREN * GATHER_ROWS + 1];
     uint leaf_count;
 } Traversal;
 
-// Both write always and count only what is kept, which costs less than a branch that nobody can predict.
+// keep_node() and keep_leaf() always write and only count what is kept, which costs less than a branch that
+// cannot be predicted.
 LANES_INLINE void keep_node(Traversal* work, uint node, uint clusters) {
     const NodeVisit visit = {node, clusters};
     work->stack[work->top] = visit;
@@ -39,8 +40,8 @@ LANES_INLINE void keep_leaf(Traversal* work, uint leaf, uint row, uint lanes) {
     work->leaf_count += lanes != 0 ? 1 : 0;
 }
 
-/// Keeps an inner child that some clusters may meet: it is tested with the lanes of two rows, and may pass
-/// for the sake of others.
+/// Keeps an inner child that some clusters may meet, without the clusters of the first two rows whose lanes
+/// all miss it. The lanes of other rows are not tested.
 LANES_INLINE void visit_inner(Traversal* work, const Segments* s, const Planes* planes, uint child,
                               uint meeting) {
     const uint row0 = first_row(meeting);
@@ -53,7 +54,7 @@ LANES_INLINE void visit_inner(Traversal* work, const Segments* s, const Planes* 
         meeting & ~(lanes0 == 0 ? clusters_of_row(row0) : 0) & ~(lanes1 == 0 ? clusters_of_row(row1) : 0));
 }
 
-/// Keeps a leaf with those lanes of some clusters that meet it.
+/// Keeps a leaf with the lanes that meet it, in each row that has a cluster in `meeting`.
 LANES_INLINE void visit_leaf(Traversal* work, const Segments* s, const Planes* planes, uint child,
                              uint meeting) {
     do {
@@ -63,8 +64,9 @@ LANES_INLINE void visit_leaf(Traversal* work, const Segments* s, const Planes* p
     } while (meeting != 0);
 }
 
-/// Keeps those of a node's children in `met` that segments of several clusters meet. First all are tested
-/// with the clusters, because a branch after each such test cannot be predicted.
+/// Keeps the children of a node that segments of several clusters meet; `met` has a bit for each child that
+/// the shaft of the beam meets. All children are tested with the clusters first, because a branch after each
+/// of these tests could not be predicted.
 LANES_INLINE void visit_children(Traversal* work, const Segments* s, const global WideNode* nodes,
                                  const global TriangleBlock* blocks, NodeVisit visit,
                                  const ChildPlanes* relative, uint met) {
@@ -91,7 +93,8 @@ LANES_INLINE void visit_children(Traversal* work, const Segments* s, const globa
     }
 }
 
-/// The same where only one cluster is left, which is known to meet them.
+/// Keeps the children of a node that segments of the one cluster left meet; `met` has a bit for each child
+/// that the shaft of this cluster meets.
 LANES_INLINE void visit_children_alone(Traversal* work, const Segments* s, const global WideNode* nodes,
                                        const global TriangleBlock* blocks, NodeVisit visit,
                                        const ChildPlanes* relative, uint met) {
@@ -111,7 +114,7 @@ LANES_INLINE void visit_children_alone(Traversal* work, const Segments* s, const
     }
 }
 
-/// Takes nodes from the stack and keeps those of their children that segments meet.
+/// Takes nodes from the stack and keeps the children that segments meet.
 LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global WideNode* nodes,
                               const global TriangleBlock* blocks) {
     NodeVisit taken[NODES_AT_ONCE];
@@ -139,7 +142,7 @@ LANES_INLINE void visit_nodes(Traversal* work, const Segments* s, const global W
     }
 }
 
-/// Ends the segments that hit a triangle of the leaves that were kept.
+/// Ends the segments that hit a triangle of one of the leaves that were kept.
 LANES_INLINE void visit_leaves(Traversal* work, Segments* s, const global TriangleBlock* blocks) {
     uint first = 0;
     while (first < work->leaf_count) {
@@ -153,7 +156,7 @@ LANES_INLINE void visit_leaves(Traversal* work, Segments* s, const global Triang
     work->leaf_count = 0;
 }
 
-/// Ends the segments that meet anything.
+/// Ends the open segments that hit anything in the scene.
 LANES_INLINE void trace_segments(Segments* s, const BeamBounds* bounds, const global WideNode* nodes,
                                  const global TriangleBlock* blocks) {
     if (s->open == 0) {

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes and triangles of the wide tree, for packets and for single rays.
+// Nodes and triangles of the wide tree, for beams and for single rays.
 #ifndef NEARLIGHT_LIB_WIDE_TREE
 #define NEARLIGHT_LIB_WIDE_TREE
 
 #include "lib/lanes.cl"
 #include "shared/types.h"
 
-// Floats from a lower plane of a WideNode to the upper one.
+// The number of floats from a lower plane of a WideNode to the upper one.
 #define WIDE_UPPER (3 * NEARLIGHT_WIDE_CHILDREN)
 
-/// The blocks of a leaf, the last one included.
+/// The first block of a leaf.
 LANES_INLINE uint first_block(uint leaf) {
     return leaf & NEARLIGHT_LEAF_FIRST_MASK;
 }
+/// The last block of a leaf, which still belongs to it.
 LANES_INLINE uint last_block(uint leaf) {
     return first_block(leaf) + ((leaf >> NEARLIGHT_LEAF_COUNT_SHIFT) & NEARLIGHT_LEAF_COUNT_MASK);
 }
 
-/// Asks for the memory of a node or of a leaf's first block, which take four cache lines or so.
+/// Prefetches a node, or the first block of a leaf. Either takes about four cache lines.
 LANES_INLINE void prefetch_child(const global WideNode* nodes, const global TriangleBlock* blocks,
                                  uint child) {
     const bool leaf = (child & NEARLIGHT_LEAF_BIT) != 0;
@@ -25,7 +26,7 @@ LANES_INLINE void prefetch_child(const global WideNode* nodes, const global Tria
                         : (const global void*)(nodes + child));
 }
 
-/// A vector of each triangle of a block.
+/// One vector for each triangle of a block.
 typedef struct Axis4 {
     float4 x, y, z;
 } Axis4;
