@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Indirect light by tracing paths from receivers: irradiance from surfaces nearer than R, each weighted by
-// 1 − r²/R². That is what a gather with clamp radius R leaves out [Kollig & Keller, Illumination in the
-// Presence of Weak Singularities, 2004], so the sum of the two is unbiased; with R infinite it is all the
+// Indirect light by tracing paths from receivers: irradiance from surfaces nearer than R, each weighted by 1
+// − r²/R². A gather with the clamp radius R leaves out just that part [Kollig & Keller, Illumination in the
+// Presence of Weak Singularities, 2004], so the sum of the two is unbiased. With an infinite R, it is all the
 // indirect light.
 //
-// A cosine-distributed ray that meets y at distance r < R brings E(x) = π·L(y)·(1 − r²/R²), where π·L(y) =
-// ρ(y)·E(y). E(y) is direct light, and the light of the next cosine-distributed ray, unbounded, to the end of
-// the path. Hardly a short ray meets anything, so that few paths go far.
+// A cosine-distributed ray that meets y at the distance r < R brings E(x) = π·L(y)·(1 − r²/R²), where π·L(y)
+// = ρ(y)·E(y). E(y) is the direct light plus the light of the next cosine-distributed ray, which is not
+// bounded, and so on to the end of the path. Few short rays meet anything, so few paths go far.
 //
-// One work-item a receiver lane; any work-group size. Adds to `irradiance`. Random numbers are keyed by the
-// receiver's position, so no split of the work changes the result.
+// One work-item for each lane; any work-group size. The result is added to `irradiance`. Random numbers are
+// keyed by the receiver's position, so no split of the work changes the result.
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
 #include "lib/vpl.cl"
 
-/// Irradiance at x through at most `bounce_count` reflections, by one path.
+/// Irradiance at x through at most `bounce_count` reflections, estimated by one path. `first` chooses its
+/// first direction, and `keys` its random numbers.
 inline float3 trace_bounces(const SceneView* scene, float3 x, float3 n, float2 first, uint bounce_count,
                             float clamp_radius, uint4 keys) {
     const bool bounded = clamp_radius < INFINITY;

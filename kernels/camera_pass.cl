@@ -2,13 +2,13 @@
 // Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the
 // G-buffer).
 //
-// Receiver order: packet = ((tile · sample_count) + sample) · branch_count + branch, tile = row of
-// tiles × tiles_x + column, counted from the first tile row of the band; lane = row within the tile ·
-// NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers: at the first surface with
-// two ways on (a coat, glass), branch 0 takes the base or the refraction and branch 1 the reflection, each
-// with its full weight, so that a glossy floor is not made of noise; later ones choose by chance. Branch 1 of
-// a sample that never divides is absent. One work-item a sample, for all its branches; any work-group size.
-// Random numbers depend on pixel and sample only.
+// Receivers are in this order: packet = ((tile · sample_count) + sample) · branch_count + branch, where tile
+// = row of tiles × tiles_x + column, counted from the first tile row of the band, and lane = row within the
+// tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers. At the first surface
+// with two ways on (a coat, glass), branch 0 takes the base or the refraction and branch 1 the reflection,
+// each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
+// chance. Branch 1 of a sample that never divides is absent. One work-item for each sample, with all its
+// branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/close_range.cl"
 #include "lib/emitter.cl"
@@ -22,12 +22,12 @@ typedef struct CameraPath {
     float3 direction;
     float3 throughput;
     float3 emitted;
-    uint key;        // of the random sequence
-    uint undivided;  // 1: no surface with two ways on was met yet, and there are two branches
+    uint key;        // key of the random sequence
+    uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
 } CameraPath;
 
 /// Chooses between reflection (true) and the other way. The first division gives each branch one way with its
-/// full weight; later ones are by chance, reflection with probability p.
+/// full weight. Later ones choose by chance, reflection with probability p.
 inline bool choose_reflection(CameraPath* path, uint branch, float p, float u) {
     if (path->undivided) {
         path->undivided = 0;
@@ -52,7 +52,7 @@ inline float3 sample_facet(float3 n, float3 to_viewer, float alpha, float2 u) {
     return frame_to_world(&frame, sample_visible_normal(normalize(viewer), alpha, u));
 }
 
-/// Turns the path into the mirror direction about the facet. False where it would go below the surface.
+/// Turns the path into the mirror direction about the facet. Returns false where that goes below the surface.
 inline bool reflect_path(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, float3 n,
                          float3 facet, float alpha, float3 weight) {
     const float3 to_viewer = -path->direction;
@@ -67,7 +67,7 @@ inline bool reflect_path(const SceneView* scene, CameraPath* path, const Surface
     return true;
 }
 
-/// Metal: reflection is the only way.
+/// Follows the path at metal, which only reflects. Returns false where the path ends.
 inline bool scatter_conductor(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                               const global Material* material, float3 n, float2 u) {
     const float3 facet = sample_facet(n, -path->direction, material->roughness, u);
@@ -77,7 +77,7 @@ inline bool scatter_conductor(const SceneView* scene, CameraPath* path, const Su
     return reflect_path(scene, path, hit, n, facet, material->roughness, weight);
 }
 
-/// Solid glass: reflection or refraction.
+/// Follows the path at solid glass, by reflection or refraction. Returns false where the path ends.
 inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                                const global Material* material, float3 n, uint branch, float2 u_facet,
                                float u_choice) {
@@ -105,7 +105,8 @@ inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const S
     return true;
 }
 
-/// A pane: both its faces at once, no bending.
+/// Follows the path at a pane, which counts as both its faces at once and does not bend it. Returns false
+/// where the path ends.
 inline bool scatter_thin_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                                     const global Material* material, float3 n, uint branch, float u_choice) {
     float cos_far;
@@ -119,8 +120,8 @@ inline bool scatter_thin_dielectric(const SceneView* scene, CameraPath* path, co
     return true;
 }
 
-/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, 2 if this
-/// surface is the receiver; then `albedo` is what the camera sees there.
+/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, and 2 if this
+/// surface is the receiver; then `albedo` gets what the camera sees there.
 inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, uint branch, uint step,
                     float3* albedo) {
     const global Material* material = scene->materials + hit->material;
@@ -162,7 +163,7 @@ inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* 
 
 /// Where a camera path ends, and what it saw on the way.
 typedef struct CameraReceiver {
-    float3 position, normal;  // a normal of 0: there is no receiver
+    float3 position, normal;  // zero normal: there is no receiver
     CameraVertex vertex;
 } CameraReceiver;
 
@@ -196,7 +197,8 @@ inline CameraPath start_path(const global PinholeCamera* camera, uint x, uint y,
     return path;
 }
 
-/// Follows one branch to its receiver. Branch 0 finds the first surface, which branch 1 sees too.
+/// Follows one branch to its receiver. Branch 0 sets `first` to the first surface that it meets, and branch 1
+/// takes it from there.
 inline CameraReceiver follow_path(const SceneView* scene, const global CloseRange* close_range,
                                   CameraPath* path, uint branch, SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
@@ -233,7 +235,7 @@ inline CameraReceiver follow_path(const SceneView* scene, const global CloseRang
     return receiver;
 }
 
-/// Branch 1 of a path that never divides: what branch 0 met, but no light.
+/// Turns what branch 0 met into branch 1 of a path that never divides, which is absent and brings no light.
 inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stable compaction: the indices of the flags that are set, in ascending order, and the gathering of elements
-// by index. Between the two first kernels the host scans the counts of the runs. [paper section 3: the
+// by index. Between the first two kernels the host scans the counts of the runs. [paper section 3: the
 // triangles that are kept]
 //
-// Memory: `flags` holds `count` uint, anything but 0 is set; `chunk_counts` one uint a run; `indices` room
-// for every set flag. Work-group size: any.
+// Memory: `flags` holds `count` uint, of which all but 0 are set; `chunk_counts` holds one uint for each run;
+// `indices` has room for every set flag. Work-group size: any.
 
 #include "lib/chunk.cl"
 
@@ -39,7 +39,8 @@ kernel void compaction_write(const global uint* restrict flags, const global uin
     }
 }
 
-/// gathered[i] = elements[indices[i]], for elements of `words` × 4 bytes. One work-item an element.
+/// Sets gathered[i] to elements[indices[i]], for elements of `words` × 4 bytes. One work-item for each
+/// element.
 kernel void compaction_gather(const global uint* restrict elements, const global uint* restrict indices,
                               global uint* restrict gathered, uint words, uint count) {
     const uint i = (uint)get_global_id(0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Direct light: irradiance of receivers from all lights, with shadow rays.
 //
-// One work-item a receiver, independent of each other; any work-group size. Absent receivers (zero normal)
-// get 0. Random numbers are keyed by the receiver's position, so no split of the work changes the result.
+// One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Random numbers
+// are keyed by the receiver's position, so no split of the work changes the result.
 
 #include "lib/emitter.cl"
 #include "lib/vpl.cl"

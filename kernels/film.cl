@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film: adds the samples of a band to its pixels, and turns sums into the layers of the picture.
 //
-// One work-item a pixel of the band; any work-group size. `sums` holds NEARLIGHT_FILM_CHANNELS floats a
-// pixel, row by row. Samples are added one after the other in their order, so that batches give the same bits
-// as one run. shared/film_layers.h is the table of layers: film_add has a line for each of them, film_resolve
-// goes through the table.
+// One work-item for each pixel of the band; any work-group size. `sums` holds NEARLIGHT_FILM_CHANNELS floats
+// for each pixel, row by row. Samples are added one after the other in their order, so that several batches
+// give the same bits as one. shared/film_layers.h is the table of layers: film_add has a line for each of
+// them, and film_resolve goes through the table.
 
 #include "lib/math.cl"
 #include "shared/film_layers.h"
@@ -48,7 +48,7 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * irradiance_of(indirect + packet, lane));
         add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
         if (i % branch_count != 0) {
-            continue;  // geometry layers show the way straight on
+            continue;  // geometry layers come from branch 0 only
         }
         add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
                    (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
@@ -61,9 +61,9 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     }
 }
 
-// How the sums of a pixel become a layer of `count` channels, a function for each word of the column
-// `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples; all have
-// the same parameters, used or not.
+// These functions turn the sums of a pixel into a layer of `count` channels. There is one for each word of
+// the column `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples.
+// All have the same parameters, so that the table can name any of them.
 
 inline void resolve_mean(const global float* sums, uint first, uint count, float scale, global float* layer) {
     for (uint c = 0; c < count; ++c) {
@@ -96,7 +96,7 @@ inline void resolve_light(const global float* sums, uint first, uint count, floa
     resolve_##samples(pixel, NEARLIGHT_SUM_##constant, NEARLIGHT_CHANNELS_##channels, scale, \
                       out + NEARLIGHT_LAYER_##constant);
 
-/// Output: NEARLIGHT_LAYER_CHANNELS floats a pixel, in the order of the table.
+/// Writes NEARLIGHT_LAYER_CHANNELS floats for each pixel, in the order of the table.
 kernel void film_resolve(const global float* restrict sums, uint pixel_count, uint sample_count,
                          global float* restrict layers) {
     const uint index = (uint)get_global_id(0);

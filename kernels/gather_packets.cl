@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums a VPL set over receivers, for CPUs:
+// Sums a set of VPLs over receivers, for CPUs:
 // irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²) · V.
 //
-// A work-item takes packets of GATHER_BEAM_WIDTH receivers, each against a run of VPLs. The compiler
-// does not turn a divergent traversal loop into vector code, so the vectors are written out: a packet is
-// rows of 16 lanes that go through the wide tree together. What makes this fast:
-// - All rays of a packet start at the VPL, so box − origin is the same for all lanes, and the triangle
-//   test is four dot products a lane with constants of the (VPL, triangle) pair, without a division.
+// A work-item takes beams of GATHER_BEAM_WIDTH receivers, each with a run of VPLs. The compiler does not turn
+// a divergent traversal loop into vector code, so the vectors are written out: a beam is rows of 16 lanes
+// that go through the wide tree together. What makes this fast:
+// - All rays of a beam start at the VPL, so box − origin is the same for all lanes, and the triangle test is
+//   four dot products for each lane, with constants of the (VPL, triangle) pair and without a division.
 // - Receivers are put in order once, so that 16 runs of them are clusters with small boxes
 //   (lib/beam_receivers.cl).
-// - A node tests its eight children at once against the shaft from the VPL to the box of all receivers,
-//   and each that meets it against the shafts to the boxes of the 16 clusters at once (lib/shaft.cl).
-//   Only where a cluster meets a box are its lanes tested with it.
+// - The eight children of a node are tested at once against the shaft from the VPL to the box of all
+//   receivers. Each child that meets it is tested at once against the shafts to the boxes of the 16 clusters
+//   (lib/shaft.cl). Lanes are tested only with boxes that their cluster meets.
 // - Nodes and leaves are taken several at a time, almost without branches that depend on tests
 //   (lib/wide_traverse.cl).
-// - A leaf is tested with the lanes that meet its box: where these are few, each with four triangles in
-//   one vector (lib/beam_blocks.cl).
-// - Which lanes are neither culled nor occluded is a bit mask of each row. Leaves that some nodes led
-//   to ask it again when their turn comes: by then some lanes have met their occluder.
+// - A leaf is tested with the lanes that meet its box. Where these are few, each is tested with four
+//   triangles in one vector (lib/beam_blocks.cl).
+// - A bit mask for each row says which lanes are neither culled nor occluded. A leaf asks it again when its
+//   turn comes, because by then some lanes have met their occluder.
 // A segment is occluded if it hits a triangle of a leaf whose box it meets. Neither test looks at other
-// lanes, and all tests before them are conservative: what shares a packet does not change a bit of the
-// result.
+// lanes, and all tests before them are conservative, so that the other receivers of a beam do not change a
+// bit of the result.
 //
 // gather_rays.cl computes the same on GPUs. host/stages/gatherer.h is the interface of both.
 
@@ -50,7 +50,8 @@ inline void clear(Accumulator* sum) {
     }
 }
 
-/// irradiance (+)= sum, where `replace` says not to add. Lane i has receiver first + order[i] of the bundle.
+/// Adds `sum` to the irradiance, or stores it there if `replace` is set. Lane i has receiver first + order[i]
+/// of the bundle.
 inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle* bundle, uint first,
                               const uchar* order, const Accumulator* sum, bool replace) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
@@ -66,7 +67,7 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle*
 }
 
 #ifdef GATHER_RECORD
-/// Notes which segments are open: `before` tracing, and then which of those are not any more.
+/// Records which segments are open if `before` is set, and after tracing which of them no longer are.
 inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bundle* bundle, uint first,
                         const uchar* order, const Segments* s, bool before) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
@@ -82,20 +83,20 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 }
 #endif
 
-/// Takes packets of the bundles [first_bundle, end_bundle) over the VPLs [first_vpl, end_vpl), one after
-/// another from the queue, until none is left: `next_beam`, 0 at the start, is the next one. Packets differ
-/// in cost by ten times, and runtimes deal work-items to threads by the dozen; launch as many work-items as
-/// there are packets, so that each thread has one.
+/// Gathers the beams of the bundles [first_bundle, end_bundle) from the VPLs [first_vpl, end_vpl). Work-items
+/// take one beam after another from a queue until none is left; `next_beam` is the number of the next one and
+/// must be 0 at the start. The costs of beams differ by a factor of ten, and runtimes deal work-items to
+/// threads by the dozen; launch as many work-items as there are beams, so that each thread has one.
 ///
 /// Each chunk of VPLs (GATHER_CHUNK, or a group), counted from VPL 0, is summed by itself and then added to
-/// `sums`, so that the result does not depend on how launches divide the work; params->first_vpl must begin a
-/// chunk. Launches over the VPLs of one bundle must follow one another in order, from 0.
+/// `sums`, so that the result does not depend on how launches divide the work; first_vpl must begin a chunk.
+/// Launches over the VPLs of one bundle must follow one another in order, from VPL 0 on.
 ///
 /// Without groups, `sums` gets the light of all VPLs, and `group_sums` is not touched. With groups, `sums`
-/// gets the squares of all pairs' light, and packet_count packets of `group_sums` for each group its light.
+/// gets the squares of all pairs' light, and `group_sums` gets packet_count packets of light for each group.
 ///
-/// With thresholds, pairs are left out whose light, squared, would be less than the receiver's number in
-/// `thresholds` (64 · packet + lane) if nothing were in the way.
+/// With thresholds, a pair is left out if its light, squared, would be less than the receiver's number in
+/// `thresholds` (64 · packet + lane) with nothing in the way.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls,
     const global ReceiverPacket* packets, const global GatherParams* launch_params,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums a VPL set over receivers, for GPUs: one work-item takes one receiver, one ray at a time. All
-// work-items go through the VPLs in the same order, so those of a group ask for the same VPL and for
+// Sums a set of VPLs over receivers, for GPUs: a work-item takes one receiver and traces one ray at a time.
+// All work-items go through the VPLs in the same order, so those of a work-group ask for the same VPL and for
 // neighbouring nodes. gather_packets.cl computes the same on CPUs. host/stages/gatherer.h is the interface of
 // both.
 
@@ -8,13 +8,13 @@
 #include "lib/gather.cl"
 #include "lib/vpl.cl"
 
-/// Geometry term of VPL and receiver without visibility, 0 if there is nothing to trace: `segment` leads from
-/// the VPL to the receiver.
+/// The geometry term of a VPL and a receiver without visibility, or 0 if there is nothing to trace. `segment`
+/// leads from the VPL to the receiver.
 inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, float clamp_radius_squared) {
     const float cos_vpl = dot(vpl_normal, segment);
     const float cos_receiver = -dot(normal, segment);
     const float r2 = dot(segment, segment);
-    // Both cosines still carry a factor r.
+    // Each of the cosines still carries a factor r.
     const float term = cos_vpl * cos_receiver / (r2 * fmax(r2, clamp_radius_squared));
     return cos_vpl > 0.0f && cos_receiver > 0.0f && term < INFINITY ? term : 0.0f;
 }
@@ -25,7 +25,7 @@ inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum)
     to->b[lane] = sum.z;
 }
 
-/// One work-item for each receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
+/// One work-item gathers one receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
 /// thresholds and launches are those of gather_packets.
 kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
                         const global Vpl* vpls, const global ReceiverPacket* receivers,

@@ -2,23 +2,23 @@
 // Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3
 // (3)].
 //
-// One work-item a walk, first_walk and on; any work-group size. A walk leaves a light and deposits a VPL
-// wherever it lands, up to bounce_count times: slot (walk − first_walk) · bounce_count + (depth − 1) of
-// `vpls`, and 1 in the same slot of `flags` if it is to be kept. Fractional absorption: walk i goes on to
-// depth j while i + absorption_shift < walks_at_depth[j − 1]; a VPL of depth j is divided by walks_at_depth[j
-// − 1], the (real-valued) number of walks that are launched that far, never by how many arrive. With a
-// uniform random shift that is unbiased for every depth.
+// One work-item for each walk, from first_walk on; any work-group size. A walk leaves a light and deposits a
+// VPL wherever it lands, up to bounce_count times. The deposit goes to slot (walk − first_walk) ·
+// bounce_count + (depth − 1) of `vpls`, and the same slot of `flags` gets 1 if it is to be kept. Absorption
+// is fractional: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j − 1]. A VPL of depth
+// j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are launched that far, never
+// by how many arrive. With a uniform random shift, this is unbiased for every depth.
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
 
-// Which deposits a policy keeps of those in the close range (docs/method.md).
+// Which deposits in the close range a policy keeps (docs/method.md).
 #define KEEP_ALL 0u              // complete, and samplers without a close range
 #define KEEP_INDIRECT_INSIDE 1u  // partition: inside the close range, depth 2 and more
 #define KEEP_OUTSIDE 2u          // paper: nothing inside the close range
 
-/// Whether the close-range part answers for direct light at this point: its triangle was selected and, where
-/// the policy decides point by point, the point itself lies in the region.
+/// Whether patches supply the direct light at this point: its triangle was selected and, where the policy
+/// decides point by point, the point itself lies in the region.
 inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
                              uint whole_triangles, uint triangle, float3 position) {
     return close_triangles[triangle] && (whole_triangles || in_close_range(region, position));

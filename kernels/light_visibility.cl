@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which close-range triangles the light can reach [paper §3, "visible to the light source"].
 //
-// One work-item a triangle of `ids`, any work-group size: selected[id] = 1 if any of a few points of it, on
-// any side that reflects, sees any light; entries of other triangles are left alone. This only steers where
-// VPLs are placed: a triangle that is missed here is left to light tracing, so nothing is lost
-// (docs/method.md). Therefore one point for each area_per_point (m²) of a triangle is enough, up to
-// MAX_POINTS.
+// One work-item for each triangle of `ids`; any work-group size. It sets selected[id] to 1 if any light
+// reaches one of a few points of the triangle on a side that reflects, and leaves the entries of other
+// triangles alone. This only steers where VPLs are placed: a triangle that is missed here is left to light
+// tracing, so no light is lost (docs/method.md). One point for each area_per_point (m²) of a triangle is
+// therefore enough, up to MAX_POINTS.
 
 #include "lib/emitter.cl"
 #include "lib/material.cl"
@@ -16,7 +16,7 @@
 inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-        return true;  // to find the one window of a room takes more rays than it is worth
+        return true;  // finding the one window of a room takes more rays than it is worth
     }
     const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE
                          ? triangle_irradiance(scene, emitter, x, n, u)

@@ -1,35 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Local lights [Davidovič et al., Combining Global and Local Virtual Lights for Detailed Glossy Illumination,
-// SIGGRAPH Asia 2010]: each packet of 64 receivers x makes lights y of its own, which supply what a wide
-// clamp takes from VPLs.
+// SIGGRAPH Asia 2010]: each packet of 64 receivers x makes lights y of its own, which supply the light that a
+// wide clamp takes from VPLs.
 //
-// The irradiance that is wanted is ∫ L_o(y) G_R V dy with G_r = cosθx·cosθy / max(d², r²) (d the distance).
-// Global VPLs at y are gathered with a radius R_g(y) ≥ R, and the remainder, which is 0 from R_g on, is
+// The irradiance that is wanted is ∫ L_o(y) G_R V dy with G_r = cosθx·cosθy / max(d², r²), where d is the
+// distance. Global VPLs at y are gathered with a radius R_g(y) ≥ R. The remainder, which is 0 from R_g on, is
 //
 //     ∫ L_o(y) (G_R − G_Rg) V dy  ≈  Σ_k  L_o(y_k) / p(y_k) · (G_R − G_Rg) V(x, y_k)
-//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g(y)]   over all present receivers s of the
-//     packet.
+//     p(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y) · [d < R_g(y)],
 //
-// Each of them sends m cosine-distributed rays; one that meets a reflecting surface within R_g makes a light
-// there. p is the density of all these rays together (probability-density summation: the balance heuristic
-// over the receivers), so every receiver of the packet may use every light of it: the sum's expectation is
-// the integral wherever p > 0, and where (G_R − G_Rg) V > 0 for some x, p > 0 by x alone. As p ≥ m·G_0/π, no
-// term exceeds L_o·π/m. L_o = albedo·E/π, E is direct light by next-event estimation, and that of some global
-// VPLs, bounded in their turn; what this leaves out comes from the next short ray, and so on
-// (lib/path_walk.cl), so light on its way to y is not bounded.
+// with the sum Σ_s over all present receivers s of the packet.
 //
-// R_g is a function of y (lib/path_walk.cl): where much light falls, many VPLs lie, and they need no wide
-// bound; and a small bright place, which few rays find, would make lights that are outliers.
+// Each of these receivers sends m cosine-distributed rays, and a ray that meets a reflecting surface within
+// R_g makes a light there. p is the density of all these rays together (probability-density summation: the
+// balance heuristic over the receivers), so every receiver of the packet may use every light of it. The
+// expectation of the sum is the integral wherever p > 0, and where (G_R − G_Rg) V > 0 for some x, the rays of
+// x alone make p > 0. As p ≥ m·G_0/π, no term exceeds L_o·π/m. L_o is albedo·E/π. E is the direct light by
+// next-event estimation plus the light of some global VPLs, which is bounded in turn. What that bound leaves
+// out comes from the next short ray, and so on (lib/path_walk.cl), so light on its way to y is not bounded.
 //
-// local_light_radii:   one work-item a VPL: R_g there.
-// local_light_rays:    one work-item a ray. Slot (packet · m + ray) · 64 + lane of `lights` gets a light with
-// power
-//                      albedo · E, the slot of `light_radii` R_g there, and that of `flags` 1, where there is
-//                      one. Packets count from first_packet.
-// local_light_density: one work-item a light, listed in `indices`: divides its power by p and writes the
-// receivers
-//                      that see it as bits.
-// local_light_gather:  one work-item a receiver: adds the lights of its packet to its irradiance.
+// R_g is a function of y (lib/path_walk.cl). Where much light falls, many VPLs lie, and they need no wide
+// bound. With a wide bound, a small bright place, which few rays find, would make lights that are outliers.
+//
+// - local_light_radii: one work-item for each VPL computes R_g there.
+// - local_light_rays: one work-item for each ray. Where it makes a light, slot (packet · m + ray) · 64 + lane
+//   of `lights` gets it with the power albedo · E, that slot of `light_radii` gets R_g there, and that of
+//   `flags` 1. Packets count from first_packet.
+// - local_light_density: one work-item for each light listed in `indices` divides its power by p and writes
+//   the receivers that see it as bits.
+// - local_light_gather: one work-item for each receiver adds the lights of its packet to its irradiance.
 // Any work-group size. Random numbers are keyed by the position of the packet's first receiver, and no packet
 // asks another, so no cut of the picture changes the result.
 
@@ -54,8 +53,9 @@ inline LocalPoint light_point(const global Vpl* light) {
     return point;
 }
 
-/// G_0 of a receiver and a light within the radius, else 0. Both stand off their surfaces by the ray epsilon,
-/// so points of one plane have height 0 but for rounding; a tenth of the epsilon tells that from light.
+/// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their surfaces by the
+/// ray epsilon, so that points of one plane have height 0 except for rounding, which is less than a tenth of
+/// the epsilon.
 inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, const LocalPoint* light,
                             float radius) {
     const float3 to_receiver = receiver->position - light->position;
@@ -67,7 +67,7 @@ inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, 
     return open ? height * cosine / (squared * squared) : 0.0f;
 }
 
-/// What tells this packet's random numbers from those of others.
+/// The key of a packet's random numbers: a hash of the position of its first present receiver.
 inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
     uint lane = 0;
     while (lane + 1 < NEARLIGHT_PACKET_SIZE && packet->nx[lane] == 0.0f && packet->ny[lane] == 0.0f &&
@@ -79,20 +79,21 @@ inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
         .x;
 }
 
-kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count, float widest,
-                              float narrowest, float at_unit_light, uint seed, global float* restrict radii) {
+kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count,
+                              float max_radius, float min_radius, float at_unit_light, uint seed,
+                              global float* restrict radii) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const GatherRadius law = {widest, narrowest, at_unit_light, seed};
+    const GatherRadius law = {max_radius, min_radius, at_unit_light, seed};
     radii[index] = gather_radius(&scene, &law, load3(vpls[index].position), load3(vpls[index].normal));
 }
 
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
-                             uint first_packet, uint slot_count, uint rays_per_receiver, float widest,
-                             float narrowest, float at_unit_light, const global Vpl* restrict vpls,
+                             uint first_packet, uint slot_count, uint rays_per_receiver, float max_radius,
+                             float min_radius, float at_unit_light, const global Vpl* restrict vpls,
                              const global float* restrict vpl_radii, uint vpl_count, uint connections,
                              uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights,
                              global float* restrict light_radii, global uint* restrict flags) {
@@ -112,7 +113,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     const uint index = slot % slots_per_packet;
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
-    const float reach = widest + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
+    const float reach = max_radius + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
     const SurfaceHit hit = trace_opaque(&scene, receiver.position, direction, reach);
     if (hit.t < 0.0f || !reflects(scene.materials + hit.material, hit.front)) {
         return;
@@ -121,7 +122,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
-    const GatherRadius law = {widest, narrowest, at_unit_light, seed};
+    const GatherRadius law = {max_radius, min_radius, at_unit_light, seed};
     const float radius = gather_radius(&scene, &law, light.position, light.normal);
     if (is_black(albedo) || !(local_geometry(&scene, &receiver, &light, radius) > 0.0f)) {
         return;
@@ -192,7 +193,7 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         const float3 between = receiver.position - light.position;
         const float squared = dot(between, between);
         const float radius = light_radii[slot];
-        // G_R − G_Rg as parts of G_0; the distance is below R_g.
+        // This is (G_R − G_Rg) / G_0, for a distance below R_g.
         const float bounded = clamp_radius * clamp_radius;
         const float part = (squared < bounded ? squared / bounded : 1.0f) - squared / (radius * radius);
         sum +=

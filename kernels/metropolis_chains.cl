@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Markov chains over light walks [Segovia et al., Metropolis Instant Radiosity, Eurographics 2007], in
-// primary sample space [Kelemen et al., A Simple and Robust Mutation Strategy for the Metropolis Light
-// Transport Algorithm, 2002].
+// Markov chains over walks [Segovia et al., Metropolis Instant Radiosity, Eurographics 2007], in primary
+// sample space [Kelemen et al., A Simple and Robust Mutation Strategy for the Metropolis Light Transport
+// Algorithm, 2002].
 //
 // A state is a point of the unit cube, in pairs of numbers: (depth, choice of light), position and direction
-// on the light, then one pair a bounce. It stands for one VPL: the deposit of that walk at that depth, its
-// flux divided by the probability of the depth. Pair p of state i lies at p · count + i. Depths beyond the
-// state's leave their pairs unused.
+// on the light, then one pair for each bounce. It stands for one VPL: the deposit of that walk at that depth,
+// with its flux divided by the probability of the depth. Pair p of state i lies at p · count + i. Pairs of
+// bounces beyond the state's depth are unused.
 //
-// - metropolis_seeds: numbers of independent states, by index into a randomised sequence.
-// - metropolis_walks: numbers to VPLs; of power 0 and without a normal where the walk does not get that far.
-// - metropolis_targets: what chains follow: the contribution to the camera (given along the Morton curve for
-//   the gather's sake: entry i is that of state order[i]), and blind_target for each watt, for what the
-//   estimate of the contribution misses.
-// - metropolis_propose: numbers of the next state to try.
+// - metropolis_seeds: writes the numbers of independent states, by index into a randomised sequence.
+// - metropolis_walks: turns numbers into VPLs, of power 0 and without a normal where the walk does not get
+//   that far.
+// - metropolis_targets: computes what chains follow: the contribution to the camera, plus blind_target for
+//   each watt, for what the estimate of the contribution misses. Contributions are in the order of the Morton
+//   curve for the gather's sake: entry i is that of state order[i].
+// - metropolis_propose: writes the numbers of the next state to try.
 // - metropolis_accept: moves there with probability min(1, proposed target / current target).
-// - metropolis_keep: VPLs of the states as they are, of power · scale / target.
-// One work-item a state; any work-group size.
+// - metropolis_keep: writes the VPLs of the states as they are, of power · scale / target.
+// One work-item for each state; any work-group size.
 
 #include "lib/light_walk.cl"
 
-/// Share of proposals that forget the state, and of the others those that draw a new depth.
+/// The share of proposals that forget the state.
 #define LARGE_STEPS 0.3f
+/// The share of the other proposals that draw a new depth.
 #define NEW_DEPTHS 0.25f
-/// Smallest and largest small step of a number.
+/// The minimum and the maximum of a small step of a number.
 #define MIN_STEP (1.0f / 1024.0f)
 #define MAX_STEP (1.0f / 16.0f)
 
@@ -74,14 +76,14 @@ kernel void metropolis_targets(const global Vpl* restrict vpls, const global uin
     targets[index] = target > 0.0f && target < INFINITY ? target : 0.0f;
 }
 
-/// A number moved by a random step on the unit circle, the same distribution there and back.
+/// A number moved by a random step on the unit circle. A step and the step back have the same distribution.
 inline float small_step(float u, uint bits) {
     const float size = MAX_STEP * exp(-log(MAX_STEP / MIN_STEP) * to_unit_float(bits));
     const float moved = bits & 1u ? u + size : u - size;
     return clamp(moved - floor(moved), 0.0f, 0x1.fffffep-1f);
 }
 
-/// Random words of one step of a chain: those of `pair` 0 decide, those of pair p + 1 move pair p.
+/// Random words of one step of a chain. Those of `pair` 0 decide, and those of `pair` p + 1 move pair p.
 inline uint4 step_words(uint chain, uint step, uint pair, uint seed) {
     return random_uint4((uint4)(chain, step, pair, seed));
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Order along the Morton curve: bounds and codes of points, then a stable radix sort of (key, value) pairs,
-// least significant digit first, 8 bits a pass. A pass counts the digits of each run, the host scans the
-// counts (all runs of digit 0, then all of digit 1, …), and each run moves its pairs to where the scan says.
-// Integers throughout, so the order is the same on every device. [paper section 3: order of the triangles]
+// least significant digit first, with 8 bits in a pass. A pass counts the digits of each run, the host scans
+// the counts (all runs of digit 0, then all of digit 1, …), and each run moves its pairs to where the scan
+// says. The sort uses integers only, so the order is the same on every device. [paper section 3: order of the
+// triangles]
 //
-// Memory: `keys` and `values` hold `count` uint; `positions` gives 256 counters to each run, counter of digit
-// d and run r at d · chunk_count + r. Points are the first three floats of elements of `stride` floats.
+// Memory: `keys` and `values` hold `count` uint; `positions` has 256 counters for each run, with that of
+// digit d and run r at d · chunk_count + r. Points are the first three floats of elements of `stride` floats.
 // Work-group size: any.
 
 #include "lib/chunk.cl"
@@ -21,7 +22,7 @@ inline float3 load_point(const global float* restrict points, uint index, uint s
 }
 
 /// Work-item i finds the box of run i: six floats, minimum then maximum. Points that are not finite do not
-/// count; the box of no point is empty (minimum ∞, maximum −∞).
+/// count. A box without points is empty (minimum ∞, maximum −∞).
 kernel void morton_bounds(const global float* restrict points, global float* restrict boxes, uint stride,
                           uint count, uint chunk_size, uint chunk_count) {
     const uint chunk = (uint)get_global_id(0);
@@ -42,7 +43,7 @@ kernel void morton_bounds(const global float* restrict points, global float* res
     vstore3(high, 2 * chunk + 1, boxes);
 }
 
-/// codes[i] and values[i] = i, for one point a work-item.
+/// Sets codes[i] to the Morton code of point i, and values[i] to i. One work-item for each point.
 kernel void morton_codes(const global float* restrict points, global uint* restrict codes,
                          global uint* restrict values, uint stride, float min_x, float min_y, float min_z,
                          float cells_per_metre, uint count) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// From placed surface samples to close-range VPLs, still without light: power is ρ·A/K, what an irradiance of
-// 1 W/m² would give, A the area the K samples stand for. kernels/vpl_light.cl brings the light.
+// Turns placed surface samples into patches (close-range VPLs) that are still without light. Their power is
+// ρ·A/K, which an irradiance of 1 W/m² would give, where A is the area that the K samples stand for.
+// kernels/vpl_light.cl brings the light.
 //
-// Each sample becomes two VPLs, one on each side of its surface: slots 2·i (front) and 2·i + 1. `flags` tell
-// which slots hold one: not those whose side reflects nothing, nor, where the policy decides point by point,
-// samples outside the close range. One work-item a slot; any work-group size.
+// Each sample becomes two VPLs, one on each side of its surface: slots 2·i (front) and 2·i + 1 (back).
+// `flags` tell which slots hold one. A slot is empty if its side reflects nothing or if, where the policy
+// decides point by point, the sample lies outside the close range. One work-item for each slot; any
+// work-group size.
 
 #include "lib/close_range.cl"
 #include "lib/material.cl"
@@ -31,7 +33,7 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
         return;
     }
     const float3 normal = front ? load3(point.normal) : -load3(point.normal);
-    // Depth 0: whichever light comes.
+    // Depth 0 stands for light of all depths.
     vpls[index] = make_vpl(offset_point(&scene, position, normal), normal, 0, NEARLIGHT_VPL_CLOSE, power);
     flags[index] = 1;
 }

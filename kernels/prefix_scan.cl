@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prefix sums by reduce-then-scan: sum each run, scan the sums (the host recurses), then scan each run from
-// its offset. No work-item waits for another, so it needs no forward progress between groups, and integer
-// sums make the result the same on every device. [paper section 3: the area prefix sum f]
+// its offset. No work-item waits for another, so the scan needs no forward progress between work-groups, and
+// integer sums make the result the same on every device. [paper section 3: the area prefix sum f]
 //
-// Memory: arrays of `count` SCAN_TYPE; `chunk_sums` and `chunk_offsets` hold one entry a run. `input` and
-// `output` of scan_chunks may be the same array, hence no `restrict` there. Work-group size: any.
+// Memory: arrays of `count` SCAN_TYPE; `chunk_sums` and `chunk_offsets` hold one entry for each run. `input`
+// and `output` of scan_chunks may be the same array, which is why they are not `restrict`. Work-group size:
+// any.
 
 #include "lib/chunk.cl"
 
@@ -27,8 +28,8 @@ kernel void scan_reduce(const global SCAN_TYPE* restrict input, global SCAN_TYPE
     chunk_sums[chunk] = sum;
 }
 
-/// Work-item i scans run i, starting from chunk_offsets[i] (from 0, unread, where there is one run only). The
-/// last one leaves the sum of everything in `total`.
+/// Work-item i scans run i, starting from chunk_offsets[i]. If there is only one run, it starts from 0 and
+/// does not read chunk_offsets. The last work-item writes the sum of everything to `total`.
 kernel void scan_chunks(const global SCAN_TYPE* input, const global SCAN_TYPE* chunk_offsets,
                         global SCAN_TYPE* output, global SCAN_TYPE* total, uint count, uint chunk_size,
                         uint chunk_count, uint inclusive) {

@@ -2,7 +2,7 @@
 // Casts given rays: the traversal of lib/ray_tree.cl by itself, so that it can be compared with other ray
 // casters ray by ray.
 //
-// One work-item a ray, independent of each other; any work-group size.
+// One work-item for each ray; any work-group size.
 
 #include "lib/ray_tree.cl"
 
@@ -18,7 +18,7 @@ kernel void cast_closest(const global TreeNode* restrict nodes,
         tree_closest_hit(nodes, triangles, load3(ray.origin), load3(ray.direction), ray.t_min, ray.t_max);
 }
 
-/// is_occluded: 1 where the ray meets anything.
+/// Sets is_occluded[i] to 1 where ray i meets anything, else to 0.
 kernel void cast_any(const global TreeNode* restrict nodes, const global TreeTriangles* restrict triangles,
                      const global RayQuery* restrict rays, uint ray_count,
                      global uint* restrict is_occluded) {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reverse VPLs [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]: where rays from points that the
-// camera sees land is where a VPL lights the picture.
+// Reverse VPLs [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]. A VPL lights the picture where
+// rays from points that the camera sees land.
 //
 // S points send m cosine-distributed rays each. What lands at y has the density (per area, of all rays
 // together)
-//     n(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y)     over exactly those points,
-// which is the irradiance that a gather brings to y from the points as VPLs of power m.
 //
-// One work-item a ray; ray r is of point r / m. Where it lands on a surface that reflects, slot r of `vpls`
-// gets a VPL whose power is the albedo there, and slot r of `flags` 1. Any work-group size.
+//     n(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y),
+//
+// with the sum over exactly those points. It is the irradiance that a gather brings to y from the points as
+// VPLs of power m.
+//
+// One work-item for each ray; ray r belongs to point r / m. Where it lands on a surface that reflects, slot r
+// of `vpls` gets a VPL whose power is the albedo there, and slot r of `flags` gets 1. Any work-group size.
 
 #include "lib/material.cl"
 #include "lib/random.cl"
@@ -26,8 +29,8 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     const SceneView scene = SCENE_VIEW;
     const global Importon* point = points + ray / rays_per_point;
     const float3 origin = load3(point->position);
-    // One sequence for all points: neighbours of it, which look the same way, share the directions among
-    // them.
+    // All points use one sequence, so that neighbouring points, which look the same way, share the directions
+    // among them.
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 0, seed)), load3(point->normal));
     const SurfaceHit hit = trace_opaque(&scene, origin, direction, INFINITY);
@@ -36,12 +39,12 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     }
     const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
     const float3 y = offset_point(&scene, hit.position, hit.geometric);
-    // A ray that leaves below the surface of its own point, as shading normals allow, comes from the plane of
-    // y.
+    // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane
+    // of y.
     const float height = dot(hit.geometric, origin - y);
     if (is_black(albedo) || !(height > 0.1f * ray_epsilon(y, scene.info->extent))) {
         return;
     }
-    vpls[ray] = make_vpl(y, hit.geometric, 0, 0, albedo);  // depth 0: whichever light comes
+    vpls[ray] = make_vpl(y, hit.geometric, 0, 0, albedo);  // depth 0: light of all depths
     flags[ray] = 1;
 }

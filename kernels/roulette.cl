@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Russian roulette over the VPLs of a gather: which of them a bundle of receivers asks about, and how much
-// each then counts. Unbiased: a VPL that is chosen with probability p counts 1/p.
+// Russian roulette over the VPLs of a gather. It decides which of them a bundle of receivers asks about, and
+// how much each of these counts: 1/p for a VPL that is chosen with probability p, which is unbiased.
 //
-// A whole bundle decides together (lib/bundle.cl), as it goes through the tree together, and stays full: by
-// what a VPL could bring to its receivers if nothing were in the way (root mean square, which for a given
-// number of bundles traced leaves the least error). In one bundle the choice is systematic along the order of
-// the VPLs: with VPLs along a Morton curve, of those that are near each other always about the right number
-// is chosen, which is far less noise than independent draws. host/stages/roulette.h is the interface.
+// A whole bundle decides together (lib/bundle.cl), so that the beams that go through the tree stay full. It
+// decides by what a VPL could bring to its receivers if nothing were in the way: the root mean square, which
+// leaves the smallest error for a given number of bundles traced. In one bundle the choice is systematic
+// along the order of the VPLs. With VPLs along a Morton curve, always about the right number of those near
+// each other is chosen, which is far less noise than independent draws give. host/stages/roulette.h is the
+// interface.
 
 #include "lib/bundle.cl"
 #include "lib/gather.cl"
 #include "lib/random.cl"
 
-// Least probability of anything that could bring light; only keeps 1/p finite.
+// The minimum probability of a VPL that could bring light. It only keeps 1/p finite.
 #define MIN_PROBABILITY 1e-6f
 
 inline float sum_of_lanes(float16 v) {
@@ -22,7 +23,7 @@ inline float sum_of_lanes(float16 v) {
     return c.x + c.y;
 }
 
-/// Root mean square over the receivers of the bundle.
+/// The geometry term of a VPL, root mean square over the receivers of the bundle.
 inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* packets, const Bundle* bundle,
                             float clamp_radius_squared) {
     float16 squares = (float16)0.0f;
@@ -34,9 +35,9 @@ inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* 
     return sqrt(sum_of_lanes(squares) / (float)(max(bundle->count, 1u) * NEARLIGHT_PACKET_SIZE));
 }
 
-/// bounds[(bundle − first_bundle)·vpl_count + vpl] = the irradiance that the VPL could bring to receivers of
-/// the bundle, root mean square, in its strongest channel; 0: it faces none. One work-item for each run of
-/// `run_length` VPLs of each bundle of [first_bundle, end_bundle).
+/// Sets bounds[(bundle − first_bundle)·vpl_count + vpl] to the irradiance that the VPL could bring to the
+/// receivers of the bundle (root mean square, in its strongest channel), or to 0 if it faces none of them.
+/// One work-item for each run of `run_length` VPLs of each bundle of [first_bundle, end_bundle).
 kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_length,
                             const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
                             uint first_bundle, uint end_bundle, float clamp_radius_squared,
@@ -56,8 +57,8 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint run_len
     }
 }
 
-/// Uniform in [0, 1): a hash of where the bundle's receivers are, so that no division of a picture changes
-/// it.
+/// A uniform number in [0, 1) for a bundle. It is a hash of where the bundle's receivers are, so that no
+/// division of a picture changes it.
 inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed) {
     uint4 key = (uint4)(seed, 0x726f756cu, 0, 0);
     for (uint i = 0; i < bundle->count; ++i) {
@@ -71,7 +72,7 @@ inline float bundle_number(const global ReceiverPacket* packets, const Bundle* b
     return to_unit_float(key.x);
 }
 
-/// Bound below which a VPL is left to chance: `threshold` times the mean of all.
+/// The bound below which a VPL is left to chance: `threshold` times the mean of all bounds.
 inline float roulette_limit(const global float* bounds, uint count, float threshold) {
     float total = 0.0f;
     for (uint chunk = 0; chunk < count; chunk += GATHER_CHUNK) {
@@ -85,9 +86,9 @@ inline float roulette_limit(const global float* bounds, uint count, float thresh
     return limit < INFINITY ? limit : 0.0f;  // 0: nothing is left to chance
 }
 
-/// Lists the chosen VPLs of each bundle in their order, with 1/p: entries [bundle·vpl_count, +
-/// counts[bundle]) of `chosen` and `weights`, bundles counted from first_bundle as in `bounds`. One work-item
-/// a bundle.
+/// Lists the chosen VPLs of each bundle in their order in `chosen`, with 1/p in `weights`. The list of a
+/// bundle begins at entry bundle·vpl_count, where bundles count from first_bundle as in `bounds`, and
+/// counts[bundle] is its length. One work-item for each bundle.
 kernel void roulette_choose(const global float* bounds, uint vpl_count,
                             const global ReceiverPacket* receivers, uint packet_count, uint run_packets,
                             uint first_bundle, uint end_bundle, float threshold, uint seed,

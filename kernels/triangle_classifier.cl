@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles reach into the close range, with their areas and centroids. A triangle does if some point
-// of it lies in the view frustum and nearer to the camera than the range: the triangle is clipped by the five
-// planes, and the nearest point of what is left decides, not the centroid. [paper section 3: classification]
+// Which triangles reach into the close range, with their areas and centroids. A triangle reaches into it if
+// some point of it lies in the view frustum and nearer to the camera than the range. The triangle is clipped
+// by the five planes, and the nearest point of what is left decides, not the centroid. [paper section 3:
+// classification]
 //
 // The answer errs towards "yes", by a margin as large as the rounding of in_close_range() can be, so that no
 // point that passes that test lies on a triangle that was left out. Glass carries no VPLs and is left out,
 // and so are triangles without area.
 //
-// Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) a
-// triangle. One work-item a triangle; work-group size: any.
+// Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) for each
+// triangle. One work-item for each triangle; work-group size: any.
 
 #include "lib/math.cl"
 #include "lib/polygon.cl"
 
-/// Of the coordinates' size: what rounding can move a point by, and more.
+/// A margin relative to the size of coordinates. It is more than rounding can move a point by.
 #define ROUNDING_MARGIN 4e-6f
 
 inline bool carries_vpls(const global Material* material) {
@@ -24,7 +25,8 @@ inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, fl
     const float3 origin = load3(region->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     const float margin = ROUNDING_MARGIN * max_component(reach);
-    // Relative to the camera, through which all planes go: small numbers where accuracy matters.
+    // Positions are relative to the camera, through which all planes go, so that numbers are small where
+    // accuracy matters.
     Polygon polygon;
     polygon.vertices[0] = a - origin;
     polygon.vertices[1] = b - origin;
@@ -58,7 +60,7 @@ kernel void classify_triangles(const global Vertex* restrict vertices,
         area > 0.0f && carries_vpls(materials + triangle.material) && reaches_into(region, a, b, c, normal);
 }
 
-/// centroids[i] is that of triangle ids[i].
+/// Sets centroids[i] to the centroid of triangle ids[i].
 kernel void triangle_centroids(const global Vertex* restrict vertices,
                                const global Triangle* restrict triangles, const global uint* restrict ids,
                                global Vec3* restrict centroids, uint count) {

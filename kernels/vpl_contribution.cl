@@ -2,18 +2,19 @@
 // What each VPL brings to the camera: the column sums of the receiver × VPL matrix, over some receivers.
 //
 // The matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the
-// receivers of the camera send out importance like VPLs (importons, host/stages/pilot_view.h), and the VPLs
-// receive it. With response the reflectance (divided by π) times the weight of the camera path, and sums over
-// the importons:
-//   squared 0: Σ luminance(response · G · V · power/π), what the VPL brings;
-//   squared 1: the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by chance, the
-//   error of the picture is least when the probabilities follow this. The importance is that of squares.
-// `vpl_group_contribution` keeps the three channels, for each group of importons (a part of the picture):
-//   Σ response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
-// One work-item a VPL, or a VPL and group, from the importance that arrived; any work-group size.
+// receivers of the camera send out importance as VPLs send light (importons, host/stages/pilot_view.h), and
+// the VPLs receive it. The response is the reflectance (divided by π) times the weight of the camera path.
+// The sums are over the importons:
+// - With squared = 0, it is Σ luminance(response · G · V · power/π), which the VPL brings.
+// - With squared = 1, it is the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by
+//   chance, the error of the picture is smallest when the probabilities follow this. The importance must be
+//   that of squares.
+// - `vpl_group_contribution` keeps the three channels for each group of importons (a part of the picture): Σ
+//   response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
+// One work-item for each VPL, or for each VPL and group; any work-group size.
 //
-// `importance_thresholds` says before the gather which importons are not worth a ray: few make up nearly all
-// of the error that a VPL would leave.
+// `importance_thresholds` says before the gather which importons are not worth a ray, because few make up
+// nearly all of the error that a VPL would leave.
 
 #include "lib/gather.cl"
 #include "lib/math.cl"
@@ -52,8 +53,9 @@ kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_cou
     vstore3(brought * (scale * M_1_PI_F), slot, contribution);
 }
 
-/// thresholds[i] = `part` of the mean, over importons, of the squares of the importance that would arrive at
-/// receiver i of the packets if nothing were in the way. One work-item for each 16 receivers.
+/// Sets thresholds[i] to `part` times the mean, over the importons, of the squares of the importance that
+/// would arrive at receiver i of the packets if nothing were in the way. One work-item for each row of 16
+/// receivers.
 kernel void importance_thresholds(const global Importon* restrict importons, uint importon_count,
                                   const global ReceiverPacket* restrict receivers, uint packet_count,
                                   float clamp_radius_squared, float part, global float* restrict thresholds) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // VPLs as receivers of light, and what they reflect of it.
 //
-// vpl_receivers:  VPL i becomes lane i % 64 of packet i / 64; the last packet is filled up with absent
-// receivers. vpl_light:      power of VPL i becomes power · irradiance of its lane. A VPL made for an
-// irradiance of 1 W/m² (power:
-//                 albedo times the area it stands for) so gets the power that the light there gives it [paper
-//                 eq. 2, repaired: angle and distance are to the light].
-// add_irradiance: adds one set of packets to another.
-// One work-item a lane; any work-group size.
+// - vpl_receivers: VPL i becomes lane i % 64 of packet i / 64. The last packet is filled up with absent
+//   receivers.
+// - vpl_light: the power of VPL i is multiplied by the irradiance of its lane. A VPL made for an irradiance
+//   of 1 W/m², whose power is the albedo times the area that it stands for, so gets the power that the light
+//   there gives it [paper eq. 2, repaired: angle and distance are to the light].
+// - add_irradiance: adds one set of packets to another.
+// One work-item for each lane or VPL; any work-group size.
 
 #include "lib/math.cl"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Even placement: K points over the area of the selected triangles, one in each of K equal parts of it. Large
-// triangles get many points and runs of small ones share one. [paper section 3: placement by the area prefix
+// triangles get many points, and runs of small ones share one. [paper section 3: placement by the area prefix
 // sum]
 //
 // Areas are fixed-point numbers (ulong), so that their sums are exact and a point falls on the same triangle
 // on every device. Part k of K is [floor(k·A/K), floor((k + 1)·A/K)) of the summed area A, in integers. A
-// triangle of zero units is never chosen.
+// triangle whose area rounds to zero is never chosen.
 //
 // Memory: `ids` lists the selected triangles, `area_sums` (inclusive) their areas up to and including each.
-// One work-item an element; work-group size: any.
+// One work-item for each element; work-group size: any.
 
 #include "lib/math.cl"
 #include "lib/random.cl"
@@ -16,7 +16,7 @@
 
 #define PLACEMENT_DIMENSION 0x506c6163u
 
-/// Areas of the selected triangles in units of 1/scale, a power of two.
+/// Writes the areas of the selected triangles in units of 1/scale m²; `scale` is a power of two.
 kernel void placement_areas(const global float* restrict areas, const global uint* restrict ids,
                             global ulong* restrict fixed_areas, float scale, uint count) {
     const uint i = (uint)get_global_id(0);
@@ -31,7 +31,7 @@ inline ulong part_begin(uint k, uint part_count, ulong total) {
     return k * (total / part_count) + k * (total % part_count) / part_count;
 }
 
-/// The first of `count` triangles whose sum exceeds `at`; `at` is less than the last sum.
+/// The first of `count` triangles whose sum exceeds `at`, which must be less than the last sum.
 inline uint find_triangle(const global ulong* restrict area_sums, uint count, ulong at) {
     uint low = 0;
     uint high = count - 1;
@@ -67,7 +67,7 @@ inline SurfaceSample sample_on_triangle(const global Vertex* restrict vertices, 
     return sample;
 }
 
-/// Point k of `sample_count`.
+/// Places point k of `sample_count`, one in each work-item.
 kernel void place_samples(const global Vertex* restrict vertices, const global Triangle* restrict triangles,
                           const global uint* restrict ids, const global ulong* restrict area_sums,
                           global SurfaceSample* restrict samples, uint triangle_count, uint sample_count,

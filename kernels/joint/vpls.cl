@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The small stages that every sampler draws on, compiled as one program on CPUs; see kernels/README.md.
+// The small stages that all samplers use, compiled as one program on CPUs; see kernels/README.md.
 #include "compaction.cl"
 #include "morton_sort.cl"
 #include "patch_vpls.cl"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks through the scene, compiled as one program on CPUs; see kernels/README.md.
+// The stages that follow light and paths through the scene, compiled as one program on CPUs; see
+// kernels/README.md.
 #include "bounce_tracer.cl"
 #include "light_tracer.cl"
