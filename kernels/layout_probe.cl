@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what shared/layout_facts.h lists, as the device has it: one uint for each fact, in the order of the
-// list, then the first channel and the first sum of each film layer. One work-item.
+// Writes the facts of shared/layout_facts.h as the device has them: one uint for each fact, in the order of
+// the list, then the first channel and the first sum of each film layer. Launched with a single work-item.
 
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"

@@ -6,8 +6,8 @@
 #ifndef NEARLIGHT_SHARED_LAYOUT_FACTS_H
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
-/// Needs types.h and film_layers.h where it is expanded. Calls SIZE(struct), OFFSET(struct, member) or
-/// VALUE(constant expression) for each fact, in order.
+/// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
+/// place where it expands must include types.h and film_layers.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
