@@ -46,7 +46,7 @@ Hash128 key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& sh
 struct Header {
     std::array<char, 8> magic{'N', 'L', 'T', 'R', 'E', 'E', '0', '1'};
     Hash128 key{};
-    Hash128 checksum{};  ///< of the rest of the header, and of what follows
+    Hash128 checksum{};  ///< hash of the rest of the header and of what follows
     struct Tree {
         std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
         double sah_cost = 0;

@@ -12,7 +12,7 @@ namespace nearlight::core {
 struct BvhCacheConfig {
     std::filesystem::path folder;          ///< "" and "none" keep nothing
     std::size_t min_triangles = 20'000;    ///< trees of smaller scenes are built faster than looked up
-    std::uintmax_t max_bytes = 1u << 30u;  ///< of all files; the least recently used ones are removed
+    std::uintmax_t max_bytes = 1u << 30u;  ///< size of all files; the least recently used are removed
 };
 
 /// Returns what build_scene_trees() gives, bit by bit. They come from the cache if it has the trees of the

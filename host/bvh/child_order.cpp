@@ -26,7 +26,7 @@ constexpr double kPrior = 8.0;
 constexpr std::size_t kSurveyParts = 4;
 constexpr std::size_t kNodeGrain = 1u << 12u;
 
-/// What a segment that meets a box does below the box.
+/// The result below a box of a segment that meets the box.
 struct Passage {
     bool hit = false;
     uint cost = 0;  ///< number of nodes and triangles visited
@@ -182,9 +182,9 @@ std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const 
     return std::move(parts.front()).take();
 }
 
-/// What to expect of a ray that meets a box.
+/// The expected values of a ray that meets a box.
 struct Expectation {
-    double chance = 0.0;  ///< that the ray hits something in the box
+    double chance = 0.0;  ///< probability that the ray hits something in the box
     double cost = 0.0;
 };
 

@@ -19,7 +19,7 @@ constexpr BvhTriangle kNoTriangle{kFarPoint, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 struct Counts {
     uint nodes = 0;
     uint triangles = 0;
-    int levels = 0;  ///< of inner nodes; unused in the counts before a subtree
+    int levels = 0;  ///< levels of inner nodes; unused in the counts before a subtree
 };
 
 /// Counts a subtree, and stores the counts of each left subtree in the free words of its parent.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the builder shares work between threads. Without oneTBB (NEARLIGHT_SERIAL) one thread does everything,
-// with the same results.
+// Functions by which the builder shares work between threads. Without oneTBB (NEARLIGHT_SERIAL) one thread
+// does everything, with the same results.
 #pragma once
 
 #include <cstddef>

@@ -9,8 +9,8 @@ namespace nearlight::core {
 
 /// The shapes that are wanted.
 struct TreeShapes {
-    bool binary = false;  ///< for GPUs, where each work-item traces a ray
-    bool wide = false;    ///< for CPUs
+    bool binary = false;  ///< two children a node, for GPUs
+    bool wide = false;    ///< eight children a node, for CPUs
 };
 
 /// A tree in one shape or both; a shape that is not wanted is empty.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the scene's camera to the struct that ray generation uses.
+// Converts the scene's camera to the struct that ray generation uses.
 #pragma once
 
 #include "host/scene/scene.h"

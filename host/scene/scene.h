@@ -65,7 +65,7 @@ struct Scene {
     std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
-    int max_depth = 0;          ///< as Mitsuba counts (2: direct light only); 0: the file does not say
+    int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say
     int samples_per_pixel = 0;  ///< 0: the file does not say
     std::vector<Note> notes;    ///< approximations and oddities
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From XML text to the tree of objects, through pugixml, which only xml_file and xml_reader know.
+// Makes the tree of objects from XML text, through pugixml, which only xml_file and xml_reader know.
 #pragma once
 
 #include <filesystem>
