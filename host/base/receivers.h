@@ -14,7 +14,7 @@ struct ReceiverPoint {
     Vec3 normal;  ///< zero if the receiver is absent
 };
 
-/// The number of packets that hold `receiver_count` receivers.
+/// The number of packets for `receiver_count` receivers.
 constexpr std::size_t receiver_packet_count(std::size_t receiver_count) {
     return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
 }

@@ -43,8 +43,7 @@ Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& co
 /// The ids of the triangles that the tree was built over, in ascending order, each once.
 std::vector<uint> distinct_triangles(const Bvh& bvh);
 
-/// The two trees of a scene: one of what light and camera see, and one of the glass that only the camera
-/// sees.
+/// The two trees of a scene: what light and camera see, and the glass that only the camera sees.
 struct SceneBvhs {
     Bvh opaque;
     Bvh glass;

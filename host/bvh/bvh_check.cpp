@@ -61,8 +61,8 @@ class Checker {
         }
     }
 
-    /// Checks a node and returns the box of all vertices of whole triangles below. `within` is what all boxes
-    /// above have in common.
+    /// Returns the box of all vertices of whole triangles below the node. `within` is common to all boxes
+    /// above.
     Aabb visit_node(uint index, int depth, const Aabb& within) {
         ++node_visits_[index];
         const BvhNode& node = bvh_.nodes[index];

@@ -10,13 +10,13 @@
 
 namespace nearlight::core {
 
-/// A child of a node of the wide tree: a reference of the binary tree, and its box.
+/// A child of a wide node: a reference of the binary tree, and its box.
 struct WideChild {
     uint reference = 0;
     Aabb box;
 };
 
-/// All children of a node of the wide tree.
+/// All children of a wide node.
 struct WideChildren {
     std::array<WideChild, NEARLIGHT_WIDE_CHILDREN> children;
     std::size_t count = 0;

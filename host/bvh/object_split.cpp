@@ -148,8 +148,8 @@ std::size_t partition(std::span<Reference> range, const BinMapping& mapping, con
     if (split.left_set != 0) {
         return partition_by_set(range, split.left_set);
     }
-    // The loop has no branches, because the side of a reference is unpredictable. From `left` to the current
-    // place are the references of the right side.
+    // The loop has no branches, because the side of a reference is unpredictable. The right side so far
+    // begins at `left`.
     std::size_t left = 0;
     for (Reference& place : range) {
         const Reference reference = place;

@@ -79,8 +79,7 @@ class SahBuilder {
           splitter_(splitter),
           leaf_size_(std::clamp<uint>(config.max_leaf_triangles, 1, NEARLIGHT_LEAF_MAX_TRIANGLES)) {}
 
-    /// Builds a subtree. depth + halving_depth(count) ≤ NEARLIGHT_MAX_BVH_DEPTH holds at the root of any
-    /// tree, and splits keep to it.
+    /// Keeps to depth + halving_depth(count) ≤ NEARLIGHT_MAX_BVH_DEPTH, which holds at the root of any tree.
     Subtree build(const Room& room, const RangeBounds& bounds, int depth) {
         const Subtree leaf{bounds.box,
                            leaf_reference(static_cast<uint>(room.first), static_cast<uint>(room.count)), 0,

@@ -6,8 +6,8 @@
 
 namespace nearlight::core {
 
-/// Limits work to `threads` threads, the caller's included, while the object lives; 0 means one a core. If
-/// several limits exist, the lowest one counts.
+/// Limits work to `threads` threads, the caller's included, while it lives; 0 means one a core. Of several
+/// limits the lowest counts.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int threads);

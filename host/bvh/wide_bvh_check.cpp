@@ -52,7 +52,7 @@ class WideChecker {
   private:
     void complain(const std::string& text) { complaints_.push_back(text); }
 
-    /// Checks a node and returns the box of all vertices below.
+    /// Returns the box of all vertices below the node.
     Aabb visit_node(uint index) {
         ++node_visits_[index];
         const WideNode& node = wide_.nodes[index];

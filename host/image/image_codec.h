@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface to OpenImageIO, which is in a module of its own (oiio_codec.cpp). The module is loaded when
-// it is first needed, because the 250 shared libraries of OpenImageIO take longer to load than everything
-// else that `nearlight` does before it renders.
+// The interface to OpenImageIO, which is in a module of its own (oiio_codec.cpp). It is loaded when first
+// needed, because OpenImageIO's 250 shared libraries take longer to load than all else that `nearlight` does
+// before it renders.
 #pragma once
 
 #include <cstdio>

@@ -26,8 +26,8 @@ bool has_color_layer(const Image& image, const std::string& layer);
 /// Compares the three channels `layer`.R, .G, .B (or R, G, B for an empty layer) of a with those of the
 /// reference b. Throws Error(ErrorKind::file) if the sizes differ or a channel is missing.
 ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer = "");
-/// The FLIP error of each pixel of a layer, as channels R, G, B in a magma-like colour map. Takes the
-/// arguments of compare_images() and throws the same errors.
+/// The FLIP error of each pixel of a layer, as channels R, G, B in a magma-like colour map. Throws as
+/// compare_images() does.
 Image flip_map(const Image& a, const Image& b, const std::string& layer = "");
 
 }  // namespace nearlight::core

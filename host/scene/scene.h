@@ -82,8 +82,8 @@ std::uint64_t scene_hash(const Scene& scene);
 bool is_glass(const Material& material);
 /// The reflectance that light transport sees at texture coordinates (u, v); see Material.
 Vec3 light_albedo(const Scene& scene, const Material& material, float u, float v);
-/// The Lambertian reflectance that the camera sees at texture coordinates (u, v), without the coat's Fresnel
-/// factor; see Material.
+/// The Lambertian reflectance that the camera sees at (u, v), without the coat's Fresnel factor; see
+/// Material.
 Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float v);
 
 }  // namespace nearlight::core

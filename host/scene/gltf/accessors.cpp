@@ -78,7 +78,7 @@ double number(const Elements& elements, std::size_t element, std::size_t index) 
 /// The maximum number of elements of an accessor that no bytes bound; no tree could hold more vertices.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 27u;
 
-/// The elements of an accessor before sparse ones replace them. They are zero without a buffer view.
+/// The elements of an accessor without its sparse ones; zero without a buffer view.
 Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components) {
     if (accessor.bufferView < 0) {
         if (accessor.count > kMaxZeros) {

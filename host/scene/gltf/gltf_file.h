@@ -36,15 +36,14 @@ struct GltfFile {
 /// broken or needs an extension that is not supported.
 GltfFile read_gltf(const std::filesystem::path& path);
 
-/// The bytes of a buffer view. Throws Error(ErrorKind::file) if it reaches beyond its buffer.
+/// The bytes of a buffer view. Calls fail() if it reaches beyond its buffer.
 std::span<const std::byte> bytes_of(const GltfFile& file, int buffer_view);
 
 /// The numbers of an accessor, `components` for each element. Integers of normalised accessors become
-/// fractions, and sparse elements are filled in. Throws Error(ErrorKind::file) if the accessor has another
-/// shape or reaches beyond its buffer.
+/// fractions, and sparse elements are filled in. Calls fail() if the accessor has another shape or reaches
+/// beyond its buffer.
 std::vector<float> read_numbers(const GltfFile& file, int accessor, int components);
-/// The elements of an accessor that are one integer each. Throws Error(ErrorKind::file) as read_numbers()
-/// does.
+/// The elements of an accessor that are one integer each. Calls fail() as read_numbers() does.
 std::vector<uint> read_indices(const GltfFile& file, int accessor);
 
 /// The number `key` of an extension's object, or `fallback` if there is none.

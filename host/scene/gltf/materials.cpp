@@ -107,7 +107,7 @@ void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
 
 }  // namespace
 
-/// The properties of a glTF material that decide which material it becomes.
+/// The properties that decide which material a glTF material becomes.
 struct MaterialMaker::Surface {
     Vec3 color{1, 1, 1};  ///< base colour without the texture
     float opacity = 1;

@@ -45,8 +45,8 @@ struct Element {
     [[nodiscard]] std::string text(const char* attribute) const;
     [[nodiscard]] std::string required(const char* attribute) const;
     [[nodiscard]] double number(const char* attribute, double fallback) const;
-    /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. One number stands
-    /// for all three if `single` is true.
+    /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. If `single`, one
+    /// number stands for all three.
     [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;
 };
 
