@@ -14,8 +14,9 @@
 namespace nearlight::core {
 namespace {
 
-/// In the target's folder, since a rename cannot cross file systems. The process and a count tell the writers
-/// of one machine apart, and the random number those of machines that share a folder.
+/// The temporary file is in the target's folder, because a rename cannot cross file systems. The process and
+/// a count tell the writers on one machine apart, and the random number tells apart machines that share a
+/// folder.
 std::filesystem::path temporary_path(const std::filesystem::path& target) {
     static std::atomic<unsigned> count{0};
     std::array<char, 64> suffix{};
@@ -24,8 +25,8 @@ std::filesystem::path temporary_path(const std::filesystem::path& target) {
     return target.string() + suffix.data();
 }
 
-/// Without this a file system may record the new name before the data, and a power failure leaves an empty
-/// file.
+/// Without a flush, a file system may record the new name before the data, and a power failure leaves an
+/// empty file.
 std::error_code flush_to_disk(const std::filesystem::path& file) {
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) {
@@ -33,7 +34,7 @@ std::error_code flush_to_disk(const std::filesystem::path& file) {
     }
     const int error = fsync(descriptor) == 0 ? 0 : errno;
     close(descriptor);
-    // Some file systems know no flushing, which is no reason to refuse the file.
+    // Some file systems cannot flush, which is no reason to refuse the file.
     return {error == EINVAL ? 0 : error, std::generic_category()};
 }
 

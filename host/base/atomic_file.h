@@ -9,8 +9,8 @@ namespace nearlight::core {
 
 /// What a power failure right after a commit may do to the file.
 enum class Durability {
-    cache,   ///< It may be damaged or lost, as it can be made again; commit() is quick.
-    result,  ///< The old or the new file remains whole: commit() waits for the disk.
+    cache,   ///< The file may be damaged or lost, because it can be made again; commit() is quick.
+    result,  ///< Either the old or the new file remains whole; commit() waits for the disk.
 };
 
 /// A temporary file in its target's folder. The owner writes and closes it; commit() then gives it the
@@ -24,10 +24,11 @@ class AtomicFile {
     AtomicFile& operator=(AtomicFile&& other) noexcept;
 
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
-    /// The owner creates the file at this path. The path is empty after a successful commit.
+    /// The path at which the owner creates the file; empty after a successful commit.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Returns the reason of a failure, after which the old file is still there.
+    /// Gives the closed temporary file the target's name. Returns the error, after which the old file is
+    /// still there, or an empty code.
     [[nodiscard]] std::error_code commit(Durability durability);
 
   private:

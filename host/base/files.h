@@ -8,14 +8,14 @@
 
 namespace nearlight::core {
 
-/// With those above it. Throws Error(ErrorKind::file).
+/// Makes a folder and the missing folders above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
-/// The old file survives where this fails. Throws Error(ErrorKind::file).
+/// Replaces the whole file. After a failure the old file is still there. Throws Error(ErrorKind::file).
 void write_text(const std::filesystem::path& file, std::string_view text);
-/// All bytes. Throws Error(ErrorKind::file).
+/// Reads the whole file. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);
 
-/// Hexadecimal, all bits: for keys.
+/// The value in hexadecimal, with all its bits, for use in keys.
 std::string exact_text(double value);
 
 }  // namespace nearlight::core

@@ -8,14 +8,14 @@
 namespace nearlight::core {
 namespace {
 
-/// In the order in which the two are written.
+/// The two halves in the order in which hex_digits() writes them.
 Hash128 in_order(XXH128_hash_t hash) {
     return {hash.high64, hash.low64};
 }
 
 }  // namespace
 
-/// The hashes of both widths come from the same sums; only what is made of them at the end differs.
+/// The hashes of both widths come from the same sums; only the last step differs.
 struct Hasher::State {
     State() { XXH3_128bits_reset(&sums); }
     XXH3_state_t sums;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hashes of data in memory, for keys and checksums of cached files and for comparing pictures. They are XXH3
-// [Collet], the same on all little-endian machines, and offer no protection from somebody who wants two
-// inputs to collide. The minimal build does without the library and has hash_plain.cpp, whose hashes are
-// different ones.
+// hashes [Collet], which are the same on all little-endian machines and do not resist deliberate collisions.
+// The minimal build does without xxHash; its hash_plain.cpp gives other hashes.
 #pragma once
 
 #include <array>
@@ -29,13 +28,14 @@ class Hasher {
 
     void add_bytes(std::span<const std::byte> bytes);
     void add_text(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
-    /// The value's padding is hashed too, so it must be zero.
+    /// Hashes the bytes of the value, with its padding, which must therefore be zero.
     template <typename T>
     void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         add_bytes(std::as_bytes(std::span(&value, 1)));
     }
-    /// Hashes the length, too: otherwise two arrays would hash like two others with the same concatenation.
+    /// Hashes the array with its length; otherwise two arrays would hash like two others with the same
+    /// concatenation.
     template <typename T>
     void add_array(std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -64,7 +64,7 @@ inline Hash128 hash128(std::string_view text) {
     return hash128(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-/// Sixteen hexadecimal digits.
+/// The value as sixteen hexadecimal digits.
 inline std::string hex_digits(std::uint64_t value) {
     std::string text(16, '0');
     for (int i = 15; i >= 0; --i, value >>= 4u) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For builds without xxHash: FNV-1a [Fowler, Noll, Vo], with a second start for the other half of 128 bits.
+// FNV-1a hashes [Fowler, Noll, Vo] for builds without xxHash. The second half of 128 bits has another start
+// value.
 #include "host/base/hash.h"
 
 namespace nearlight::core {

@@ -58,7 +58,7 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 inline float length(Vec3 a) {
     return std::sqrt(dot(a, a));
 }
-/// A zero vector stays zero.
+/// The unit vector in the direction of `a`; a zero vector stays zero.
 inline Vec3 normalize(Vec3 a) {
     const float l = length(a);
     return l > 0.0f ? a / l : a;
@@ -95,7 +95,7 @@ inline std::array<Vec3, 2> orthonormal_basis(Vec3 n) {
     return {Vec3{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, Vec3{b, sign + n.y * n.y * a, -n.y}};
 }
 
-/// Axis-aligned box; empty until something is put in.
+/// An axis-aligned box, which is empty until something is put in.
 struct Aabb {
     Vec3 min{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
              std::numeric_limits<float>::infinity()};
@@ -130,19 +130,20 @@ struct Mat4 {
     [[nodiscard]] double& operator()(int row, int column) { return m[static_cast<size_t>(row * 4 + column)]; }
 };
 Mat4 operator*(const Mat4& a, const Mat4& b);
-/// Throws std::domain_error where the matrix has no inverse.
+/// The inverse matrix. Throws std::domain_error if there is none.
 Mat4 inverse(const Mat4& a);
 /// Determinant of the upper left 3×3 part: negative where the transform mirrors.
 double linear_determinant(const Mat4& a);
 Vec3 transform_point(const Mat4& a, Vec3 p);
 Vec3 transform_vector(const Mat4& a, Vec3 v);
-/// By the inverse transpose, not normalised; takes the inverse of the transform.
+/// Transforms a normal by the transpose of `inverse`, the inverse of a transform. The result is not
+/// normalised.
 Vec3 transform_normal_by_inverse(const Mat4& inverse, Vec3 n);
 Mat4 translation(double x, double y, double z);
 Mat4 scaling(double x, double y, double z);
-/// About the axis (any length), counter-clockwise when the axis points at the viewer.
+/// Rotation about an axis of any length, counter-clockwise when the axis points at the viewer.
 Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees);
-/// Camera to world: +Z towards the target, +Y up, +X to the left as Mitsuba has it.
+/// The transform from camera to world, with +Z towards the target, +Y up and +X to the left, as in Mitsuba.
 Mat4 look_at(std::array<double, 3> origin, std::array<double, 3> target, std::array<double, 3> up);
 
 }  // namespace nearlight::core

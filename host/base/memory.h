@@ -7,7 +7,7 @@
 
 namespace nearlight::core {
 
-/// Most physical memory this process has held at any time (Linux counts it in KiB).
+/// The maximum physical memory that this process has held so far, in bytes (Linux counts KiB); 0 if unknown.
 inline std::size_t peak_host_bytes() {
     rusage usage{};
     return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) * 1024 : 0;

@@ -7,7 +7,7 @@
 namespace nearlight::core {
 namespace {
 
-// A warning may come from any thread and any depth, so the way to its reader belongs to the process.
+// A warning may come from any thread and any depth of calls, so the sink belongs to the process.
 struct MessageRoute {
     std::mutex mutex;
     MessageSink sink;

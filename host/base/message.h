@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages for people. They go to the sink that the program has set, and nowhere before it has set one.
+// Messages for people. They go to the sink that the program has set, and are dropped until it has set one.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace nearlight::core {
 
-/// As nearlight::set_message_sink().
+/// The implementation of nearlight::set_message_sink().
 void set_message_sink(MessageSink sink);
 
 void say_error(const std::string& text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers of the host: explicit seeds, no state but the caller's.
+// Random numbers on the host, with explicit seeds and no state but the caller's.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class Pcg32 {
         const auto turn = static_cast<std::uint32_t>(old >> 59u);
         return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
     }
-    /// Uniform in [0, 1).
+    /// The next number, uniform in [0, 1).
     float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
 
   private:

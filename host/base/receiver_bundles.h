@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles of receiver packets: what a gather takes through the tree together, and what decides together in
-// its Russian roulette. kernels/lib/bundle.cl is the same on devices.
+// Bundles of receiver packets, which are gathered together and decide together in Russian roulette.
+// kernels/lib/bundle.cl does the same on devices.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace nearlight::core {
 
-/// Packets in runs of the same length. A bundle is up to NEARLIGHT_BUNDLE_PACKETS of a run that follow one
-/// another, counted from the run's first, so that where a picture is cut between runs, or in a run after a
-/// multiple of so many, the bundles are the same.
+/// Divides packets into bundles. The packets come in runs of one length, and a bundle is up to
+/// NEARLIGHT_BUNDLE_PACKETS consecutive packets of a run, counted from its start. The bundles therefore stay
+/// the same if a picture is cut between runs, or in a run after a multiple of NEARLIGHT_BUNDLE_PACKETS.
 struct BundleLayout {
-    uint packet_count = 0;  ///< of all runs; the last may be incomplete
-    uint run_packets = 1;   ///< at least 1
+    uint packet_count = 0;  ///< in all runs; the last run may be incomplete
+    uint run_packets = 1;   ///< packets in a run; at least 1
 
     struct Bundle {
         uint first = 0;
-        uint count = 0;  ///< packets; may be 0 in an incomplete run
+        uint count = 0;  ///< packets in the bundle; may be 0 in an incomplete run
     };
     [[nodiscard]] constexpr uint run_bundles() const {
         return (run_packets + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;

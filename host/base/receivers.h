@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receivers and what arrives at them, in the packets of 64 in which kernels take them.
+// Receivers and what arrives at them, in the packets of 64 that kernels work on.
 #pragma once
 
 #include <span>
@@ -8,13 +8,13 @@
 
 namespace nearlight::core {
 
-/// A point of a surface that is to be lit.
+/// A point on a surface that is to be lit.
 struct ReceiverPoint {
     Vec3 position;
-    Vec3 normal;  ///< zero: absent
+    Vec3 normal;  ///< zero if the receiver is absent
 };
 
-/// Packets that hold so many receivers.
+/// The number of packets for `receiver_count` receivers.
 constexpr std::size_t receiver_packet_count(std::size_t receiver_count) {
     return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
 }
@@ -23,7 +23,7 @@ inline ReceiverPoint receiver_at(const ReceiverPacket& packet, std::size_t lane)
     return {{packet.px[lane], packet.py[lane], packet.pz[lane]},
             {packet.nx[lane], packet.ny[lane], packet.nz[lane]}};
 }
-/// Number `index` of all lanes of all packets.
+/// The receiver in lane number `index`, counted over all packets.
 inline ReceiverPoint receiver_at(std::span<const ReceiverPacket> packets, std::size_t index) {
     return receiver_at(packets[index / NEARLIGHT_PACKET_SIZE], index % NEARLIGHT_PACKET_SIZE);
 }
@@ -36,7 +36,7 @@ inline void set_receiver(ReceiverPacket& packet, std::size_t lane, const Receive
     packet.nz[lane] = receiver.normal.z;
 }
 
-/// What arrives at lane number `index` of all packets, R, G and B: W/m² of irradiance packets.
+/// What arrives (R, G, B) at lane number `index`, counted over all packets; W/m² in irradiance packets.
 template <typename Packet>
 Vec3 arrived_at(std::span<const Packet> packets, std::size_t index) {
     const Packet& packet = packets[index / NEARLIGHT_PACKET_SIZE];

@@ -5,13 +5,13 @@
 
 namespace nearlight::core {
 
-/// Wall-clock time since construction or the last lap.
+/// Measures wall-clock time since construction or the last lap.
 class Stopwatch {
   public:
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(Clock::now() - start_).count();
     }
-    /// Time since the last lap; starts the next one.
+    /// Returns the seconds since the last lap, and starts the next lap.
     double lap() {
         const double elapsed = seconds();
         start_ = Clock::now();

@@ -9,8 +9,8 @@ namespace nearlight::core {
 namespace {
 
 /// The continued fraction of the incomplete beta function [NIST Digital Library of Mathematical Functions,
-/// 8.17.22], by Lentz's method as Thompson and Barnett modified it. Converges fast for x < (a + 1)/(a + b +
-/// 2).
+/// 8.17.22], by Lentz's method as Thompson and Barnett modified it. It converges fast for x < (a + 1)/(a + b
+/// + 2).
 double beta_fraction(double x, double a, double b) {
     constexpr double kTiny = std::numeric_limits<double>::min();
     constexpr int kMaxTerms = 100'000;
@@ -35,7 +35,8 @@ double beta_fraction(double x, double a, double b) {
     return fraction;
 }
 
-/// I_x(a, b), where y = 1 − x is given for the digits that a subtraction would lose.
+/// The regularised incomplete beta function I_x(a, b). The caller passes y = 1 − x, because a subtraction
+/// would lose digits.
 double regularized_beta(double x, double y, double a, double b) {
     if (x <= 0.0 || y <= 0.0) {
         return x <= 0.0 ? 0.0 : 1.0;

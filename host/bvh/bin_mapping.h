@@ -8,7 +8,7 @@ namespace nearlight::core {
 
 class BinMapping {
   public:
-    /// `count` bins an axis, one or more.
+    /// Divides each axis of `box` into `count` ≥ 1 bins.
     BinMapping(const Box4& box, int count)
         : low_{}, thickness_{}, scale_{}, last_(static_cast<float>(count - 1)), count_(count) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -20,13 +20,14 @@ class BinMapping {
     }
 
     [[nodiscard]] int count() const { return count_; }
-    /// Of a coordinate. Everything lies in bin 0 where the box has no thickness or an infinite one, and so
-    /// does not-a-number.
+    /// The bin of a coordinate. It is 0 for not-a-number, and for everything if the box has no thickness or
+    /// an infinite one.
     [[nodiscard]] int bin(float x, int axis) const {
         const float scaled = (x - low_[axis]) * scale_[axis];
         return scaled > 0.0f ? static_cast<int>(scaled < last_ ? scaled : last_) : 0;
     }
-    /// Of the coordinates of a point, four floats aligned to 16 bytes as `bins` is; the fourth lane is free.
+    /// Gets the bins of a point's coordinates. `point` and `bins` have four elements, aligned to 16 bytes;
+    /// the fourth one means nothing.
     void get_bins(const float* point, int* bins) const {
 #ifdef __SSE2__
         const __m128 scaled =
@@ -40,11 +41,11 @@ class BinMapping {
         }
 #endif
     }
-    /// Whether the bin of a coordinate is below another than the first; not-a-number is.
+    /// Whether the bin of a coordinate is below `bin`, which is not the first; true for not-a-number.
     [[nodiscard]] bool is_before(int bin, float x, int axis) const {
         return !((x - low_[axis]) * scale_[axis] >= static_cast<float>(bin));
     }
-    /// The plane between bins `bin` − 1 and `bin`.
+    /// The coordinate of the plane between bins `bin` − 1 and `bin`.
     [[nodiscard]] float plane(int bin, int axis) const {
         return low_[axis] + static_cast<float>(bin) * thickness_[axis];
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of four lanes, one vector instruction a corner. The fourth lane is free.
+// Boxes with four lanes, so that one vector instruction handles a corner. The fourth lane is free for other
+// data.
 #pragma once
 
 #ifdef __SSE2__
@@ -12,7 +13,7 @@
 
 namespace nearlight::core {
 
-/// Plain data, so that arrays of it cost nothing until used: start from empty().
+/// A box as plain data, so that arrays of boxes cost nothing until they are used. Start from empty().
 struct alignas(16) Box4 {
     float low[4];
     float high[4];
@@ -24,7 +25,7 @@ struct alignas(16) Box4 {
 
     void extend(const Box4& b) { extend(b.low, b.high); }
     void extend(const float* point) { extend(point, point); }  ///< four floats, aligned to 16 bytes
-    /// By the point at a + t·(b − a); each four floats, aligned to 16 bytes.
+    /// Extends the box by the point a + t·(b − a). `a` and `b` are four floats each, aligned to 16 bytes.
     void extend_between(const float* a, const float* b, float t) {
         alignas(16) float point[4];
 #ifdef __SSE2__
@@ -37,7 +38,7 @@ struct alignas(16) Box4 {
 #endif
         extend(point, point);
     }
-    /// To what it has in common with b.
+    /// Reduces the box to what it has in common with b.
     void clip(const Box4& b) {
 #ifdef __SSE2__
         _mm_store_ps(low, _mm_max_ps(_mm_load_ps(b.low), _mm_load_ps(low)));
@@ -49,14 +50,14 @@ struct alignas(16) Box4 {
         }
 #endif
     }
-    /// By the middle of b; halved before the sum, which could overflow.
+    /// Extends the box by the centre of b. Its corners are halved before the sum, which could overflow.
     void extend_by_center(const Box4& b) {
         alignas(16) float center[4];
         b.get_center(center);
         extend(center, center);
     }
-    /// The same arithmetic whichever way it is compiled. `center` is aligned to 16 bytes; its fourth lane
-    /// means nothing.
+    /// Gets the centre, by the same arithmetic with and without SSE2. `center` is aligned to 16 bytes; its
+    /// fourth lane means nothing.
     void get_center(float* center) const {
 #ifdef __SSE2__
         const __m128 half = _mm_set1_ps(0.5f);
@@ -68,7 +69,7 @@ struct alignas(16) Box4 {
         }
 #endif
     }
-    /// The same arithmetic whichever way it is compiled.
+    /// Half the surface area, by the same arithmetic with and without SSE2.
     [[nodiscard]] float half_area() const {
 #ifdef __SSE2__
         const __m128 size = without_fourth(_mm_sub_ps(_mm_load_ps(high), _mm_load_ps(low)));
@@ -97,7 +98,8 @@ struct alignas(16) Box4 {
 
   private:
 #ifdef __SSE2__
-    /// What others keep in the fourth lane may look like a denormal number, with which arithmetic is slow.
+    /// Clears the fourth lane: other data there may look like a denormal number, with which arithmetic is
+    /// slow.
     static __m128 without_fourth(__m128 lanes) {
         return _mm_and_ps(lanes, _mm_castsi128_ps(_mm_set_epi32(0, -1, -1, -1)));
     }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// To be changed whenever the builder makes other trees, or files look different.
+/// Must change whenever the builder makes other trees or the format of files changes.
 constexpr std::uint64_t kVersion = 6;
 constexpr const char* kExtension = ".tree";
 
@@ -42,11 +42,11 @@ Hash128 key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& sh
     return key.hash128();
 }
 
-/// At the start of a file; the arrays of both trees follow.
+/// The start of a file, which the arrays of both trees follow.
 struct Header {
     std::array<char, 8> magic{'N', 'L', 'T', 'R', 'E', 'E', '0', '1'};
     Hash128 key{};
-    Hash128 checksum{};  ///< of the header without it, and of what follows
+    Hash128 checksum{};  ///< hash of the rest of the header and of what follows
     struct Tree {
         std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
         double sah_cost = 0;
@@ -62,13 +62,14 @@ Header::Tree describe(const ShapedBvh& tree) {
             tree.binary.sah_cost,     tree.binary.depth};
 }
 
-/// Of a file without its header.
+/// The size in a file of the arrays of one tree.
 std::uint64_t array_bytes(const Header::Tree& tree) {
     return tree.nodes * sizeof(BvhNode) + tree.wide_nodes * sizeof(WideNode) +
            (tree.triangles + tree.block_columns) * sizeof(uint);
 }
 
-/// What a file holds of a tree, in this order. Triangles are not in it: the scene has them.
+/// Calls visit(array) for all arrays of a file, in their order. Triangles are not among them, because the
+/// scene has them.
 template <typename Trees, typename Visitor>
 void for_each_array(Trees& trees, const Visitor& visit) {
     for (auto* tree : {&trees.opaque, &trees.glass}) {
@@ -144,7 +145,7 @@ void write(const fs::path& path, const Hash128& key, const SceneTrees& trees) {
     }
 }
 
-/// Removes trees, those first that were not used for longest, until the rest fits.
+/// Removes the least recently used trees until the rest fits.
 void shrink(const fs::path& folder, std::uintmax_t max_bytes) {
     struct File {
         fs::path path;

@@ -20,13 +20,13 @@ Aabb intersection(const Aabb& a, const Aabb& b) {
     return {max(a.min, b.min), min(a.max, b.max)};
 }
 
-/// An entry of a cut triangle: what rays can meet of it lies in all boxes above.
+/// An entry of a cut triangle. Rays can meet only the part of it that lies in all boxes above.
 struct Part {
     uint triangle;
     Aabb box;
 };
 
-/// Walks the tree and gathers complaints.
+/// Traverses the tree and collects complaints.
 class Checker {
   public:
     Checker(const Bvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
@@ -61,7 +61,8 @@ class Checker {
         }
     }
 
-    /// Returns the box of all vertices of whole triangles below. `within` is common to all boxes above.
+    /// Returns the box of all vertices of whole triangles below the node. `within` is common to all boxes
+    /// above.
     Aabb visit_node(uint index, int depth, const Aabb& within) {
         ++node_visits_[index];
         const BvhNode& node = bvh_.nodes[index];
@@ -119,14 +120,14 @@ class Checker {
         return box;
     }
 
-    /// Returns the box of the scene's triangle.
+    /// Compares entry i with the scene's triangle, and returns the box of the latter.
     Aabb check_triangle(uint i, const Triangle& triangle) {
         const Vec3 v0 = scene_.vertices[triangle.v0].position;
         const Vec3 v1 = scene_.vertices[triangle.v1].position;
         const Vec3 v2 = scene_.vertices[triangle.v2].position;
         const BvhTriangle& copy = bvh_.triangles[i];
         if (!(copy.v0 == v0 && copy.edge1 == v1 - v0 && copy.edge2 == v2 - v0)) {
-            complain("triangle " + std::to_string(i) + ": not the one of the scene");
+            complain("triangle " + std::to_string(i) + ": differs from that of the scene");
         }
         const Vec3 normal = cross(copy.edge1, copy.edge2);
         if (is_finite(normal) && !(copy.normal == normal)) {
@@ -153,7 +154,7 @@ class Checker {
         }
     }
 
-    /// Both hold the same ids; those of a tree without triangles are the ones of empty_bvh().
+    /// Checks that the tree holds exactly `ids`, or the entries of empty_bvh() if there are none.
     void check_ids(std::span<const uint> ids) {
         std::vector<uint> wanted(ids.begin(), ids.end());
         if (wanted.empty()) {
@@ -165,7 +166,7 @@ class Checker {
         }
     }
 
-    /// Points all over a cut triangle must each lie in a box of one of its entries.
+    /// Checks that points all over a cut triangle each lie in a box of one of its entries.
     void check_parts() {
         std::stable_sort(parts_.begin(), parts_.end(),
                          [](const Part& a, const Part& b) { return a.triangle < b.triangle; });
@@ -200,7 +201,7 @@ class Checker {
     const Scene& scene_;
     std::vector<int> node_visits_;
     std::vector<int> triangle_visits_;
-    std::vector<uint> entries_;  ///< of each triangle of the scene
+    std::vector<uint> entries_;  ///< number of entries of each triangle of the scene
     std::vector<Part> parts_;
     std::vector<std::string> complaints_;
     int deepest_ = 0;

@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-/// `hit.t` is t_max on entry. Any: the first hit found ends it.
+/// `hit.t` is t_max on entry. If `any` is true, the first hit found ends the traversal.
 template <bool any>
 bool traverse(const Bvh& bvh, const TestRay& ray, BvhHit& hit) {
     std::array<uint, NEARLIGHT_MAX_BVH_DEPTH> stack;

@@ -18,21 +18,21 @@ namespace {
 constexpr std::size_t kMaxSegments = 4000;
 constexpr std::size_t kMinSegments = 500;
 constexpr std::size_t kTrianglesPerSegment = 16;  // in small scenes, where time is short
-constexpr std::size_t kTriesPerSegment = 4;       // pairs of points, of which many face away from each other
+constexpr std::size_t kTriesPerSegment = 4;       // pairs of points, many of which face away from each other
 constexpr std::uint64_t kSeed = 7;
-/// What areas say counts as much as this many segments.
+/// The estimate from areas counts as much as this many segments.
 constexpr double kPrior = 8.0;
-/// Parts that are traced by a thread each: every one has records of all nodes.
+/// Parts of the segments that one thread each traces. There are few, because each has records of all nodes.
 constexpr std::size_t kSurveyParts = 4;
 constexpr std::size_t kNodeGrain = 1u << 12u;
 
-/// What a segment that meets a box does below it.
+/// The result below a box of a segment that meets the box.
 struct Passage {
     bool hit = false;
-    uint cost = 0;  ///< nodes and triangles
+    uint cost = 0;  ///< number of nodes and triangles visited
 };
 
-/// Sums over segments that met one child: whole numbers, so that any order gives the same.
+/// Sums over segments that met one child. They are whole numbers, so their order does not matter.
 struct Record {
     uint visits = 0;
     uint hits = 0;
@@ -54,7 +54,7 @@ struct Records {
     Record right;
 };
 
-/// A segment that visits everything on its way, hits or not: every box it meets counts.
+/// Traces segments that visit everything on their way, hits or not, so that every box they meet counts.
 class Survey {
   public:
     Survey() = default;
@@ -108,11 +108,11 @@ class Survey {
 };
 
 struct SurfacePoint {
-    Vec3 position;  ///< stands off
+    Vec3 position;  ///< moved off the surface
     Vec3 normal;
 };
 
-/// Points on the fronts of triangles, evenly by area.
+/// Random points on the fronts of triangles, evenly by area.
 class Surfaces {
   public:
     Surfaces(const Scene& scene, std::span<const uint> ids)
@@ -163,7 +163,7 @@ std::vector<TestRay> make_segments(const Surfaces& surfaces, std::size_t count) 
     return segments;
 }
 
-/// In a few parts, each with records of its own.
+/// Traces segments in a few parts, each with records of its own, and returns the sums.
 std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const uint> ids) {
     const std::vector<TestRay> segments = make_segments(
         Surfaces(scene, ids), std::clamp(ids.size() / kTrianglesPerSegment, kMinSegments, kMaxSegments));
@@ -182,9 +182,9 @@ std::vector<Records> survey(const Bvh& bvh, const Scene& scene, std::span<const 
     return std::move(parts.front()).take();
 }
 
-/// Of a ray that meets a box.
+/// The expected values of a ray that meets a box.
 struct Expectation {
-    double chance = 0.0;  ///< that it hits something in it
+    double chance = 0.0;  ///< probability that the ray hits something in the box
     double cost = 0.0;
 };
 
@@ -239,7 +239,7 @@ class Orderer {
 };
 
 /// Puts the subtree of `index`, which has `count` nodes, from `place` on in depth-first order. `nodes` were
-/// in that order before children changed sides: of two that are inner nodes the lower index came first.
+/// in that order before children changed sides, so of two inner children the lower index came first.
 uint move_subtree(const std::vector<BvhNode>& nodes, uint index, uint count, uint place,
                   std::vector<BvhNode>& ordered, int level) {
     if (is_leaf(index)) {

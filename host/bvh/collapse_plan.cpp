@@ -16,7 +16,7 @@ WideChild left_child(const BvhNode& node) {
 WideChild right_child(const BvhNode& node) {
     return {node.right, {node.right_min, node.right_max}};
 }
-/// A tree of one leaf refers to it twice.
+/// False in a tree of one leaf, to which the root refers twice.
 bool has_right(const BvhNode& node) {
     return node.right != node.left;
 }
@@ -31,8 +31,8 @@ uint CollapsePlan::triangle_count(uint reference) const {
     return is_leaf(reference) ? leaf_count(reference) : plans_[reference].triangles;
 }
 
-float CollapsePlan::cost(const WideChild& child, std::size_t most) const {
-    return is_leaf(child.reference) ? 0.0f : plans_[child.reference].cost[most];
+float CollapsePlan::cost(const WideChild& child, std::size_t max_children) const {
+    return is_leaf(child.reference) ? 0.0f : plans_[child.reference].cost[max_children];
 }
 
 void CollapsePlan::plan(uint node_index, float half_area, int level) {
@@ -55,21 +55,22 @@ void CollapsePlan::plan(uint node_index, float half_area, int level) {
 
 void CollapsePlan::divide(Plan& plan, const BvhNode& node, float half_area) const {
     std::array<float, kMax + 1> divided{};
-    for (std::size_t most = 2; most <= kMax; ++most) {
-        divided[most] = std::numeric_limits<float>::infinity();
-        for (std::size_t left = 1; left < most; ++left) {
-            const float both = cost(left_child(node), left) + cost(right_child(node), most - left);
-            if (both < divided[most]) {
-                divided[most] = both;
-                plan.left[most] = static_cast<std::uint8_t>(left);
+    for (std::size_t max_children = 2; max_children <= kMax; ++max_children) {
+        divided[max_children] = std::numeric_limits<float>::infinity();
+        for (std::size_t left = 1; left < max_children; ++left) {
+            const float both = cost(left_child(node), left) + cost(right_child(node), max_children - left);
+            if (both < divided[max_children]) {
+                divided[max_children] = both;
+                plan.left[max_children] = static_cast<std::uint8_t>(left);
             }
         }
     }
     plan.left_of_all = plan.left[kMax];
     plan.cost[1] = half_area + divided[kMax];
-    for (std::size_t most = 2; most <= kMax; ++most) {
-        plan.cost[most] = std::min(plan.cost[1], divided[most]);
-        plan.left[most] = divided[most] < plan.cost[1] ? plan.left[most] : std::uint8_t{0};
+    for (std::size_t max_children = 2; max_children <= kMax; ++max_children) {
+        plan.cost[max_children] = std::min(plan.cost[1], divided[max_children]);
+        plan.left[max_children] =
+            divided[max_children] < plan.cost[1] ? plan.left[max_children] : std::uint8_t{0};
     }
 }
 
@@ -77,15 +78,15 @@ bool CollapsePlan::becomes_leaf(uint reference) const {
     return is_leaf(reference) || plans_[reference].is_leaf;
 }
 
-void CollapsePlan::take(const WideChild& child, std::size_t most, WideChildren& children) const {
-    const std::size_t left = is_leaf(child.reference) ? 0 : plans_[child.reference].left[most];
+void CollapsePlan::take(const WideChild& child, std::size_t max_children, WideChildren& children) const {
+    const std::size_t left = is_leaf(child.reference) ? 0 : plans_[child.reference].left[max_children];
     if (left == 0) {
         children.children[children.count++] = child;
         return;
     }
     const BvhNode& node = bvh_->nodes[child.reference];
     take(left_child(node), left, children);
-    take(right_child(node), most - left, children);
+    take(right_child(node), max_children - left, children);
 }
 
 WideChildren CollapsePlan::children(uint node_index) const {
@@ -95,7 +96,7 @@ WideChildren CollapsePlan::children(uint node_index) const {
         take(left_child(node), 1, result);
         return result;
     }
-    // A root that holds no more than a block divides all the same.
+    // A root with no more triangles than a block is divided all the same.
     const std::size_t left = std::max<std::size_t>(1, plans_[node_index].left_of_all);
     take(left_child(node), left, result);
     take(right_child(node), kMax - left, result);

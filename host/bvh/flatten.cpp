@@ -10,7 +10,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Where boxes and triangles are that nothing shall meet; far, yet its distances do not overflow.
+/// The coordinate of boxes and triangles that no ray shall meet: far, but distances to it do not overflow.
 constexpr float kFar = 1e30f;
 constexpr std::size_t kFetchGrain = 1u << 12u;
 constexpr Vec3 kFarPoint{kFar, kFar, kFar};
@@ -19,10 +19,10 @@ constexpr BvhTriangle kNoTriangle{kFarPoint, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 struct Counts {
     uint nodes = 0;
     uint triangles = 0;
-    int levels = 0;  ///< of inner nodes; not set where places are counted
+    int levels = 0;  ///< levels of inner nodes; unused in the counts before a subtree
 };
 
-/// Of a subtree; of each left one a note is left in its parent's free words.
+/// Counts a subtree, and stores the counts of each left subtree in the free words of its parent.
 Counts count_below(SahTree& tree, uint reference, int level) {
     if (is_leaf(reference)) {
         return {0, leaf_count(reference), 0};
@@ -39,8 +39,8 @@ Counts count_below(SahTree& tree, uint reference, int level) {
             std::max(left.levels, right.levels) + 1};
 }
 
-/// Puts the subtree at the places that it has in depth-first order, its leaves' triangles too, and returns
-/// the reference to it.
+/// Puts the subtree and the triangles of its leaves at their places in depth-first order, and returns the
+/// reference to it.
 uint place(const SahTree& tree, uint reference, Counts before, Bvh& bvh, int level) {
     if (is_leaf(reference)) {
         std::copy_n(tree.order.begin() + leaf_first(reference), leaf_count(reference),
@@ -68,7 +68,7 @@ BvhNode root_of_one_leaf(const Aabb& box, uint leaf) {
     return {box.min, leaf, box.max, leaf, kFarPoint, 0, kFarPoint, 0};
 }
 
-/// In double precision: squares of huge extents stay in range.
+/// Double precision keeps squares of huge extents in range.
 double half_area(Vec3 low, Vec3 high) {
     const double x = static_cast<double>(high.x) - low.x;
     const double y = static_cast<double>(high.y) - low.y;
@@ -118,7 +118,7 @@ Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config) {
         bvh.nodes = {root_of_one_leaf(tree.root_box, root)};
         bvh.depth = 1;
     }
-    tree = {};  // before the triangles need memory
+    tree = {};  // frees its memory before the triangles need theirs
     fetch_triangles(bvh, scene);
     bvh.sah_cost = sah_cost(bvh, config);
     return bvh;
@@ -137,7 +137,7 @@ double sah_cost(const Bvh& bvh, const BvhConfig& config) {
                                            : static_cast<double>(config.traversal_cost);
         return root_area > 0.0 ? cost * half_area(low, high) / root_area : cost;
     };
-    // Runs of fixed length are summed by themselves, so that the sum does not depend on the threads.
+    // Runs of fixed length are summed separately, so that the sum does not depend on the threads.
     std::vector<double> sums((bvh.nodes.size() + kFetchGrain - 1) / kFetchGrain);
     parallel_for(sums.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t run = first; run < last; ++run) {

@@ -7,13 +7,13 @@
 namespace nearlight::core {
 
 /// Moves the nodes of a tree into depth-first order, so that a left child that is an inner node follows its
-/// parent, fetches the triangles, and fills in depth and cost. Takes the tree's memory.
+/// parent, fetches the triangles, and fills in depth and cost. Frees the memory of `tree`.
 Bvh flatten(SahTree&& tree, const Scene& scene, const BvhConfig& config);
 
-/// A triangle of the scene as trees hold it; of id ~0u a degenerate one far away.
+/// A triangle of the scene as trees hold it; a degenerate one far away for the id ~0u.
 BvhTriangle fetch_triangle(const Scene& scene, uint id);
 
-/// Fills in the triangles that triangle_ids names.
+/// Fills in Bvh::triangles, which Bvh::triangle_ids names.
 void fetch_triangles(Bvh& bvh, const Scene& scene);
 
 /// A tree without triangles: one leaf that holds a single degenerate triangle far away. Its id is ~0u.

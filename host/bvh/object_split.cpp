@@ -36,7 +36,7 @@ struct Bins {
         }
     }
 
-    int bin_count;  // those beyond are never touched
+    int bin_count;  // bins beyond the count are never touched
     std::array<std::array<Box4, kMaxBins>, 3> boxes;
     std::array<std::array<uint, kMaxBins>, 3> counts;
 };
@@ -47,7 +47,7 @@ struct Plane {
     int last_left_bin = 0;
 };
 
-/// The cheapest plane between bins of one axis, if it beats `best`.
+/// The cheapest plane between bins of one axis if it beats `best`, otherwise `best`.
 Plane better_plane(const Bins& bins, int axis, Plane best) {
     std::array<float, kMaxBins> right_cost;
     const auto& boxes = bins.boxes[axis];
@@ -75,8 +75,8 @@ Plane better_plane(const Bins& bins, int axis, Plane best) {
     return best;
 }
 
-/// Tries every set of a few references on the left, named by the bits of a number; the last stays on the
-/// right.
+/// Tries every set of a few references as the left side. The bits of a number name the set; the last
+/// reference stays on the right.
 ObjectSplit find_best_set(std::span<const Reference> range) {
     std::array<Box4, 1u << kTriedInFull> boxes;
     std::array<float, 1u << kTriedInFull> costs;
@@ -104,7 +104,7 @@ ObjectSplit find_best_set(std::span<const Reference> range) {
     return split;
 }
 
-/// Puts the references of a set first.
+/// Moves the references of a set to the front, and returns their number.
 std::size_t partition_by_set(std::span<Reference> range, uint left_set) {
     std::array<Reference, kTriedInFull> copies;
     std::copy(range.begin(), range.end(), copies.begin());
@@ -148,8 +148,8 @@ std::size_t partition(std::span<Reference> range, const BinMapping& mapping, con
     if (split.left_set != 0) {
         return partition_by_set(range, split.left_set);
     }
-    // Without branches: which side a reference belongs to is anyone's guess. From `left` on come those of the
-    // right side that were seen.
+    // The loop has no branches, because the side of a reference is unpredictable. The right side so far
+    // begins at `left`.
     std::size_t left = 0;
     for (Reference& place : range) {
         const Reference reference = place;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways in which the builder shares work between threads; without oneTBB (NEARLIGHT_SERIAL) one
-// thread does it all. Results are the same.
+// Functions by which the builder shares work between threads. Without oneTBB (NEARLIGHT_SERIAL) one thread
+// does everything, with the same results.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace nearlight::core {
 
-/// body(first, last) for parts of [0, count) of about `grain`.
+/// Calls body(first, last) for parts of [0, count) of about `grain` elements.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #ifdef NEARLIGHT_SERIAL
@@ -26,8 +26,8 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
-/// add(sum, first, last) for parts of [0, count), each from a copy of `empty`, put together by
-/// sum.add(other).
+/// Calls add(sum, first, last) for parts of [0, count), whose sums begin as copies of `empty` and are
+/// combined by sum.add(other).
 template <typename Sum, typename Add>
 Sum parallel_sum(std::size_t count, std::size_t grain, const Sum& empty, const Add& add) {
 #ifdef NEARLIGHT_SERIAL
@@ -59,8 +59,9 @@ void parallel_invoke(const First& first, const Second& second) {
 #endif
 }
 
-/// Both in parallel on the upper levels of a recursion over a tree, one after the other below.
+/// The number of upper levels of a recursion over a tree on which invoke_at_level() works in parallel.
 constexpr int kParallelLevels = 8;
+/// Calls both functions: in parallel on the upper kParallelLevels levels of a recursion, otherwise in turn.
 template <typename First, typename Second>
 void invoke_at_level(int level, const First& first, const Second& second) {
     if (level < kParallelLevels) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray against one box and against one triangle, on the host.
+// Intersection of a ray with a box and with a triangle, on the host.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@ struct TestRay {
     float t_min;
 };
 
-/// Keeps the reciprocals finite, so that no product with them is not-a-number.
+/// Makes a ray whose reciprocals are finite, so that no product with them is not-a-number.
 inline TestRay make_test_ray(Vec3 origin, Vec3 direction, float t_min) {
     const auto inverse = [](float d) { return 1.0f / (std::abs(d) < 1e-20f ? std::copysign(1e-20f, d) : d); };
     return {origin, direction, {inverse(direction.x), inverse(direction.y), inverse(direction.z)}, t_min};
 }
 
-/// Distance at which the ray enters the box, or infinity where it misses it within (t_min, t_max). The far
-/// end is moved out by three roundings on each side, which no hit survives without [Ize, Robust BVH Ray
+/// The distance at which the ray enters the box, or infinity if it misses the box within (t_min, t_max). The
+/// far end is moved outwards by three roundings on each side, so that no hit is lost [Ize, Robust BVH Ray
 /// Traversal, JCGT 2013].
 inline float enter_box(const TestRay& ray, float t_max, Vec3 low, Vec3 high) {
     constexpr float kOutwards = 1.0f + 6.0f * 0x1p-24f;
@@ -37,8 +37,8 @@ inline float enter_box(const TestRay& ray, float t_max, Vec3 low, Vec3 high) {
     return t_near <= t_far ? t_near : std::numeric_limits<float>::infinity();
 }
 
-/// Möller and Trumbore's test with the normal at hand, both sides; a hit in (t_min, hit.t) replaces t, u and
-/// v. Comparisons are put so that not-a-number misses.
+/// Möller and Trumbore's test with a stored normal, for both sides. A hit in (t_min, hit.t) replaces t, u and
+/// v. Comparisons are written so that not-a-number misses.
 inline bool intersect(const BvhTriangle& triangle, const TestRay& ray, BvhHit& hit) {
     const float det = dot(ray.direction, triangle.normal);
     if (det == 0.0f) {

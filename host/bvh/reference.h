@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the builder moves about in place of triangles: the box of a triangle, or of the part of one.
+// References, which the builder moves about in place of triangles: the box of a triangle or of a part of one.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace nearlight::core {
 
-constexpr std::size_t kParallelLoop = 1u << 16u;  // shorter loops are not shared between threads
+constexpr std::size_t kParallelLoop = 1u << 16u;  // shorter loops run on one thread
 constexpr std::size_t kLoopGrain = 1u << 14u;
 
 /// A padded box that carries the index of its triangle, and a weight, in the free lanes: 32 bytes that stay
@@ -19,20 +19,20 @@ constexpr std::size_t kLoopGrain = 1u << 14u;
 struct Reference : Box4 {
     [[nodiscard]] uint id() const { return std::bit_cast<uint>(low[3]); }
     void set_id(uint id) { low[3] = std::bit_cast<float>(id); }
-    /// How much a tree would gain from splitting it (spatial_split.h); 0 where nobody asks.
+    /// How much a tree would gain from splitting the reference (spatial_split.h); 0 if nothing is split.
     [[nodiscard]] uint weight() const { return std::bit_cast<uint>(high[3]); }
     void set_weight(uint weight) { high[3] = std::bit_cast<float>(weight); }
 };
 
-/// Of a whole triangle, with weight 0. Every box is padded by two ulps of its largest coordinate. Without
-/// that, the box of an axis-aligned triangle has no thickness, its two slab distances differ by nothing but
-/// rounding, and a ray that hits the triangle (or runs exactly along the face of a box) may find the interval
-/// empty. Adding +0 turns −0 into +0: of two equal zeros a minimum keeps the one that came first, which would
-/// depend on the threads.
+/// The reference of a whole triangle, with weight 0. Every box is padded by two ulps of its largest
+/// coordinate. Without padding, the box of an axis-aligned triangle has no thickness, its two slab distances
+/// differ by nothing but rounding, and a ray that hits the triangle (or runs exactly along the face of a box)
+/// may find the interval empty. Adding +0 turns −0 into +0, because a minimum keeps the first of two equal
+/// zeros, and which is first would depend on the threads.
 Reference make_reference(const Scene& scene, uint id);
 
 /// Folds a range of references into `sum`, which is empty: add(sum, part of the range). Minima, maxima and
-/// counts do not depend on the order in which threads come by, so neither does the result.
+/// counts do not depend on the order in which threads finish, so neither does the result.
 template <typename Sum, typename Add>
 void fold(std::span<const Reference> range, Sum& sum, const Add& add) {
     const auto add_part = [&](Sum& partial, std::size_t first, std::size_t last) {

@@ -14,12 +14,12 @@
 namespace nearlight::core {
 namespace {
 
-/// Of a tree's inner nodes so many move about: more gain little (bench/log/trees.md).
+/// Bounds of the number of inner nodes that are reinserted; more gain little (bench/log/trees.md).
 constexpr std::size_t kMinNodes = 64;
 constexpr std::size_t kMaxNodes = 4096;
 constexpr std::size_t kInnerNodesPerNode = 32;
 constexpr int kPasses = 3;
-constexpr float kLargestArea = 1e30f;
+constexpr float kMaxReinsertionArea = 1e30f;
 constexpr uint kNone = ~0u;
 
 Box4 to_box(Vec3 low, Vec3 high) {
@@ -53,7 +53,7 @@ class TopTree {
         }
     }
 
-    /// Every node once, the largest first. False if all stayed where they were.
+    /// Reinserts every node once, the largest first. Returns false if all stayed where they were.
     bool reinsert_all() {
         std::vector<uint> order(nodes_.size());
         std::iota(order.begin(), order.end(), 0u);
@@ -65,7 +65,7 @@ class TopTree {
         return moved;
     }
 
-    /// By how much the deepest node that has come down did so.
+    /// The maximum number of levels that a node has moved down.
     [[nodiscard]] int levels_added() const {
         int result = 0;
         for (uint i = 0; i < nodes_.size(); ++i) {
@@ -76,7 +76,7 @@ class TopTree {
         return result;
     }
 
-    /// Every inner node keeps its slot.
+    /// Writes the nodes to `tree`, where every inner node keeps its slot.
     void write_to(SahTree& tree) const {
         for (const Node& node : nodes_) {
             if (is_inner(node)) {
@@ -94,15 +94,15 @@ class TopTree {
   private:
     struct Node {
         Box4 box;
-        uint reference;  ///< of the tree
+        uint reference;  ///< reference in the tree
         uint parent;
-        uint left = kNone;  ///< as `right`: an index here; kNone where what is below stays as it is
+        uint left = kNone;  ///< index into nodes_, as is `right`; kNone if what is below stays as it is
         uint right = kNone;
         int level_before = 0;
     };
     struct Candidate {
         uint node;
-        float added_above;  ///< surface that a box put here adds to the nodes above
+        float added_above;  ///< surface that the box adds to the nodes above
     };
 
     static bool is_inner(const Node& node) { return node.left != kNone; }
@@ -130,15 +130,15 @@ class TopTree {
         }
     }
 
-    /// From here on up.
+    /// Fits the boxes of a node and of all nodes above it to their children.
     void fit_boxes(uint index) {
         for (uint i = index; i != kNone; i = nodes_[i].parent) {
             nodes_[i].box = together(nodes_[nodes_[i].left].box, nodes_[nodes_[i].right].box);
         }
     }
 
-    /// Takes out a node and its parent, and puts the parent above where the node fits best. Whether that is
-    /// not where they were.
+    /// Takes out a node and its parent, and puts both back where the node fits best. Returns whether they
+    /// moved.
     bool reinsert(uint index) {
         const uint parent = nodes_[index].parent;
         const uint sibling = nodes_[parent].left == index ? nodes_[parent].right : nodes_[parent].left;
@@ -153,29 +153,29 @@ class TopTree {
         return target != sibling;
     }
 
-    /// Beside which node a box adds the least surface; `first` if no other is better.
+    /// The node beside which a box adds the minimum surface; `first` unless another one is better.
     uint find_sibling(const Box4& box, uint first) {
         const float area = box.half_area();
         uint best = first;
-        float least = together(nodes_[first].box, box).half_area();
+        float min_added = together(nodes_[first].box, box).half_area();
         for (uint i = nodes_[first].parent; i != kNone; i = nodes_[i].parent) {
-            least += together(nodes_[i].box, box).half_area() - nodes_[i].box.half_area();
+            min_added += together(nodes_[i].box, box).half_area() - nodes_[i].box.half_area();
         }
         candidates_.assign(1, {root_, 0.0f});
         while (!candidates_.empty()) {
             const Candidate candidate = candidates_.back();
             candidates_.pop_back();
-            if (candidate.added_above + area >= least) {
+            if (candidate.added_above + area >= min_added) {
                 continue;
             }
             const Node& node = nodes_[candidate.node];
             const float here = candidate.added_above + together(node.box, box).half_area();
-            if (here < least) {
-                least = here;
+            if (here < min_added) {
+                min_added = here;
                 best = candidate.node;
             }
             const float added = here - node.box.half_area();
-            if (is_inner(node) && added + area < least) {
+            if (is_inner(node) && added + area < min_added) {
                 candidates_.push_back({node.left, added});
                 candidates_.push_back({node.right, added});
             }
@@ -184,7 +184,7 @@ class TopTree {
     }
 
     std::vector<Node> nodes_;
-    std::vector<Candidate> candidates_;  ///< of find_sibling(): kept for its memory
+    std::vector<Candidate> candidates_;  ///< scratch memory of find_sibling()
     uint root_ = 0;
 };
 
@@ -192,7 +192,7 @@ class TopTree {
 
 void reinsert_largest(SahTree& tree) {
     const float area = to_box(tree.root_box.min, tree.root_box.max).half_area();
-    if (is_leaf(tree.root) || !(area > 0.0f && area < kLargestArea)) {
+    if (is_leaf(tree.root) || !(area > 0.0f && area < kMaxReinsertionArea)) {
         return;
     }
     TopTree top(tree, std::clamp(tree.inner_count / kInnerNodesPerNode, kMinNodes, kMaxNodes));

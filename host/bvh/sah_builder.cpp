@@ -12,20 +12,20 @@
 namespace nearlight::core {
 namespace {
 
-/// Of few references, more bins than these cost time and gain nothing (bench/log/trees.md).
+/// With fewer references a bin than this, more bins cost time and gain nothing (bench/log/trees.md).
 constexpr std::size_t kReferencesPerBin = 8;
 constexpr int kMinBinsAskedFor = 8;
 constexpr std::size_t kTaskTriangles = 4096;  // smaller subtrees are built by one thread
 
-/// Spatial splits are looked for where the boxes of the best two sets of whole references overlap by more
-/// than these shares of the root's and the node's area, and taken where they lower the cost to this share.
-/// Segments between surfaces, unlike the endless lines of the heuristic, gain nothing from tighter boxes of
-/// walls: with 1.0 in place of 0.85 they take more steps, not fewer (bench/log/trees.md).
+/// Spatial splits are looked for if the boxes of the best two sets of whole references overlap by more than
+/// the first two shares, of the root's and the node's area. They are taken if they lower the cost to the
+/// third share. Segments between surfaces, unlike the endless lines of the heuristic, gain nothing from
+/// tighter boxes of walls: with 1.0 in place of 0.85 they take more steps, not fewer (bench/log/trees.md).
 constexpr float kMinOverlapOfRoot = 1e-5f;
 constexpr float kMinOverlapOfNode = 0.2f;
 constexpr float kSpatialGain = 0.85f;
 
-/// Levels below a node of `count` triangles that is halved until its parts fit into leaves.
+/// The number of levels below a node of `count` triangles that is halved until its parts fit into leaves.
 int halving_depth(std::size_t count, std::size_t leaf_size) {
     const std::size_t leaves = (count + leaf_size - 1) / leaf_size;
     return static_cast<int>(std::bit_width(leaves - 1));
@@ -46,10 +46,10 @@ struct Subtree {
     Box4 box;
     uint reference;
     std::size_t inner_count;
-    int depth;  ///< of the deepest leaf, counted from the root of the whole tree
+    int depth;  ///< depth of the deepest leaf, counted from the root of the whole tree
 };
 
-/// `count` references from `first` on, and behind them room for more, up to `capacity` in all.
+/// A part of the references: `count` of them from `first` on, with room behind them for `capacity` in all.
 struct Room {
     std::size_t first;
     std::size_t count;
@@ -70,7 +70,7 @@ RangeBounds bounds_of(std::span<const Reference> range) {
 
 class SahBuilder {
   public:
-    /// Without a splitter every reference stays whole.
+    /// If `splitter` is null, every reference stays whole.
     SahBuilder(std::span<Reference> references, std::span<BvhNode> slots, const BvhConfig& config,
                const SpatialSplitter* splitter)
         : references_(references),
@@ -87,7 +87,8 @@ class SahBuilder {
         if (room.count == 1) {
             return leaf;
         }
-        // The larger part of a cost-based split may have all triangles but one, of a spatial one all.
+        // The larger part of a cost-based split may have all triangles but one, and that of a spatial split
+        // all.
         const bool may_be_uneven =
             depth + 1 + halving_depth(room.count, leaf_size_) <= NEARLIGHT_MAX_BVH_DEPTH;
         const auto parts = may_be_uneven ? split_by_cost(room, bounds) : SpatialSplitter::Parts{0, 0};
@@ -102,7 +103,8 @@ class SahBuilder {
     }
 
   private:
-    /// Partitions the range at the cheapest plane; no left part where a leaf is cheaper or no plane parts it.
+    /// Partitions the range at the cheapest plane. The left part is empty if a leaf is cheaper or no plane
+    /// splits the range.
     [[nodiscard]] SpatialSplitter::Parts split_by_cost(const Room& room, const RangeBounds& bounds) const {
         const auto range = references_.subspan(room.first, room.count);
         const std::size_t max_bins =
@@ -148,7 +150,7 @@ class SahBuilder {
                overlap > kMinOverlapOfNode * bounds.box.half_area();
     }
 
-    /// Of `spare` places, those for the left part: in proportion to what is to be gained there.
+    /// The number of `spare` places that go to the left part, in proportion to the gain from splitting there.
     static std::size_t left_share(const RangeBounds& left, const RangeBounds& right, std::size_t spare) {
         const auto left_weight = static_cast<double>(left.weight);
         const double weight = left_weight + static_cast<double>(right.weight);
@@ -185,7 +187,8 @@ class SahBuilder {
         return {left.box, slot, left.inner_count + right.inner_count + 1, std::max(left.depth, right.depth)};
     }
 
-    /// The right part moves from `from` on to its own room: those in front go to the back, as order is free.
+    /// Moves the right part from `from` to its own room. Its first references go to the back, as order is
+    /// free.
     void make_room(std::size_t from, const Room& right_room) {
         const std::size_t moved = std::min(right_room.first - from, right_room.count);
         std::copy_n(
@@ -200,7 +203,7 @@ class SahBuilder {
     std::size_t leaf_size_;
 };
 
-/// Room for `capacity` references, the first ids.size() of them made.
+/// Makes room for `capacity` references, and the first ids.size() of them.
 UnsetVector<Reference> make_references(const Scene& scene, std::span<const uint> ids, std::size_t capacity) {
     UnsetVector<Reference> references(capacity);
     parallel_for(ids.size(), kLoopGrain, [&](std::size_t first, std::size_t last) {
@@ -229,8 +232,8 @@ SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhC
     const std::size_t capacity = ids.size() + spare;
     if (capacity > NEARLIGHT_LEAF_FIRST_MASK) {
         throw Error(ErrorKind::out_of_memory,
-                    "scene has " + std::to_string(ids.size()) + " triangles, a tree holds " +
-                        std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + ": simplify the scene");
+                    "scene has " + std::to_string(ids.size()) + " triangles, but a tree holds only " +
+                        std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + "; simplify the scene");
     }
     UnsetVector<Reference> references = make_references(scene, ids, capacity);
     SahTree tree;

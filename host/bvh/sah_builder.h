@@ -10,20 +10,21 @@
 
 namespace nearlight::core {
 
-/// A tree before flattening. The inner node whose right child has its room from position p of `order` on
-/// stands in slot p − 1: no two nodes part at the same place, so that threads need not agree on who gets
-/// which slot, and the tree is the same for any number of them. Slots of no node are left unused, and so are
-/// places in `order` that were kept free for cut triangles.
+/// A tree before flattening. An inner node whose right child begins at position p of `order` is in slot p −
+/// 1. No two nodes divide at the same position, so threads need not agree on slots, and the tree is the same
+/// for any number of threads. Some slots are unused, and so are positions in `order` that were kept free for
+/// cut triangles.
 struct SahTree {
     UnsetVector<BvhNode> slots;
-    UnsetVector<uint> order;  ///< indices into Scene::triangles, where the leaves refer to
-    uint root = 0;            ///< child reference: a slot, or the only leaf
+    UnsetVector<uint> order;  ///< indices into Scene::triangles, to which the leaves refer
+    uint root = 0;            ///< child reference: a slot, or the leaf if there is only one
     Aabb root_box;
     std::size_t inner_count = 0;
-    int depth = 0;  ///< of the deepest leaf or more, 0 where the root is one
+    int depth = 0;  ///< upper bound of the depth of the deepest leaf; 0 if the root is a leaf
 };
 
-/// `ids` must not be empty, nor longer than a leaf reference can address: Error(out_of_memory).
+/// Builds a tree over the triangles `ids`, which must not be empty. Throws Error(ErrorKind::out_of_memory) if
+/// there are more than leaf references can address.
 SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhConfig& config);
 
 /// Child reference of a leaf of 1 to 16 triangles.

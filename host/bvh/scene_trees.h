@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trees of a scene in the shapes that kernels go through.
+// The trees of a scene in the shapes that kernels traverse.
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -7,26 +7,26 @@
 
 namespace nearlight::core {
 
-/// Which are wanted.
+/// The shapes that are wanted.
 struct TreeShapes {
-    bool binary = false;  ///< for rays of a work-item each, as GPUs trace them
-    bool wide = false;    ///< for CPUs
+    bool binary = false;  ///< two children a node, for GPUs
+    bool wide = false;    ///< eight children a node, for CPUs
 };
 
-/// A tree in one shape or both; the other is empty.
+/// A tree in one shape or both; a shape that is not wanted is empty.
 struct ShapedBvh {
     Bvh binary;
     WideBvh wide;
 };
 
-/// What light and camera see, and the glass that only the camera sees.
+/// The tree of what light and camera see, and that of the glass that only the camera sees.
 struct SceneTrees {
     ShapedBvh opaque;
     ShapedBvh glass;
     bool has_glass = false;
 };
 
-/// build_scene_bvhs() in those shapes.
+/// Builds the trees of build_scene_bvhs() in the given shapes.
 SceneTrees build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes);
 
 }  // namespace nearlight::core

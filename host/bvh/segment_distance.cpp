@@ -23,7 +23,7 @@ Vec3d along(const Vec3d& origin, const Vec3d& direction, double t) {
 double dot(const Vec3d& a, const Vec3d& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/// Where the point is nearest to origin + t·direction, t in [0, 1].
+/// The t in [0, 1] for which origin + t·direction is nearest to the point.
 double nearest(const Vec3d& point, const Vec3d& origin, const Vec3d& direction) {
     const double squared = dot(direction, direction);
     return squared > 0.0 ? std::clamp(dot(minus(point, origin), direction) / squared, 0.0, 1.0) : 0.0;
@@ -54,14 +54,15 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
 }
 
 double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3 to) {
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance = std::numeric_limits<double>::infinity();
     for (const BvhTriangle& triangle : triangles) {
         const Vec3 v1 = triangle.v0 + triangle.edge1;
         const Vec3 v2 = triangle.v0 + triangle.edge2;
-        least = std::min({least, segment_distance(from, to, triangle.v0, v1),
-                          segment_distance(from, to, v1, v2), segment_distance(from, to, v2, triangle.v0)});
+        min_distance =
+            std::min({min_distance, segment_distance(from, to, triangle.v0, v1),
+                      segment_distance(from, to, v1, v2), segment_distance(from, to, v2, triangle.v0)});
     }
-    return least;
+    return min_distance;
 }
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How closely a segment passes the edges of triangles: where two ray casters may honestly differ.
+// How closely a segment passes the edges of triangles. Near an edge, two correct ray casters may differ.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace nearlight::core {
 
-/// Least distance between two segments, in double precision.
-/// [Ericson, Real-Time Collision Detection, 2005, section 5.1.9]
+/// The minimum distance between two segments, in double precision. [Ericson, Real-Time Collision Detection,
+/// 2005, section 5.1.9]
 double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1);
 
-/// Least distance between the segment and any edge of the triangles; infinity if there is none.
+/// The minimum distance between a segment and the edges of the triangles; infinity if there are none.
 double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3 to);
 
 }  // namespace nearlight::core

@@ -9,10 +9,10 @@
 namespace nearlight::core {
 namespace {
 
-constexpr float kLargestArea = 1e30f;
+constexpr float kMaxSplitArea = 1e30f;
 constexpr float kWeightUnit = 0x1p30f;
-/// Of longer ranges this many references say first whether a plane is worth looking for: most are not. Boxes
-/// of a sample are smaller, so that it errs towards looking.
+/// In longer ranges, a sample of this many references first tells whether a plane is worth looking for, which
+/// is rare. The boxes of a sample are smaller, so it errs towards looking.
 constexpr std::size_t kSample = 512;
 
 /// The corners of a triangle, each aligned as Box4 is.
@@ -35,7 +35,7 @@ struct Corners {
     }
 };
 
-/// How far from a to b an edge passes the plane that lies between them, 0 to 1.
+/// The fraction of the way from a to b, 0 to 1, at which an edge passes the plane between them.
 float pass_plane(const float* a, const float* b, int axis, float position) {
     return std::clamp((position - a[axis]) / (b[axis] - a[axis]), 0.0f, 1.0f);
 }
@@ -51,13 +51,13 @@ float area_together(Box4 a, const Box4& b) {
 
 struct Slab {
     Box4 box;
-    uint entries;  ///< references that begin in it
-    uint exits;    ///< that end in it
+    uint entries;  ///< references that begin in the slab
+    uint exits;    ///< references that end in the slab
 };
 
 /// The slabs of one axis.
 struct AxisSlabs {
-    std::array<Slab, kMaxSlabs> slabs;  // those beyond the count in use are never touched
+    std::array<Slab, kMaxSlabs> slabs;  // slabs beyond the count in use are never touched
 
     void clear(int count) { std::fill_n(slabs.begin(), count, Slab{Box4::empty(), 0, 0}); }
 
@@ -69,7 +69,8 @@ struct AxisSlabs {
         }
     }
 
-    /// A reference from slab `first` to a later slab `last`: to each slab, the box of what lies in it.
+    /// Adds a reference that reaches from slab `first` to a later slab `last`; each slab gets the box of what
+    /// lies in it.
     void add_cut(const Reference& reference, const Corners& corners, const BinMapping& mapping, int axis,
                  int first, int last) {
         std::array<Box4, kMaxSlabs> parts;
@@ -182,7 +183,7 @@ SpatialSplitter::SpatialSplitter(const Scene& scene, const Box4& root)
     for (int axis = 0; axis < 3; ++axis) {
         pad_ = std::max({pad_, 0x1p-19f * std::abs(root.low[axis]), 0x1p-19f * std::abs(root.high[axis])});
     }
-    usable_ = root_area_ > 0.0f && root_area_ < kLargestArea;
+    usable_ = root_area_ > 0.0f && root_area_ < kMaxSplitArea;
 }
 
 uint SpatialSplitter::weight(const Reference& reference) const {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many threads the host's own work may take: building trees, path tracing.
+// A limit on the threads of the host's own work, such as building trees and path tracing.
 #pragma once
 
 #include <memory>
 
 namespace nearlight::core {
 
-/// At most `threads` while it lives, the caller's included; 0: one a core. What others ask for beside it
-/// counts if it is less.
+/// Limits work to `threads` threads, the caller's included, while it lives; 0 means one a core. Of several
+/// limits the lowest counts.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int threads);
@@ -20,7 +20,7 @@ class ThreadLimit {
     std::unique_ptr<Control> control_;
 };
 
-/// That may run now.
+/// The number of threads that may run now.
 int allowed_threads();
 
 }  // namespace nearlight::core

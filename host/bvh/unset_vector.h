@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors whose new elements are left unset: those who fill them in parallel also share the system's work of
-// finding the memory, which otherwise one thread does alone.
+// Vectors whose new elements are left unset. Threads that fill such a vector also share the system's work of
+// providing the memory, which one thread would otherwise do alone.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ struct UnsetAllocator : std::allocator<T> {
     }
 };
 
-/// Of plain data.
+/// A vector of plain data whose new elements are left unset.
 template <typename T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 

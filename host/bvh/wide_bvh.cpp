@@ -13,11 +13,11 @@
 namespace nearlight::core {
 namespace {
 
-/// Subtrees of no more triangles are widened by one thread each.
+/// A subtree with no more triangles than this is widened by one thread.
 constexpr uint kPartTriangles = 1u << 14u;
 constexpr std::size_t kFetchGrain = 1u << 10u;
 
-/// Without references to children.
+/// A wide node with the boxes of its children, but without references to them.
 WideNode make_node(const WideChildren& children) {
     WideNode node{};
     std::fill_n(&node.low[0][0], 3 * NEARLIGHT_WIDE_CHILDREN, kInfinity);
@@ -43,8 +43,8 @@ void put(TriangleBlock& block, std::size_t column, const BvhTriangle& triangle) 
     put(block.edge2, column, triangle.edge2);
 }
 
-/// As they are stored: columns without a triangle stay zero. But the first column always has one: the
-/// degenerate one of a tree without triangles, whose id is ~0u too.
+/// A block as it is stored. Columns without a triangle stay zero, except for the first: in a tree without
+/// triangles it has a degenerate one, whose id is ~0u too.
 TriangleBlock fetch_block(const Scene& scene, std::span<const uint> ids) {
     TriangleBlock block{};
     for (std::size_t column = 0; column < ids.size(); ++column) {
@@ -64,11 +64,12 @@ class Widener {
         wide_.triangle_ids.reserve(NEARLIGHT_BLOCK_TRIANGLES * (triangle_count / 3 + 1));
     }
 
-    /// Reference to what stands for the binary one.
+    /// Adds the wide form of a binary subtree, and returns the reference to it.
     uint add(uint reference) {
         return plan_.becomes_leaf(reference) ? add_leaf(reference) : add_node(reference);
     }
-    /// The same as an inner node, however few triangles there are.
+    /// Adds the wide form of a subtree as an inner node, however few triangles it has, and returns the
+    /// reference.
     uint add_node(uint node_index) {
         const WideChildren children = plan_.children(node_index);
         const std::size_t index = wide_.nodes.size();
@@ -113,13 +114,14 @@ class Widener {
     WideBvh wide_;
 };
 
-/// What a thread makes: a subtree, or one node above such, whose children are later parts.
+/// What a thread makes: a subtree, or a single node above subtrees, whose children are later parts.
 struct Part {
     uint reference = 0;
-    std::vector<std::size_t> children;  ///< of a single node; empty: a subtree
+    std::vector<std::size_t>
+        children;  ///< children of a single node, as indices of parts; empty for a subtree
     WideBvh made;
-    uint root = 0;  ///< of a subtree: reference to it, counted from its own start
-    std::size_t node_offset = 0, block_offset = 0;  ///< where it comes to stand
+    uint root = 0;  ///< reference to the root of a subtree, counted from the part's start
+    std::size_t node_offset = 0, block_offset = 0;  ///< where the part is put
 };
 
 /// Appends the parts of a subtree in depth-first order, and returns the first one's index.
@@ -138,7 +140,7 @@ std::size_t list_parts(const CollapsePlan& plan, uint reference, std::vector<Par
     return index;
 }
 
-/// A reference of a part, as the whole tree has it.
+/// Converts a reference within a part to one within the whole tree.
 uint moved(uint reference, const Part& part) {
     return reference + static_cast<uint>(is_leaf(reference) ? part.block_offset : part.node_offset);
 }

@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Which triangle, its v0, edge1 and edge2: to be sorted and compared.
+/// A triangle's id and its v0, edge1 and edge2, for sorting and comparing.
 using TriangleCorners = std::pair<uint, std::array<float, 9>>;
 
 TriangleCorners corners_of(uint id, const BvhTriangle& triangle) {
@@ -22,7 +22,7 @@ Vec3 column_of(const float (&rows)[3][NEARLIGHT_BLOCK_TRIANGLES], std::size_t co
     return {rows[0][column], rows[1][column], rows[2][column]};
 }
 
-/// Walks the tree and gathers complaints.
+/// Traverses the tree and collects complaints.
 class WideChecker {
   public:
     WideChecker(const WideBvh& wide, const Bvh& bvh) : wide_(wide), bvh_(bvh) {}
@@ -52,7 +52,7 @@ class WideChecker {
   private:
     void complain(const std::string& text) { complaints_.push_back(text); }
 
-    /// Returns the box of all vertices below.
+    /// Returns the box of all vertices below the node.
     Aabb visit_node(uint index) {
         ++node_visits_[index];
         const WideNode& node = wide_.nodes[index];
@@ -113,7 +113,8 @@ class WideChecker {
         return box;
     }
 
-    /// A triangle that stands in several leaves may be cut, and then a box holds but a part of it.
+    /// Whether a triangle is in only one leaf. One in several leaves may be cut, and then a box holds only a
+    /// part of it.
     [[nodiscard]] bool stands_once(const TriangleCorners& corners) const {
         const auto [first, last] = std::equal_range(wanted_.begin(), wanted_.end(), corners);
         return last - first == 1;

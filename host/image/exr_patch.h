@@ -7,8 +7,8 @@
 
 namespace nearlight::core {
 
-/// Overwrites the value of the header attribute `name`, which must be there as a single float. For what is
-/// known only at the end, such as the render time, while rows were streamed. Throws Error(ErrorKind::file).
+/// Overwrites the value of the header attribute `name`, which must exist as a single float. Some values, such
+/// as the render time, are known only after all rows were streamed. Throws Error(ErrorKind::file).
 void patch_exr_float(const std::filesystem::path& file, const std::string& name, float value);
 
 }  // namespace nearlight::core

@@ -27,7 +27,7 @@ struct Plane {
     [[nodiscard]] float* row(int y) { return const_cast<float*>(std::as_const(*this).row(y)); }
 };
 
-/// Weights at −radius … radius.
+/// The weights of a filter at −radius … radius.
 using Kernel = std::vector<float>;
 
 // ---- Colour spaces. XYZ is relative to the white of sRGB (D65), so that white is (1, 1, 1). ----
@@ -70,14 +70,14 @@ Vec3 rgb_to_hunt_lab(Vec3 rgb) {
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-/// Distance for large colour differences (section 4.1.3).
+/// The distance of two colours, made for large differences (section 4.1.3).
 float hyab(Vec3 a, Vec3 b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
 // ---- Filters ----
 
-/// Both ways: along rows, then along columns; the picture's border is repeated outwards.
+/// Filters along rows, then along columns. The picture's border is repeated outwards.
 Plane convolve(const Plane& input, const Kernel& along_x, const Kernel& along_y) {
     const int radius_x = static_cast<int>(along_x.size() / 2);
     const int radius_y = static_cast<int>(along_y.size() / 2);
@@ -115,7 +115,7 @@ struct Gaussian {
 
 /// The sum of Gaussians over the plane is separable term by term; the weights of all terms sum to 1.
 Plane filter_contrast(const Plane& input, std::span<const Gaussian> terms, float pixels_per_degree) {
-    // The widest Gaussian of all channels sets the radius of every filter: three standard deviations.
+    // The radius of every filter is three standard deviations of the widest Gaussian of all channels.
     constexpr float kWidest = 0.04f;
     const int radius =
         static_cast<int>(std::ceil(3.0f * std::sqrt(kWidest / (2.0f * kPi * kPi)) * pixels_per_degree));
@@ -147,11 +147,12 @@ Plane filter_contrast(const Plane& input, std::span<const Gaussian> terms, float
     return result;
 }
 
-/// Gaussian of the feature detectors and its derivatives (section 4.2, eq. 9 to 11).
+/// The Gaussian of the feature detectors and its derivatives (section 4.2, eq. 9 to 11). In the derivatives,
+/// positive weights sum to 1 and negative ones to −1.
 struct FeatureKernels {
     Kernel smooth;  ///< sums to 1
     Kernel edge;    ///< first derivative
-    Kernel point;   ///< second derivative; both: positive weights sum to 1, negative ones to −1
+    Kernel point;   ///< second derivative
 };
 
 void normalize_signs(Kernel& kernel) {
@@ -187,7 +188,7 @@ FeatureKernels feature_kernels(float pixels_per_degree) {
     return kernels;
 }
 
-/// How strong a feature is in each pixel, whatever its direction.
+/// The strength of a feature in each pixel, whatever its direction.
 Plane feature_strength(const Plane& luminance, const Kernel& derivative, const Kernel& smooth) {
     Plane strength = convolve(luminance, derivative, smooth);
     const Plane vertical = convolve(luminance, smooth, derivative);
@@ -210,7 +211,7 @@ std::array<Plane, 3> to_ycxcz(int width, int height, std::span<const Vec3> pixel
     return planes;
 }
 
-/// What is left of the colours at viewing distance, as Hunt-adjusted L*a*b*.
+/// The colours that remain at the viewing distance, in Hunt-adjusted L*a*b*.
 std::vector<Vec3> perceived_colors(const std::array<Plane, 3>& ycxcz, float pixels_per_degree) {
     constexpr std::array<Gaussian, 1> kAchromatic{{{1.0f, 0.0047f}}};
     constexpr std::array<Gaussian, 1> kRedGreen{{{1.0f, 0.0053f}}};
@@ -226,31 +227,31 @@ std::vector<Vec3> perceived_colors(const std::array<Plane, 3>& ycxcz, float pixe
     return colors;
 }
 
-/// Compresses large differences, the largest there is (green to blue) being 1 (section 4.1.4, eq. 8).
-float remap_color_error(float error, float largest) {
+/// Compresses large differences. The maximum, that of green and blue, becomes 1 (section 4.1.4, eq. 8).
+float remap_color_error(float error, float max_error) {
     constexpr float kKneeError = 0.4f;
     constexpr float kKneeValue = 0.95f;
-    const float knee = kKneeError * largest;
+    const float knee = kKneeError * max_error;
     return error < knee ? kKneeValue / knee * error
-                        : kKneeValue + (error - knee) / (largest - knee) * (1.0f - kKneeValue);
+                        : kKneeValue + (error - knee) / (max_error - knee) * (1.0f - kKneeValue);
 }
 
 constexpr float kColorExponent = 0.7f;
 
 std::vector<float> color_error(const std::array<Plane, 3>& a, const std::array<Plane, 3>& b,
                                float pixels_per_degree) {
-    const float largest =
+    const float max_error =
         std::pow(hyab(rgb_to_hunt_lab({0, 1, 0}), rgb_to_hunt_lab({0, 0, 1})), kColorExponent);
     const std::vector<Vec3> colors_a = perceived_colors(a, pixels_per_degree);
     const std::vector<Vec3> colors_b = perceived_colors(b, pixels_per_degree);
     std::vector<float> error(colors_a.size());
     for (std::size_t i = 0; i < error.size(); ++i) {
-        error[i] = remap_color_error(std::pow(hyab(colors_a[i], colors_b[i]), kColorExponent), largest);
+        error[i] = remap_color_error(std::pow(hyab(colors_a[i], colors_b[i]), kColorExponent), max_error);
     }
     return error;
 }
 
-/// Edges and points that one picture has and the other has not (section 4.2).
+/// How much the pictures differ in edges and points, in each pixel (section 4.2).
 std::vector<float> feature_error(Plane luminance_a, Plane luminance_b, float pixels_per_degree) {
     for (Plane* plane : {&luminance_a, &luminance_b}) {
         for (float& value : plane->values) {

@@ -9,12 +9,12 @@
 
 namespace nearlight::core {
 
-/// A screen 0.7 m away, 0.7 m wide and 3840 pixels across.
+/// Pixels per degree of a screen that is 0.7 m away, 0.7 m wide and 3840 pixels across.
 inline constexpr float kFlipPixelsPerDegree = 67.0f;
 
-/// LDR-FLIP error of each pixel, 0 (the same) to 1, of two pictures in linear sRGB; values are clamped to
-/// [0, 1]. Both have width·height finite pixels, top row first.
-/// [Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020]
+/// The LDR-FLIP error of each pixel, 0 (equal) to 1, between two pictures in linear sRGB, whose values are
+/// clamped to [0, 1]. Both have width·height finite pixels, top row first. [Andersson et al., FLIP: A
+/// Difference Evaluator for Alternating Images, HPG 2020]
 std::vector<float> flip_error(int width, int height, std::span<const Vec3> a, std::span<const Vec3> b,
                               float pixels_per_degree = kFlipPixelsPerDegree);
 

@@ -9,7 +9,8 @@
 
 namespace nearlight::core {
 
-/// Interleaved channels, top row first. Channel names follow OpenEXR: "R", "indirect.R", "depth.Z".
+/// An image with interleaved channels, top row first. Channel names follow OpenEXR: "R", "indirect.R",
+/// "depth.Z".
 struct Image {
     int width = 0;
     int height = 0;

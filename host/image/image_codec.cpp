@@ -8,8 +8,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Found by the run path of the program, or of the shared library that this is in: it names a folder of the
-/// build tree, or lib/nearlight when installed.
+/// The module is found by the run path of the program or the shared library, which names a folder of the
+/// build tree, or lib/nearlight after installation.
 constexpr const char* kModule = "nearlight-images.so";
 
 const ImageCodec& load_codec() {

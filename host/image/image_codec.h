@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What OpenImageIO does for image_io.cpp. It is in a module of its own (oiio_codec.cpp), which is loaded when
-// it is first needed: OpenImageIO brings 250 shared libraries along, and they take longer to load than all
-// else that `nearlight` does before it renders.
+// The interface to OpenImageIO, which is in a module of its own (oiio_codec.cpp). It is loaded when first
+// needed, because OpenImageIO's 250 shared libraries take longer to load than all else that `nearlight` does
+// before it renders.
 #pragma once
 
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace nearlight::core {
 
 enum class ImageFormat { exr, png };
 
-/// A file that is to be written through `stream`, which stays the caller's.
+/// A file that is to be written through `stream`, which the caller owns.
 struct EncodingTask {
     std::FILE* stream = nullptr;
     std::string name;
@@ -28,7 +28,7 @@ struct EncodingTask {
     Metadata metadata;
 };
 
-/// Pixels into an open file. Both functions give the reason why they failed, empty where they did not.
+/// Writes pixels to an open file. Both functions return the reason of a failure, or an empty string.
 class ImageEncoder {
   public:
     ImageEncoder() = default;
@@ -36,33 +36,36 @@ class ImageEncoder {
     ImageEncoder& operator=(const ImageEncoder&) = delete;
     virtual ~ImageEncoder() = default;
 
-    /// Rows [first, end): all channels as floats for EXR, three bytes a pixel for PNG.
+    /// Writes the rows [first, end): all channels as floats for EXR, three bytes a pixel for PNG.
     virtual std::string write(int first, int end, const void* values) = 0;
     virtual std::string close() = 0;
 };
 
-/// Pixels of a file, and whether colours are sRGB-encoded.
+/// The pixels of a file, and whether colours are sRGB-encoded.
 struct DecodedImage {
     Image image;
     bool is_srgb = false;
 };
 
-/// What the module exports as `nearlight_image_codec`. All throw what image_io.h says.
+/// The functions that the module exports as `nearlight_image_codec`. They throw the errors that image_io.h
+/// names.
 struct ImageCodec {
-    /// `bytes`: the file, where it is in memory; else empty.
+    /// Reads `bytes`, the content of a file in memory, or `file` itself if `bytes` is empty.
     DecodedImage (*read)(const std::filesystem::path& file, std::span<const std::byte> bytes);
     Metadata (*read_metadata)(const std::filesystem::path& file);
     std::unique_ptr<ImageEncoder> (*make_encoder)(const EncodingTask& task);
 };
 
-/// Loads the module where that is not done yet. Throws Error(ErrorKind::failure) where it is missing.
+/// The functions of the module, which the first call loads. Throws Error(ErrorKind::failure) if it is
+/// missing.
 const ImageCodec& image_codec();
 
-/// "cannot read image 'FILE': reason", in one line, whatever line breaks the reason has.
+/// Throws Error(ErrorKind::file) with the line "WHAT 'FILE': REASON". Line breaks in the reason become
+/// spaces.
 [[noreturn]] void fail_image(const char* what, const std::filesystem::path& file, std::string reason);
 
-/// A broken header may promise any size. Deflate, the densest of the compressions in use, packs about 1000
-/// to 1.
+/// Whether a file can hold so many bytes of pixels, because a broken header may promise any size. Deflate,
+/// the densest compression in use, packs about 1000 to 1.
 bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size);
 
 }  // namespace nearlight::core

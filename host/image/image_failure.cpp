@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both the library and its module say of broken files.
+// The error for broken image files, which both the library and its module throw.
 #include <algorithm>
 
 #include "host/image/image_codec.h"

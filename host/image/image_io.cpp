@@ -99,14 +99,14 @@ struct ImageWriter::State {
     int height = 0;
     int next_row = 0;
     std::size_t channel_count = 0;
-    std::array<std::size_t, 3> rgb{};  ///< PNG: where the colour is among the channels
-    float scale = 1.0f;                ///< PNG: exposure as a factor
+    std::array<std::size_t, 3> rgb{};  ///< indices of R, G and B among the channels, for PNG
+    float scale = 1.0f;                ///< exposure as a factor, for PNG
     std::vector<std::uint8_t> encoded;
-    // A stream of our own tells of every failed write, also of those after the last row.
+    // A stream of our own reports every failed write, even after the last row.
     std::FILE* stream = nullptr;
     EncodingTask task;
     std::unique_ptr<ImageEncoder>
-        encoder;  ///< made with the first rows: whoever waits for those does not wait for it
+        encoder;  ///< made when the first rows come, so that the start does not wait for the module
 
     explicit State(const fs::path& target) : file(target) {}
     ~State();
@@ -169,7 +169,7 @@ void ImageWriter::State::close() {
         fail_to_write(failed);
     }
     encoder.reset();
-    // The last bytes leave the buffers here, and may find the disk full.
+    // The last bytes leave the buffers only now, and the disk may be full.
     const bool flushed = std::fflush(stream) == 0 && std::ferror(stream) == 0;
     const int error = errno;
     const bool closed = std::fclose(std::exchange(stream, nullptr)) == 0;

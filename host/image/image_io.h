@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading and writing image files (through OpenImageIO, but for plain PPM and PGM).
+// Reading and writing image files, through OpenImageIO except for plain PPM and PGM.
 #pragma once
 
 #include <filesystem>
@@ -14,41 +14,43 @@
 
 namespace nearlight::core {
 
-/// Values are as in the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
-/// Throws Error(ErrorKind::file) naming the file and the reason.
+/// Reads an image with the values of the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
+/// Throws Error(ErrorKind::file), which names the file and the reason.
 Image read_image(const std::filesystem::path& file);
-/// The same of a file in memory; its format follows from the extension of `name`.
+/// Reads an image file that is in memory, with the values of the file. The extension of `name` tells the
+/// format. Throws Error(ErrorKind::file).
 Image read_image(std::span<const std::byte> bytes, const std::string& name);
-/// The same as the first, with the colours of sRGB-encoded files (8- and 16-bit integers) decoded to linear.
+/// Reads an image with linear colours: those of sRGB-encoded files (8- and 16-bit integers) are decoded.
+/// Throws Error(ErrorKind::file).
 Image read_linear_image(const std::filesystem::path& file);
 
 /// Attributes of an image file.
 using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
 
-/// Of an image file: what its attributes hold as int, float or string; others are left out. Throws as
-/// read_image() does.
+/// The attributes of an image file that are an int, a float or a string. Throws Error(ErrorKind::file).
 Metadata read_metadata(const std::filesystem::path& file);
 
 struct ImageWriterOptions {
     Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix
-    float exposure = 0.0f;  ///< PNG: stops, applied before the sRGB curve
+    float exposure = 0.0f;  ///< stops, applied before the sRGB curve; PNG only
 };
 
-/// Writes rows from top to bottom as they come, so that no whole picture need be in memory. The data goes to
-/// a temporary file beside the target; commit() renames it, anything else leaves an old file untouched.
+/// Writes rows from top to bottom as they come, so that the whole picture need not be in memory. The data
+/// goes to a temporary file beside the target, which commit() renames. Without a commit, an old file stays as
+/// it is.
 class ImageWriter {
   public:
-    /// EXR keeps all channels (32-bit float, ZIP); PNG takes R, G, B, tone-mapped to 8-bit sRGB with a
-    /// deterministic dither-free rounding. The format follows the extension.
-    /// Throws Error(ErrorKind::invalid_argument) for an unknown extension, Error(ErrorKind::file) for an
-    /// unwritable path.
+    /// The extension tells the format. EXR keeps all channels (32-bit float, ZIP); PNG takes R, G and B,
+    /// tone-mapped to 8-bit sRGB by deterministic rounding without dithering. Throws
+    /// Error(ErrorKind::invalid_argument) for an unknown extension, and Error(ErrorKind::file) if the path
+    /// cannot be written.
     ImageWriter(const std::filesystem::path& file, int width, int height, std::vector<std::string> channels,
                 const ImageWriterOptions& options = {});
     ~ImageWriter();
     ImageWriter(ImageWriter&&) noexcept;
     ImageWriter& operator=(ImageWriter&&) noexcept;
 
-    /// The next rows: a multiple of width·channels values.
+    /// Writes the next rows, a multiple of width·channels values.
     void write_rows(std::span<const float> values);
     /// Fills rows that were not written with zeros, closes the file and moves it into place. `late` replaces
     /// values of float metadata that were given at the start (EXR only).
@@ -59,7 +61,7 @@ class ImageWriter {
     std::unique_ptr<State> state_;
 };
 
-/// The whole image at once.
+/// Writes a whole image at once; see ImageWriter for formats and errors.
 void write_image(const std::filesystem::path& file, const Image& image,
                  const ImageWriterOptions& options = {});
 

@@ -38,11 +38,11 @@ std::vector<Vec3> color_pixels(const Image& image, const std::string& layer, con
     return pixels;
 }
 
-/// The same layer of two pictures of one size.
+/// One layer of two pictures of the same size.
 struct Pair {
     std::vector<Vec3> a;
     std::vector<Vec3> b;
-    std::vector<bool> usable;  ///< finite in both; others are black in both
+    std::vector<bool> usable;  ///< finite in both pictures; all other pixels are black in both
     std::size_t usable_count = 0;
 };
 
@@ -76,7 +76,8 @@ double ratio(double numerator, double denominator) {
     return numerator == 0.0 ? 1.0 : std::numeric_limits<double>::infinity();
 }
 
-/// Dark violet over red to pale yellow, in equal steps of lightness; sRGB.
+/// The colour (sRGB) of an error from 0 to 1: dark violet through red to pale yellow, in equal steps of
+/// lightness.
 Vec3 map_color(float error) {
     constexpr std::array<Vec3, 6> kStops{{{0.00f, 0.00f, 0.02f},
                                           {0.23f, 0.06f, 0.44f},

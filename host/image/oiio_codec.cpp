@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module: the only file that knows OpenImageIO.
+// The image module, the only file that knows OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Alpha is left as the file has it.
+/// The options leave alpha as the file has it.
 OIIO::ImageSpec reading_options() {
     OIIO::ImageSpec options;
     options.attribute("oiio:UnassociatedAlpha", 1);
@@ -22,7 +22,7 @@ OIIO::ImageSpec reading_options() {
 
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
     OIIO::ImageSpec options = reading_options();
-    // Both ways: some formats take it from here, and forget the argument.
+    // The proxy is passed both ways, because some formats take it from the options and ignore the argument.
     void* const proxy = memory;
     if (memory != nullptr) {
         options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);

@@ -16,7 +16,7 @@ struct Header {
     [[nodiscard]] std::size_t value_count() const { return width * height * channel_count; }
 };
 
-/// The next number of a header; numbers are parted by white space and by comments from # to the line's end.
+/// The next number of a header. White space and comments from # to the end of the line separate numbers.
 std::optional<std::size_t> next_number(std::istream& stream) {
     while (stream >> std::ws && stream.peek() == '#') {
         stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
@@ -25,7 +25,7 @@ std::optional<std::size_t> next_number(std::istream& stream) {
     return stream >> number ? std::optional(number) : std::nullopt;
 }
 
-/// Leaves the stream at the first pixel.
+/// Reads the header, and leaves the stream at the first pixel.
 std::optional<Header> read_header(std::istream& stream) {
     constexpr std::size_t kMaxSide = 65536;
     std::array<char, 2> magic{};
@@ -33,11 +33,11 @@ std::optional<Header> read_header(std::istream& stream) {
     if (!stream || magic[0] != 'P' || (magic[1] != '5' && magic[1] != '6')) {
         return std::nullopt;
     }
-    const auto width = next_number(stream), height = next_number(stream), most = next_number(stream);
-    if (!width || !height || most != 255 || *width - 1 >= kMaxSide || *height - 1 >= kMaxSide) {
+    const auto width = next_number(stream), height = next_number(stream), max_value = next_number(stream);
+    if (!width || !height || max_value != 255 || *width - 1 >= kMaxSide || *height - 1 >= kMaxSide) {
         return std::nullopt;
     }
-    stream.get();  // one white space
+    stream.get();  // one white space ends the header
     return Header{magic[1] == '6' ? 3u : 1u, *width, *height};
 }
 

@@ -9,8 +9,8 @@
 
 namespace nearlight::core {
 
-/// Values in [0, 1], sRGB-encoded, as OpenImageIO gives them. Empty for all other files, and for broken ones:
-/// others may say what is wrong with those.
+/// Reads a file with values in [0, 1], sRGB-encoded, as OpenImageIO gives them. Empty for all other files and
+/// for broken ones, whose fault OpenImageIO can then report.
 std::optional<Image> read_pnm(const std::filesystem::path& file);
 
 }  // namespace nearlight::core

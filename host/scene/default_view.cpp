@@ -5,7 +5,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kFieldOfView = 45.0;
-// From the middle of the box towards the camera.
+// The direction from the middle of the box towards the camera.
 constexpr Vec3 kTowardsCamera{0.45f, 0.4f, 0.8f};
 
 bool has_light(const Scene& scene) {
@@ -50,7 +50,7 @@ void add_default_light(Scene& scene, NoteSink& notes) {
     Emitter key{};
     key.type = NEARLIGHT_EMITTER_POINT;
     key.position = box.center() + radius * Vec3{1.5f, 2.5f, 1.0f};
-    // An irradiance of about 4 at the middle of the box, whatever its size.
+    // The irradiance is about 4 at the middle of the box, whatever its size.
     const float intensity = 4.0f * radius * radius * dot({1.5f, 2.5f, 1.0f}, {1.5f, 2.5f, 1.0f});
     key.radiance = {intensity, intensity, intensity};
     scene.delta_emitters.push_back(key);

@@ -10,10 +10,10 @@ namespace nearlight::core {
 /// A 640 × 480 camera (45° wide) that frames the bounding box from the front, right and above; y is up.
 SceneCamera default_camera(const Aabb& box);
 
-/// Where no material emits and there is no other light, an environment of radiance 1 and a point light beside
-/// the default camera; says so in a remark.
+/// If no material emits and there is no other light, adds an environment of radiance 1 and a point light
+/// beside the default camera, with a remark.
 void add_default_light(Scene& scene, NoteSink& notes);
-/// The same, and the default camera.
+/// Adds the default camera with a remark, and light as add_default_light() does.
 void add_default_view(Scene& scene, NoteSink& notes);
 
 }  // namespace nearlight::core

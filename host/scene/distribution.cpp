@@ -25,7 +25,7 @@ std::vector<float> cumulative_distribution(std::span<const double> weights) {
         total = static_cast<double>(weights.size());
         positive = weights.size();
     }
-    // One quantum for each positive weight, and the rest in proportion.
+    // Each positive weight gets one quantum, and the rest is shared in proportion.
     const double shared = kQuanta - static_cast<double>(positive);
     std::vector<float> cdf;
     cdf.reserve(weights.size());

@@ -13,7 +13,7 @@ struct Sphere {
     float radius = 0;
 };
 
-/// About the centre of the bounding box, through the farthest vertex in use.
+/// The sphere about the centre of the bounding box, through the farthest vertex in use.
 Sphere bounding_sphere(const Scene& scene) {
     Sphere sphere{.center = bounds(scene).center()};
     for (const Triangle& triangle : scene.triangles) {
@@ -28,8 +28,9 @@ double row_sine(int row, int height) {
     return std::sin(kPiD * (row + 0.5) / height);
 }
 
-/// ∫ L dω. A pixel of row j covers (2π/width)·(cos θ_j − cos θ_{j+1}) = (2π/width)·2·sin(π/2height)·sinθ
-/// steradians, θ in the middle of the row; so luminance · sinθ is its exact share.
+/// The integral ∫ L dω over all directions. A pixel of row j covers (2π/width)·(cos θ_j − cos θ_{j+1}) =
+/// (2π/width)·2·sin(π/2height)·sinθ steradians, θ in the middle of the row; so luminance · sinθ is its exact
+/// share.
 Vec3 sphere_integral(const EnvironmentLight& environment) {
     double sum[3] = {0, 0, 0};
     const Vec3* pixel = environment.radiance.data();
@@ -48,15 +49,15 @@ Vec3 sphere_integral(const EnvironmentLight& environment) {
             static_cast<float>(sum[2] * scale)};
 }
 
-/// ∫ over the sphere of the spot's falloff: 2π·(1 − (sin c − sin b)/(c − b)) for full intensity up to b that
-/// falls linearly to none at c; 2π·(1 − cos b) in the limit c = b.
+/// The integral of a spot's falloff over the sphere: 2π·(1 − (sin c − sin b)/(c − b)) for full intensity up
+/// to b that falls linearly to none at c; 2π·(1 − cos b) in the limit c = b.
 double spot_solid_angle(double beam, double cutoff) {
     const double mean_cosine =
         cutoff - beam > 1e-6 ? (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : std::cos(cutoff);
     return 2 * kPiD * (1 - mean_cosine);
 }
 
-/// Luminance of all flux that the light sends out, W; of an environment, what enters the scene's sphere.
+/// The luminance of all flux that a light emits, W; for an environment, of what enters the scene's sphere.
 double emitted_power(const Emitter& emitter, float scene_radius) {
     const double radiance = luminance(emitter.radiance);
     switch (emitter.type) {
@@ -67,12 +68,12 @@ double emitted_power(const Emitter& emitter, float scene_radius) {
         case NEARLIGHT_EMITTER_TRIANGLE:
             return kPiD * emitter.area * radiance;
         default:
-            // From each direction a beam as wide as the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
+            // From each direction light passes through the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
             return kPiD * scene_radius * scene_radius * 4 * kPiD * radiance;
     }
 }
 
-/// All lights, also those without power; probabilities not yet filled in.
+/// All lights, even those without power, with probabilities that are not yet filled in.
 std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The flat table of lights, and the tables by which an environment is importance sampled.
+// The table of all lights, and the tables for importance sampling of an environment.
 #pragma once
 
 #include <vector>
@@ -10,25 +10,26 @@ namespace nearlight::core {
 
 struct EmitterTable {
     std::vector<Emitter>
-        emitters;  ///< delta lights, emissive triangles, the environment; cdf ends at exactly 1
+        emitters;  ///< delta lights, emissive triangles, then the environment; cdf ends at exactly 1
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };
-/// Probabilities are in proportion to the luminance of emitted power: π·area·radiance of a triangle, 4π·
-/// intensity of a point, the intensity of a spot integrated over its falloff, and of the environment all that
-/// enters the sphere around the scene, πR²·∫ L dω. Lights without power are left out; empty where nothing
-/// emits. `probability` is exactly the step of `cdf`, see distribution.h.
+/// Makes the table of all lights. Probabilities are in proportion to the luminance of emitted power:
+/// π·area·radiance of a triangle, 4π·intensity of a point, the intensity of a spot integrated over its
+/// falloff, and all light of the environment that enters the sphere around the scene, πR²·∫ L dω. Lights
+/// without power are left out; the table is empty if nothing emits. `probability` is exactly the step of
+/// `cdf` (distribution.h).
 EmitterTable build_emitter_table(const Scene& scene);
 
 struct EnvironmentTable {
     Environment parameters{};
-    std::vector<float> pixels;  ///< RGBA radiance, 4·width·height; a single zero pixel where there is none
-    /// Piecewise constant in (column, row) cells of equal angle, in proportion to luminance · sinθ of the
-    /// cell's centre, the exact share of a pixel. Made and used as distribution.h says. Density over solid
-    /// angle in cell (i, j): row_step·column_step·width·height / (2π²·sinθ), θ that of the direction:
-    /// cumulative distribution of the rows (height entries, the last is 1), then of each row's columns.
+    std::vector<float> pixels;  ///< RGBA radiance, 4·width·height; one zero pixel without an environment
+    /// The cumulative distribution of the rows, `height` entries (distribution.h). The density is constant in
+    /// (column, row) cells of equal angle, in proportion to luminance · sinθ at the cell's centre, the exact
+    /// share of a pixel. Over solid angle it is row_step·column_step·width·height / (2π²·sinθ), where θ is
+    /// that of the direction.
     std::vector<float> row_cdf;
-    std::vector<float> column_cdf;  ///< width·height
+    std::vector<float> column_cdf;  ///< the cumulative distribution of each row's columns; width·height
 };
 EnvironmentTable build_environment_table(const Scene& scene);
 

@@ -7,10 +7,11 @@
 
 namespace nearlight::core {
 
-/// Throws Error(ErrorKind::file) where the file is missing, a directory or unreadable.
+/// Reads the whole file. Throws Error(ErrorKind::file) if it is missing, a directory or unreadable.
 std::string read_file_text(const std::filesystem::path& file);
 
-/// `name` as written in `file`: relative to its folder, backslashes allowed as separators.
+/// The path that `name` stands for in `file`: relative to the folder of `file`, with backslashes allowed as
+/// separators.
 std::filesystem::path resolve_path(const std::filesystem::path& file, std::string name);
 
 }  // namespace nearlight::core

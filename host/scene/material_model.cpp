@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-// Light that metal spreads evenly must die out in a closed room of it.
+// Even in a closed room of metal, light must die out.
 constexpr float kMaxConductorAlbedo = 0.99f;
 
 template <typename Reflectance>

@@ -69,7 +69,7 @@ std::vector<Vec3> world_normals(const Mesh& mesh, const MeshPlacement& placement
     return normals;
 }
 
-// For one of many meshes: room for exactly that would have all earlier ones moved each time.
+// Makes room for one of many meshes. With exactly the room needed, each mesh would move all earlier ones.
 template <typename T>
 void make_room(std::vector<T>& values, std::size_t more) {
     if (values.size() + more > values.capacity()) {
@@ -77,7 +77,7 @@ void make_room(std::vector<T>& values, std::size_t more) {
     }
 }
 
-// Vertices that no kept triangle uses may still be NaN; nobody looks at them, but they must not spoil hashes.
+// Vertices that no kept triangle uses may still be NaN; nothing reads them, but they must not spoil hashes.
 void append_vertices(Scene& scene, const Mesh& mesh, std::span<const Vec3> positions,
                      std::span<const Vec3> normals, bool flip) {
     make_room(scene.vertices, positions.size());

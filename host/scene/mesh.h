@@ -14,7 +14,7 @@
 namespace nearlight::core {
 
 struct Mesh {
-    std::filesystem::path source;  ///< for messages
+    std::filesystem::path source;  ///< the file, for messages
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< one a position, or empty
     std::vector<std::array<float, 2>>
@@ -26,18 +26,18 @@ struct Mesh {
 struct MeshPlacement {
     Mat4 to_world;
     std::span<const uint> materials;  ///< at least one, indices into Scene::materials
-    bool face_normals = false;        ///< flat, whatever normals the mesh has
-    bool flip_normals = false;        ///< turn it inside out
+    bool face_normals = false;        ///< flat facets, whatever normals the mesh has
+    bool flip_normals = false;        ///< turn the mesh inside out
 };
 
-/// Adds the mesh to the scene. Without normals it gets smooth ones (weighted by angle). The front of a
-/// triangle is the side of its vertex normals where the mesh brought some, otherwise the side from which the
-/// transformed corners run counter-clockwise; so it is in Mitsuba 3, mirrored transforms included. Triangles
-/// with a NaN or infinite corner are left out, with a note. Throws Error(ErrorKind::file) for an index out of
-/// range.
+/// Adds the mesh to the scene. A mesh without normals gets smooth ones, weighted by angle. As in Mitsuba 3,
+/// the front of a triangle is the side of its vertex normals if the mesh has any, otherwise the side from
+/// which the transformed corners run counter-clockwise, even if the transform mirrors. Triangles with a NaN
+/// or infinite corner are left out, with a note. Throws Error(ErrorKind::file) for an index out of range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
-/// Sum of the normals of the triangles around each position, weighted by their angle there, normalised.
+/// The unit normal at each position: the sum of the normals of the triangles around it, weighted by their
+/// angles there.
 std::vector<Vec3> smooth_normals(std::span<const Vec3> positions,
                                  std::span<const std::array<uint, 3>> triangles);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where loaders say what they could not take over exactly.
+// Notes of what loaders could not represent exactly.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace nearlight::core {
 
-/// Collects notes; each text is said once, with the place where it came up first.
+/// Collects notes. Each text is kept once, with the place where it first came up.
 class NoteSink {
   public:
     NoteSink(std::vector<Note>& notes, bool strict) : notes_(notes), strict_(strict) {}
 
-    /// An approximation. Throws Error(ErrorKind::file) when strict.
+    /// Notes an approximation. Throws Error(ErrorKind::file) if loading is strict.
     void approximation(const std::filesystem::path& file, int line, const std::string& text);
-    /// Something to know that makes the picture no less exact; never an error.
+    /// Notes something that makes the picture no less exact; never an error.
     void remark(const std::filesystem::path& file, int line, const std::string& text);
 
   private:

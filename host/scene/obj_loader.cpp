@@ -53,7 +53,7 @@ bool starts_with_word(std::string_view line, std::string_view word) {
            (line[word.size()] == ' ' || line[word.size()] == '\t');
 }
 
-// Number of the line `word … value`, 0 where there is none.
+// The number of the line `word … value`; 0 if there is none.
 int find_line(std::string_view text, std::string_view word, std::string_view value) {
     int found = 0;
     for_each_line(text, [&](int number, std::string_view line) {
@@ -122,7 +122,8 @@ class ObjBuilder {
         uint uv, normal, vertex, next;
     };
 
-    // OBJ counts from 1, or back from the last; 0 is "not given", which only a position may not be.
+    // OBJ counts from 1, or back from the last element. The index 0 means "not given", which is an error for
+    // a position.
     uint resolve(int index, std::size_t count, const char* what, bool required) const {
         const auto signed_count = static_cast<long long>(count);
         const long long at = index > 0 ? index - 1LL : signed_count + index;
@@ -162,7 +163,7 @@ class ObjBuilder {
     }
 
     ObjFile& obj_;
-    std::vector<uint> chains_;  // by position: its first corner
+    std::vector<uint> chains_;  // the first corner of each position
     std::vector<Corner> corners_;
     std::size_t faces_ = 0, short_faces_ = 0;
     uint group_ = 0;
@@ -245,7 +246,7 @@ Material make_material(Scene& scene, const MaterialLibrary& library, const tinyo
         const int image =
             textures.load(resolve_path(library.file, source.diffuse_texname), false, library.file,
                           find_line(library.text, "map_Kd", source.diffuse_texname));
-        // Many writers leave Kd black beside a texture, which then alone gives the colour.
+        // Many exporters leave Kd black beside a texture, which then alone gives the colour.
         const Vec3 tint = is_zero(material.base) ? Vec3{1, 1, 1} : material.base;
         material.base = image < 0 ? Vec3{0.5f, 0.5f, 0.5f} : tint;
         if (image >= 0) {

@@ -12,17 +12,17 @@
 namespace nearlight::core {
 
 struct ObjFile {
-    Mesh mesh;                           ///< groups refer to `materials`
-    std::vector<std::string> materials;  ///< names after `usemtl`; the first is "" (none named yet)
+    Mesh mesh;                           ///< its groups are indices into `materials`
+    std::vector<std::string> materials;  ///< names after `usemtl`; the first is "", for faces before any
     std::vector<std::string> libraries;  ///< names after `mtllib`
-    std::string text;                    ///< the file itself, to find lines in; empty unless kept
+    std::string text;                    ///< text of the file, to find lines in; empty unless kept
 };
 
-/// Reads the geometry: polygons become fans, negative indices count back. Throws Error(ErrorKind::file) with
-/// file and line for an index out of range. Faces of fewer than three corners are left out, with a note.
+/// Reads the geometry: polygons become fans, and negative indices count back. Throws Error(ErrorKind::file)
+/// with file and line for an index out of range. Faces of fewer than three corners are left out, with a note.
 ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text = false);
 
-/// An OBJ file with its materials as a whole scene, with a camera and, where nothing emits, light made up.
+/// Reads an OBJ file and its materials as a whole scene. A camera is added, and light if nothing emits.
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options);
 
 }  // namespace nearlight::core

@@ -21,7 +21,7 @@ PinholeCamera make_pinhole_camera(const SceneCamera& camera, int width, int heig
                     "a field of view of " + std::to_string(camera.fov_x_degrees) +
                         " degrees is not between 0 and 180; correct the scene's camera");
     }
-    // On the plane at distance 1, where +X points to the left of the picture and +Y up.
+    // Lengths are those on the plane at distance 1, where +X points to the left of the picture and +Y up.
     const double half_width = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
     const double pixel = 2.0 * half_width / width;
     const double half_height = 0.5 * pixel * height;

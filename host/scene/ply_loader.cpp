@@ -187,7 +187,7 @@ void skip_property(PlyReader& reader, const PlyProperty& property) {
     }
 }
 
-// Slots: x y z nx ny nz u v; −1 is skipped.
+// The slot of a property, in the order x y z nx ny nz u v; −1 if it is skipped.
 int vertex_slot(std::string_view name) {
     constexpr std::pair<std::string_view, int> kSlots[] = {
         {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
@@ -279,7 +279,7 @@ Mesh read_ply(const std::filesystem::path& file) {
     Mesh mesh;
     mesh.source = file;
     for (const PlyElement& element : header.elements) {
-        // Each entry takes a byte at least, so a count beyond the file's size is a broken header.
+        // Each element takes at least one byte, so a count beyond the file's size is a broken header.
         if (!element.properties.empty() && element.count > reader.bytes_left()) {
             fail(file, "PLY file is truncated");
         }

@@ -6,7 +6,7 @@
 namespace nearlight::core {
 namespace {
 
-/// t of the comment at Material.
+/// The reflectance t in the comment at Material.
 Vec3 reflectance(const Scene& scene, const Material& material, float u, float v) {
     if (material.base_texture < 0) {
         return material.base;
@@ -15,7 +15,8 @@ Vec3 reflectance(const Scene& scene, const Material& material, float u, float v)
            texture_color(scene, scene.textures[static_cast<std::size_t>(material.base_texture)], u, v);
 }
 
-/// t·scale / (1 − saturation·t): light that an inner boundary throws back into the base any number of times.
+/// Returns t·scale / (1 − saturation·t): the light that an inner boundary reflects back into the base any
+/// number of times.
 Vec3 saturated(Vec3 t, float scale, float saturation) {
     const auto channel = [&](float x) { return x * scale / (1.0f - saturation * x); };
     return {channel(t.x), channel(t.y), channel(t.z)};
@@ -46,7 +47,7 @@ float triangle_area(const Scene& scene, const Triangle& triangle) {
     const Vec3 v0 = scene.vertices[triangle.v0].position;
     const Vec3 a = scene.vertices[triangle.v1].position - v0;
     const Vec3 b = scene.vertices[triangle.v2].position - v0;
-    // In double precision, in which the squares of neither tiny nor huge edges leave the range.
+    // Double precision keeps the squares of tiny and huge edges in range.
     const auto minor = [](float p, float q, float r, float s) {
         return static_cast<double>(p) * s - static_cast<double>(q) * r;
     };

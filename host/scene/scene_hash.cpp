@@ -10,7 +10,7 @@ namespace {
 // The bytes of numbers are hashed as they lie in memory.
 static_assert(std::endian::native == std::endian::little, "scene hashes assume little-endian numbers");
 
-/// Without what is padding or filled in later.
+/// The texture without padding and what is filled in later.
 Texture essence(Texture texture) {
     texture.first_texel = texture.width = texture.height = 0;
     texture.pad0 = texture.pad1 = texture.pad2 = texture.pad3 = 0;

@@ -37,7 +37,7 @@ bool has_light(const Scene& scene) {
            });
 }
 
-// Odd, yet a correct black picture.
+// Adds remarks for scenes that are odd, although their black picture is correct.
 void remark_emptiness(Scene& scene) {
     if (scene.triangles.empty()) {
         scene.notes.push_back({scene.source, 0, "the scene has no triangles"});

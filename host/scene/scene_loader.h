@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a scene, whatever its format.
+// Reads scenes of every format.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,15 @@
 namespace nearlight::core {
 
 struct LoadOptions {
-    /// Values for `$name` in Mitsuba XML; they win over <default>. Of glTF files, `camera`.
+    /// Values of `$name` in Mitsuba XML, which win over <default>. For glTF files, `camera` names a camera.
     std::map<std::string, std::string> parameters;
     /// Every approximation is an error instead of a note.
     bool strict = false;
 };
 
-/// By extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj. Throws Error(ErrorKind::file) with
-/// file and line where the file is missing, broken or holds something unknown.
+/// Reads a scene in the format that its extension tells: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0),
+/// .obj. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds something
+/// unknown.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace nearlight::core

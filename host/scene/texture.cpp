@@ -6,12 +6,12 @@
 namespace nearlight::core {
 namespace {
 
-/// The part of x after the floor, in [0, 1]: 1 is what rounding makes of a tiny negative x.
+/// The part of x above its floor, in [0, 1]; rounding gives 1 for a tiny negative x. 0 if x is not finite.
 float fraction(float x) {
     return std::isfinite(x) ? x - std::floor(x) : 0.0f;
 }
 
-/// For i from −1 to n.
+/// Wraps i, which is from −1 to n, into 0 to n − 1.
 int wrap(int i, int n) {
     return i < 0 ? i + n : (i >= n ? i - n : i);
 }

@@ -9,14 +9,15 @@
 
 namespace nearlight::core {
 
-/// Linear value of each 8-bit sRGB code [IEC 61966-2-1]; kernels read this very table.
+/// The linear value of each 8-bit sRGB code [IEC 61966-2-1]; kernels read the same table.
 const std::array<float, 256>& srgb_decode_table();
-/// The three colour channels, decoded; alpha does not count.
+/// The linear colour of a texel; alpha does not count.
 Vec3 decode_texel(std::uint32_t texel);
 
-/// Colour, linear sRGB, at the surface's texture coordinates (u, v), which are placed by the texture first.
-/// v = 0 is the bottom edge of the bitmap; the centre of texel i of n is at (i + 0.5)/n. Bilinear between the
-/// four nearest texels, repeated in both directions. Coordinates that are not finite count as 0.
+/// The colour, linear sRGB, at the surface's texture coordinates (u, v), to which the texture's placement is
+/// applied first. v = 0 is the bottom edge of the bitmap; the centre of texel i of n is at (i + 0.5)/n. The
+/// lookup is bilinear between the four nearest texels and repeats in both directions. Coordinates that are
+/// not finite count as 0.
 Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v);
 
 }  // namespace nearlight::core

@@ -20,7 +20,7 @@ bool holds_floats(const std::filesystem::path& file) {
     return extension == ".exr" || extension == ".hdr" || extension == ".pfm" || extension == ".rgbe";
 }
 
-// One or two channels are grey (and alpha); from three on red, green, blue (and alpha).
+// One or two channels are grey (and alpha); three or more are red, green, blue (and alpha).
 std::array<float, 3> rgb_at(const Image& image, std::size_t pixel) {
     const std::size_t channels = image.channel_count();
     const float* p = image.values.data() + pixel * channels;

@@ -19,11 +19,13 @@ class TextureLoader {
   public:
     TextureLoader(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes) {}
 
-    /// Index into Scene::images, or -1 with a note at file:line where the image cannot be read. `linear`: the
-    /// file's numbers are reflectances rather than sRGB-encoded; files of floats always are.
+    /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read. `linear`
+    /// says that the file's numbers are reflectances rather than sRGB-encoded; those of float files always
+    /// are.
     int load(const std::filesystem::path& image, bool linear, const std::filesystem::path& file, int line);
 
-    /// The same of an image that has no file of its own; its index.
+    /// Adds an image that has no file of its own, and returns its index. `linear` means what it does in
+    /// load().
     int add(const Image& image, const std::string& name, bool linear);
 
   private:
@@ -32,14 +34,15 @@ class TextureLoader {
     std::map<std::pair<std::filesystem::path, bool>, int> loaded_;
 };
 
-/// A texture's file may be broken; whatever else kept it from being read (a missing image module, memory)
-/// would make a wrong picture of any scene, and is thrown on.
+/// Throws the error on unless it is that of a broken file, which a note reports. Any other cause (a missing
+/// image module, memory) would make a wrong picture of every scene.
 void throw_unless_file(const Error& error);
-/// A bitmap texture without any placement of its own: s = u, t = v.
+/// A bitmap texture of an image in Scene::images, without a placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
-/// Linear mean colour.
+/// The mean of an image's linear colours.
 Vec3 mean_color(const TextureImage& image);
-/// Linear RGB radiance times `scale`, identity rotation. Throws Error(ErrorKind::file).
+/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Throws
+/// Error(ErrorKind::file).
 EnvironmentLight load_environment(const std::filesystem::path& image, float scale);
 
 }  // namespace nearlight::core

@@ -77,7 +77,7 @@ TEST(BvhCheck, MissingAndRepeatedTriangle) {
 
 TEST(BvhCheck, AlteredTriangle) {
     EXPECT_THAT(complaints_after([](Bvh& bvh) { bvh.triangles[7].edge2.z += 1e-3f; }),
-                Contains(HasSubstr("triangle 7: not the one of the scene")));
+                Contains(HasSubstr("triangle 7: differs from that of the scene")));
 }
 
 TEST(BvhCheck, AlteredNormal) {

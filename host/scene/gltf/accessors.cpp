@@ -12,7 +12,7 @@ namespace {
 
 /// Numbers in a buffer, checked to lie within it.
 struct Elements {
-    const unsigned char* data = nullptr;  ///< null: all are zero
+    const unsigned char* data = nullptr;  ///< null if all numbers are zero
     std::size_t stride = 0;               ///< bytes from one element to the next
     int component_type = 0;
     bool normalized = false;
@@ -26,7 +26,8 @@ std::size_t component_bytes(const GltfFile& file, int component_type) {
     return static_cast<std::size_t>(bytes);
 }
 
-/// `count` elements of `components` numbers from `offset` on in a view; `stride` 0: one after the other.
+/// The elements of a view from `offset` on: `count` with `components` numbers each. With a `stride` of 0 they
+/// follow one another.
 Elements elements_of(const GltfFile& file, int view_index, std::size_t offset, std::size_t stride,
                      int component_type, std::size_t components, std::size_t count) {
     const std::span<const std::byte> view = bytes_of(file, view_index);
@@ -74,10 +75,10 @@ double number(const Elements& elements, std::size_t element, std::size_t index) 
     }
 }
 
-/// Of an accessor that has no bytes which would bound it; more vertices no tree could hold.
+/// The maximum number of elements of an accessor that no bytes bound; no tree could hold more vertices.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 27u;
 
-/// Of the accessor without what is sparse. It may have no view, and then is zero.
+/// The elements of an accessor without its sparse ones; zero without a buffer view.
 Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components) {
     if (accessor.bufferView < 0) {
         if (accessor.count > kMaxZeros) {
@@ -93,7 +94,8 @@ Elements dense_elements(const GltfFile& file, const tinygltf::Accessor& accessor
     return elements;
 }
 
-/// Calls visit(element, component, number) for all numbers, then again for those that are replaced.
+/// Calls visit(element, component, number) for all numbers, then again for those that sparse elements
+/// replace.
 template <typename Visit>
 void for_each_number(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t components,
                      const Visit& visit) {
@@ -150,7 +152,7 @@ std::span<const std::byte> bytes_of(const GltfFile& file, int buffer_view) {
 std::vector<float> read_numbers(const GltfFile& file, int accessor_index, int components) {
     const tinygltf::Accessor& accessor = checked_accessor(file, accessor_index, components);
     const auto width = static_cast<std::size_t>(components);
-    dense_elements(file, accessor, width);  // fails before there is memory for what is not there
+    dense_elements(file, accessor, width);  // fails before memory is taken for elements that do not exist
     std::vector<float> numbers(accessor.count * width);
     for_each_number(file, accessor, width, [&](std::size_t element, std::size_t index, double value) {
         numbers[element * width + index] = static_cast<float>(value);

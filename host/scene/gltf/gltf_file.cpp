@@ -12,7 +12,7 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// That a file may call required: read here, or safe to look past with a note.
+/// The extensions that a file may require: they are read here, or can be ignored with a note.
 constexpr std::array<std::string_view, 12> kKnownExtensions{
     "KHR_lights_punctual",        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_sheen",     "KHR_materials_specular",
@@ -23,8 +23,8 @@ std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
-/// Keeps images from data URIs as they are. Those in files are read when a material asks for them, and those
-/// in buffers too: the bytes that tinygltf hands over here may lie beyond the buffer's end.
+/// Keeps images from data URIs as they are. Images in files and buffers are read when a material asks for
+/// them; the bytes that tinygltf passes for a buffer may lie beyond its end.
 bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
     if (image->uri.empty() && image->bufferView < 0) {

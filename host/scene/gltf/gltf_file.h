@@ -18,9 +18,10 @@ struct GltfFile {
     std::filesystem::path path;
     tinygltf::Model model;  ///< Image::image holds the encoded bytes of images from data URIs
 
-    /// Throws Error(ErrorKind::file): "FILE: what".
+    /// Throws Error(ErrorKind::file) with "FILE: what".
     [[noreturn]] void fail(const std::string& what) const;
-    /// The element that `owner` refers to, or an error that says so: tinygltf checks no references.
+    /// The element that `owner` refers to. Calls fail() if there is none, because tinygltf checks no
+    /// references.
     template <typename T>
     const T& at(const std::vector<T>& values, int index, const char* what, const std::string& owner) const {
         if (index < 0 || static_cast<std::size_t>(index) >= values.size()) {
@@ -31,25 +32,27 @@ struct GltfFile {
     }
 };
 
-/// .gltf with its buffers, or .glb. Throws where the file is broken, or needs an extension that we do not
-/// know; images are left alone.
+/// Reads .gltf with its buffers, or .glb, but not the images. Throws Error(ErrorKind::file) if the file is
+/// broken or needs an extension that is not supported.
 GltfFile read_gltf(const std::filesystem::path& path);
 
-/// A buffer view, whole. Throws where it reaches beyond its buffer.
+/// The bytes of a buffer view. Calls fail() if it reaches beyond its buffer.
 std::span<const std::byte> bytes_of(const GltfFile& file, int buffer_view);
 
-/// The numbers of an accessor, `components` for each element, integers of normalised accessors as fractions.
-/// Sparse ones are filled in. Throws where it has another shape or reaches beyond its buffer.
+/// The numbers of an accessor, `components` for each element. Integers of normalised accessors become
+/// fractions, and sparse elements are filled in. Calls fail() if the accessor has another shape or reaches
+/// beyond its buffer.
 std::vector<float> read_numbers(const GltfFile& file, int accessor, int components);
-/// The same of one integer each.
+/// The elements of an accessor that are one integer each. Calls fail() as read_numbers() does.
 std::vector<uint> read_indices(const GltfFile& file, int accessor);
 
-/// A number of an extension's object, or `fallback`.
+/// The number `key` of an extension's object, or `fallback` if there is none.
 double number_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
                  double fallback);
-/// The same of an index; what is none, is too large for one or below 0, is −1.
+/// The index `key` of an extension's object, or `fallback` if there is none; −1 if it is negative or too
+/// large.
 int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key, int fallback);
-/// Three numbers.
+/// The three numbers `key` of an extension's object, or `fallback` if there are not three.
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
               Vec3 fallback);
 

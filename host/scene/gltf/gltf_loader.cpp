@@ -18,7 +18,7 @@ namespace {
 
 Mat4 transform_of(const GltfFile& file, const tinygltf::Node& node) {
     Mat4 matrix;
-    if (node.matrix.size() == 16) {  // columns first
+    if (node.matrix.size() == 16) {  // column-major
         for (int row = 0; row < 4; ++row) {
             for (int column = 0; column < 4; ++column) {
                 matrix(row, column) = node.matrix[static_cast<std::size_t>(4 * column + row)];
@@ -43,8 +43,8 @@ Mat4 transform_of(const GltfFile& file, const tinygltf::Node& node) {
     return matrix;
 }
 
-/// Calls visit(node, to_world) for the node and all below it. Each must be there once: nodes that share
-/// children could make any number of copies out of a small file.
+/// Calls visit(node, to_world) for the node and all nodes below it. Each may be there only once, because
+/// nodes that share children could make any number of copies from a small file.
 template <typename Visit>
 void visit_nodes(const GltfFile& file, int index, const Mat4& parent, std::set<int>& visited,
                  const Visit& visit) {

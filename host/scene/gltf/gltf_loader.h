@@ -8,10 +8,11 @@
 
 namespace nearlight::core {
 
-/// The file's default scene, its first one where it names none. Parameter `camera` chooses a camera by its
-/// node's or its own name; else the first is taken, and where there is none one is made up, as light is where
-/// nothing emits. Units: metres; lights in candela and lux count 1/683 of that in W, emission is a radiance.
-/// Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for a parameter that there is not.
+/// Reads the file's default scene, or its first one if it names none. The parameter `camera` chooses a camera
+/// by its own or its node's name; otherwise the first one is taken. A camera is added if there is none, and
+/// light if nothing emits. The unit is the metre; lights in candela and lux count 1/683 of that in W, and
+/// emission is a radiance. Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for an
+/// unknown parameter or camera.
 Scene load_gltf_scene(const std::filesystem::path& file, const LoadOptions& options);
 
 }  // namespace nearlight::core

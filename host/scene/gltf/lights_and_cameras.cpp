@@ -10,9 +10,9 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// Lumens a watt of green light: what exporters take for the ratio of photometric and radiometric units.
+/// Lumens per watt of green light, which exporters take for the ratio of photometric and radiometric units.
 constexpr double kLumensPerWatt = 683;
-/// Of directional lights, in radii of the scene: rays differ from each other by no more than a degree.
+/// The distance of directional lights in radii of the scene: their rays differ by a degree at most.
 constexpr float kFarAway = 50.0f;
 constexpr int kUsualHeight = 480;
 
@@ -47,7 +47,8 @@ Emitter spot_emitter(const PlacedLight& placed) {
     return emitter;
 }
 
-/// So far away that its irradiance hardly changes over the scene, and just wide enough to light all of it.
+/// A spot so far away that its irradiance hardly changes over the scene, and just wide enough to light all of
+/// it.
 Emitter directional_emitter(const PlacedLight& placed, const Aabb& box) {
     const float radius = std::max(0.5f * length(box.size()), 1e-3f);
     const float distance = kFarAway * radius;
@@ -60,7 +61,7 @@ Emitter directional_emitter(const PlacedLight& placed, const Aabb& box) {
     return emitter;
 }
 
-/// Ours looks along +Z with +X to the left, and has no scale.
+/// The transform of a SceneCamera, which looks along +Z with +X to the left, and has no scale.
 Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
     Mat4 to_world = placed.to_world * scaling(-1, 1, -1);
     for (int column = 0; column < 3; ++column) {

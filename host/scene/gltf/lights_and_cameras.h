@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_lights_punctual, and cameras.
+// The lights of KHR_lights_punctual, and cameras.
 #pragma once
 
 #include <string>
@@ -10,31 +10,34 @@
 
 namespace nearlight::core::gltf {
 
-/// Each as it stands in the scene; it looks along the −Z of its node.
+/// A light as it stands in the scene; it points along the −Z axis of its node.
 struct PlacedLight {
     const tinygltf::Light* light = nullptr;
     Mat4 to_world;
 };
+/// A camera as it stands in the scene; it looks along the −Z axis of its node.
 struct PlacedCamera {
     const tinygltf::Camera* camera = nullptr;
-    std::string node;  ///< its name
+    std::string node;  ///< name of its node
     Mat4 to_world;
 };
 
-/// Of a quaternion x, y, z, w; any length.
+/// The rotation of a quaternion x, y, z, w of any length.
 Mat4 rotation_of(const std::vector<double>& quaternion);
 
-/// Adds what the node has to a list.
+/// Adds the node's light, if it has one, to `lights`.
 void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                 std::vector<PlacedLight>& lights);
+/// Adds the node's camera, if it has one, to `cameras`.
 void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                  std::vector<PlacedCamera>& cameras);
 
-/// Points, spots, and directional lights, which become spots far away; once all surfaces are in the scene.
+/// Adds point and spot lights, and directional lights as distant spots. All surfaces must already be in the
+/// scene.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);
 
-/// The first, or the one whose node or camera has the name. Throws Error(ErrorKind::invalid_argument) for a
-/// name that there is not.
+/// The first camera, or the one whose node or camera is called `name`, unless that is empty. Throws
+/// Error(ErrorKind::invalid_argument) for an unknown name.
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
                           const std::string& name);
 

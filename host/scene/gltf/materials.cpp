@@ -13,9 +13,9 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// GGX's α. Beyond it coats and metals are matt: what they reflect is a blur, and costs a ray each way with
-/// ends all over the room; point lights, which the camera sees in no lobe, would leave metals black.
-constexpr float kRoughestLobe = 0.2f;
+/// GGX's α, above which coats and metals are rendered matt. What they reflect is a blur, and would cost rays
+/// that end all over the room. Point lights, which the camera sees in no lobe, would leave metals black.
+constexpr float kMaxLobeAlpha = 0.2f;
 constexpr double kUsualIndex = 1.5;
 
 Vec3 clamped(Vec3 c) {
@@ -28,7 +28,7 @@ Vec3 to_vec3(const std::vector<double>& values, Vec3 fallback) {
                                     static_cast<float>(values[2])};
 }
 
-/// `%20` and its like; file names in glTF are URIs.
+/// Decodes `%20` and its like, because file names in glTF are URIs.
 std::string decoded_uri(const std::string& uri) {
     const auto digit = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
@@ -62,7 +62,7 @@ Image read_pixels(const GltfFile& file, const tinygltf::Image& image) {
         name_of(image));
 }
 
-/// Of the first three channels, or of the only one.
+/// The mean of the first three channels, or of the only one.
 Vec3 mean_numbers(const Image& image) {
     const std::size_t channels = image.channel_count();
     std::array<double, 3> sum{};
@@ -76,7 +76,7 @@ Vec3 mean_numbers(const Image& image) {
             static_cast<float>(sum[2] / count)};
 }
 
-/// Two numbers of KHR_texture_transform.
+/// The two numbers `key` of KHR_texture_transform, or `fallback` twice.
 std::array<double, 2> pair_of(const tinygltf::Value& transform, const char* key, double fallback) {
     const tinygltf::Value& value = transform.Get(key);
     if (!value.IsArray() || value.ArrayLen() != 2) {
@@ -85,8 +85,8 @@ std::array<double, 2> pair_of(const tinygltf::Value& transform, const char* key,
     return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
 }
 
-/// Texture coordinates of ours have v upwards. Theirs, with v' = 1 − v downwards, are looked up at
-/// (c·su·u + s·sv·v' + ou, −s·su·u + c·sv·v' + ov).
+/// Applies KHR_texture_transform. Vertex has v upwards; glTF has v' = 1 − v downwards and looks textures up
+/// at (c·su·u + s·sv·v' + ou, −s·su·u + c·sv·v' + ov).
 void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
     const auto found = info.extensions.find("KHR_texture_transform");
     if (found == info.extensions.end()) {
@@ -107,9 +107,9 @@ void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
 
 }  // namespace
 
-/// What decides which of our materials it is.
+/// The properties that decide which material a glTF material becomes.
 struct MaterialMaker::Surface {
-    Vec3 color{1, 1, 1};  ///< without the texture
+    Vec3 color{1, 1, 1};  ///< base colour without the texture
     float opacity = 1;
     float metallic = 1;
     float roughness = 1;  ///< perceptual: the square root of GGX's α
@@ -148,7 +148,7 @@ int MaterialMaker::load_colors(const tinygltf::Image& image) {
     }
 }
 
-/// Index into Scene::textures, or −1.
+/// Adds a texture, and returns its index into Scene::textures, or −1.
 int MaterialMaker::add_texture(const tinygltf::TextureInfo& info) {
     const tinygltf::Image* const image = image_of(info);
     if (image == nullptr) {
@@ -167,7 +167,7 @@ int MaterialMaker::add_texture(const tinygltf::TextureInfo& info) {
     return static_cast<int>(scene_.textures.size() - 1);
 }
 
-/// Of the file's numbers; nothing where there is no such texture.
+/// The mean of the numbers in a texture's file; empty if there is no such texture.
 std::optional<Vec3> MaterialMaker::mean_of(const tinygltf::TextureInfo& info) {
     const tinygltf::Image* const image = image_of(info);
     if (image == nullptr) {
@@ -218,7 +218,7 @@ void MaterialMaker::remark_what_is_left_out(const tinygltf::Material& source) {
     }
     if (source.alphaMode == "MASK" ||
         (source.alphaMode == "BLEND" && source.pbrMetallicRoughness.baseColorTexture.index >= 0)) {
-        approximate("holes that the alpha of textures makes are filled");
+        approximate("holes made by the alpha of textures are filled");
     }
     for (const char* extension : {"KHR_materials_clearcoat", "KHR_materials_sheen"}) {
         if (source.extensions.contains(extension)) {
@@ -227,7 +227,7 @@ void MaterialMaker::remark_what_is_left_out(const tinygltf::Material& source) {
     }
 }
 
-/// As radiance: what exporters write for it is a strength, not nits.
+/// The emission as a radiance, because exporters write a strength rather than nits.
 Vec3 MaterialMaker::emission_of(const tinygltf::Material& source) {
     const double strength =
         number_of(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
@@ -242,7 +242,7 @@ Vec3 MaterialMaker::emission_of(const tinygltf::Material& source) {
     return emission;
 }
 
-/// Of a base that spreads light evenly, under a coat where it is smooth enough.
+/// Makes a Lambertian material, under a coat if `has_coat` is true.
 Material MaterialMaker::make_base(const tinygltf::Material& source, const Surface& surface, bool has_coat) {
     Material material =
         has_coat ? coat_material(surface.color, surface.specular, surface.index, surface.alpha(), false)
@@ -270,7 +270,7 @@ Material MaterialMaker::make(const tinygltf::Material& source) {
     const bool is_metal = surface.metallic > 0.5f;
     const bool reflects = is_metal || (!is_zero(surface.specular) && surface.index > 1 &&
                                        !source.extensions.contains("KHR_materials_unlit"));
-    const bool is_smooth = surface.alpha() <= kRoughestLobe;
+    const bool is_smooth = surface.alpha() <= kMaxLobeAlpha;
     const bool is_even = !is_metal && surface.alpha() >= 1;
     if (reflects && !is_smooth && !is_even && !surface.transmits) {
         approximate("rough reflections are rendered diffuse");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From glTF's metallic-roughness materials to ours.
+// Converts glTF's metallic-roughness materials to those of the scene.
 #pragma once
 
 #include <map>
@@ -11,21 +11,21 @@
 
 namespace nearlight::core::gltf {
 
-/// A material of the scene, and which set of texture coordinates it wants.
+/// The index of a material of the scene, and the set of texture coordinates that it uses.
 struct PlacedMaterial {
     uint index = 0;
     int texture_set = 0;
 };
 
-/// Makes each material when a mesh first asks for it. A dielectric is a Lambertian base under a coat, a metal
-/// a rough conductor, what light passes through glass. Textures of other things than colour are taken by
-/// their mean, or left out, with a note.
+/// Makes each material when a mesh first asks for it. A dielectric becomes a Lambertian base under a coat, a
+/// metal a rough conductor, and a transmitting surface glass. Textures of anything but colour are replaced by
+/// their means or left out, with a note.
 class MaterialMaker {
   public:
     MaterialMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
         : file_(file), scene_(scene), notes_(notes), textures_(scene, notes) {}
 
-    /// −1: of a mesh without any, which is grey.
+    /// The material with the index in the file; −1 stands for a mesh without a material, which is grey.
     PlacedMaterial material(int index);
 
   private:
@@ -48,7 +48,7 @@ class MaterialMaker {
     TextureLoader textures_;
     std::map<int, PlacedMaterial> made_;
     std::map<const tinygltf::Image*, int> colors_;                 ///< index into Scene::images, or −1
-    std::map<const tinygltf::Image*, std::optional<Vec3>> means_;  ///< of the file's numbers
+    std::map<const tinygltf::Image*, std::optional<Vec3>> means_;  ///< means of the file's numbers
 };
 
 }  // namespace nearlight::core::gltf

@@ -15,7 +15,7 @@ std::vector<Vec3> read_vectors(const GltfFile& file, int accessor) {
     return vectors;
 }
 
-/// v is 0 at the top there, and at the bottom here.
+/// Reads texture coordinates. v is 0 at the top of an image in glTF, and at its bottom in a Mesh.
 std::vector<std::array<float, 2>> read_uvs(const GltfFile& file, int accessor) {
     const std::vector<float> numbers = read_numbers(file, accessor, 2);
     std::vector<std::array<float, 2>> uvs(numbers.size() / 2);
@@ -48,7 +48,7 @@ bool makes_triangles(int mode) {
            mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// An attribute's accessor, or −1.
+/// The accessor of an attribute, or −1 if there is none.
 int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     const auto found = primitive.attributes.find(name);
     return found == primitive.attributes.end() ? -1 : found->second;

@@ -7,8 +7,8 @@
 
 namespace nearlight::core::gltf {
 
-/// Adds the triangles of the node's mesh, if it has one, as they stand without skin or morphing. Points and
-/// lines are left out, with a note.
+/// Adds the triangles of the node's mesh, if it has one, without skin or morphing. Points and lines are left
+/// out, with a note.
 void add_mesh(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
               MaterialMaker& materials, Scene& scene, NoteSink& notes);
 

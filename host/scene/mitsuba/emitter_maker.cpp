@@ -49,7 +49,7 @@ Emitter make_spot(const Object& emitter, TextureMaker& textures, NoteSink& notes
     return light;
 }
 
-// The rotation alone: an environment is infinitely far away.
+// Keeps only the rotation, because an environment is infinitely far away.
 Mat4 rotation_of(const Mat4& m, const Location& where) {
     Mat4 rotation;
     for (int column = 0; column < 3; ++column) {

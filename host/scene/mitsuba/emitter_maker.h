@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mitsuba's emitters that are no shapes.
+// Mitsuba's emitters that are not shapes.
 #pragma once
 
 #include "host/scene/mitsuba/texture_maker.h"

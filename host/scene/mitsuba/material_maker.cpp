@@ -7,7 +7,7 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr int kMaxBsdfDepth = 32;  // of BSDFs in BSDFs; only a cycle of references goes deeper
+constexpr int kMaxBsdfDepth = 32;  // BSDFs within BSDFs; only a cycle of references goes deeper
 
 constexpr const char* kKnown =
     "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, thindielectric, "
@@ -176,7 +176,7 @@ Material MaterialMaker::make_plastic(const Object& bsdf) {
 
 Material MaterialMaker::make_conductor(const Object& bsdf) {
     const Vec3 specular = textures_.mean_reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    // Mitsuba 0.6 takes copper where nothing is said, Mitsuba 3 a perfect mirror.
+    // Without a material, Mitsuba 0.6 takes copper, and Mitsuba 3 a perfect mirror.
     const std::string name = bsdf.string("material", "none");
     const std::optional<Metal> metal = find_metal(name);
     if (!metal) {
@@ -199,7 +199,7 @@ Material MaterialMaker::make_glass(const Object& bsdf, bool thin) {
     return material;
 }
 
-// Metal where it is mostly metal, glass where it mostly transmits, otherwise a base under a coat.
+// Makes metal if the BSDF is mostly metallic, glass if it mostly transmits, otherwise a base under a coat.
 Material MaterialMaker::make_principled(const Object& bsdf) {
     note(notes_, bsdf.where, "'principled' is approximated by metal, glass, or a base under a coat");
     bsdf.ignore({"anisotropic", "sheen", "sheen_tint", "flatness", "spec_tint", "clearcoat",

@@ -13,8 +13,8 @@ class MaterialMaker {
     MaterialMaker(Scene& scene, NoteSink& notes, TextureMaker& textures)
         : scene_(scene), notes_(notes), textures_(textures) {}
 
-    /// Index into Scene::materials, shared by all shapes of this BSDF and radiance; null: Mitsuba's default,
-    /// a diffuse half.
+    /// The index into Scene::materials that all shapes of this BSDF and emission share. Null stands for
+    /// Mitsuba's default, a diffuse reflectance of 0.5.
     uint index(const Object* bsdf, Vec3 emission);
 
   private:

@@ -11,7 +11,7 @@ namespace nearlight::core {
 namespace mitsuba {
 namespace {
 
-// Mitsuba's −1 stands for "no limit"; light that is left after so many bounces cannot be seen.
+// The depth for Mitsuba's −1, "no limit". Light that is left after so many bounces cannot be seen.
 constexpr int kUnlimitedDepth = 64;
 
 void apply_integrator(const Object& integrator, Scene& scene) {

@@ -24,8 +24,8 @@ struct Location {
 /// Throws Error(ErrorKind::file) with "file:line: what".
 [[noreturn]] void fail(const Location& where, const std::string& what);
 
-/// A colour; `<spectrum>` differs as a reflectance (white is 1, 1, 1) and as a light (equal energy is
-/// reddish).
+/// A colour as a reflectance and as a light. A `<spectrum>` of equal energy is white (1, 1, 1) as a
+/// reflectance, but reddish as a light.
 struct Color {
     Vec3 reflectance{};
     Vec3 light{};
@@ -44,7 +44,7 @@ struct Object;
 struct Child {
     std::string name;
     const Object* object = nullptr;  ///< owned by the Document
-    std::string reference;           ///< id; `object` is filled in once the whole file is read
+    std::string reference;           ///< id of `object`, which is filled in once the whole file is read
     Location where;
     mutable bool used = false;
 };
@@ -57,29 +57,30 @@ struct Object {
     std::map<std::string, Property> properties;
     std::vector<Child> children;
 
-    /// The property, or `fallback`; fail() where it has another type.
+    /// The property as a number, or `fallback` if there is none. This and the next functions call fail() if
+    /// it has another type.
     [[nodiscard]] double number(const std::string& name, double fallback) const;
     [[nodiscard]] bool boolean(const std::string& name, bool fallback) const;
     [[nodiscard]] std::string string(const std::string& name, const std::string& fallback) const;
     [[nodiscard]] std::string required_string(const std::string& name) const;
     [[nodiscard]] Triple triple(const std::string& name, const Triple& fallback) const;
     [[nodiscard]] Mat4 transform(const std::string& name) const;
-    /// A colour or number.
+    /// The property as a colour, where a number is a grey; empty if there is none.
     [[nodiscard]] std::optional<Color> color(const std::string& name) const;
     [[nodiscard]] const Property* find(const std::string& name) const;
     [[nodiscard]] bool has(const std::string& name) const { return properties.contains(name); }
-    /// Marks properties as known though nothing is done with them.
+    /// Marks properties as known, although nothing uses them.
     void ignore(std::initializer_list<const char*> names) const;
 
     /// The nested texture called `name`, or null.
     [[nodiscard]] const Object* texture(const std::string& name) const;
-    /// All nested objects of the tag, in order.
+    /// All nested objects with the tag, in order.
     [[nodiscard]] std::vector<const Object*> nested(const std::string& tag) const;
 
-    /// Marks all nested objects of the tag as known.
+    /// Marks all nested objects with the tag as known.
     void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
 
-    /// A note for each property or nested object that nobody has asked for.
+    /// Adds a note for each property or nested object that nothing has asked for.
     void report_unused(NoteSink& notes) const;
 };
 
@@ -89,10 +90,10 @@ struct Document {
     const Object* scene = nullptr;
 };
 
-/// fail() with the list of the types that are known.
+/// Calls fail() with the list of the known types.
 [[noreturn]] void fail_unknown_type(const Object& object, const std::string& known);
 
-/// Approximation notes that name the place of `where`.
+/// Notes an approximation at the place `where`.
 void note(NoteSink& notes, const Location& where, const std::string& text);
 
 }  // namespace nearlight::core::mitsuba

@@ -7,7 +7,7 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-// Measured spectra seen by the sRGB primaries, as Mitsuba 3 reduces them.
+// Measured spectra, reduced to linear sRGB as in Mitsuba 3.
 constexpr std::pair<std::string_view, Metal> kMetals[] = {
     {"a-C", {{2.9440f, 2.2271f, 1.9682f}, {0.8875f, 0.7993f, 0.8153f}}},
     {"Ag", {{0.1553f, 0.1167f, 0.1384f}, {4.8284f, 3.1222f, 2.1469f}}},

@@ -10,11 +10,11 @@
 namespace nearlight::core::mitsuba {
 
 struct Metal {
-    Vec3 eta, k;  ///< in linear sRGB
+    Vec3 eta, k;  ///< complex index eta + i·k in linear sRGB
 };
-/// "Au", "Cu", …; "none" is a perfect mirror.
+/// The metal called "Au", "Cu", …; "none" is a perfect mirror. Empty if the name is unknown.
 std::optional<Metal> find_metal(const std::string& name);
-/// "bk7", "water", "air", …
+/// The index of refraction of "bk7", "water", "air", …; empty if the name is unknown.
 std::optional<double> find_index_of_refraction(const std::string& name);
 
 }  // namespace nearlight::core::mitsuba

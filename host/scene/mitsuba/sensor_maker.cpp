@@ -11,11 +11,11 @@ namespace {
 constexpr double kRadian = 180.0 / std::numbers::pi;
 constexpr int kMaxSide = 1 << 16;
 
-int positive_integer(const Object& object, const char* name, int fallback, int largest) {
+int positive_integer(const Object& object, const char* name, int fallback, int max_value) {
     const double value = object.number(name, fallback);
-    if (!(value >= 1.0 && value <= largest)) {
+    if (!(value >= 1.0 && value <= max_value)) {
         fail(object.find(name)->where,
-             std::string("'") + name + "' should be from 1 to " + std::to_string(largest));
+             std::string("'") + name + "' should be from 1 to " + std::to_string(max_value));
     }
     return static_cast<int>(value);
 }
@@ -33,7 +33,7 @@ void apply_film(const Object& film, SceneCamera& camera, NoteSink& notes) {
     }
 }
 
-// Focal length of a 35 mm camera (film of 36 × 24 mm) as a diagonal field of view.
+// Converts the focal length of a 35 mm camera (film of 36 × 24 mm) to a diagonal field of view.
 double fov_of_focal_length(const Object& sensor) {
     std::string text = sensor.string("focal_length", "50mm");
     if (text.ends_with("mm")) {
@@ -58,7 +58,7 @@ double read_fov(const Object& sensor, const SceneCamera& camera) {
     return horizontal_fov(fov, sensor.string("fov_axis", "x"), aspect, sensor.where);
 }
 
-// Scales of the camera do not change the picture, but mirroring would.
+// Scaling the camera does not change the picture, but mirroring would.
 Mat4 without_scale(Mat4 m, const Location& where) {
     for (int column = 0; column < 3; ++column) {
         const double l = std::sqrt(m(0, column) * m(0, column) + m(1, column) * m(1, column) +

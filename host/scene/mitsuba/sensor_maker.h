@@ -9,8 +9,8 @@ namespace nearlight::core::mitsuba {
 /// Sets the camera, the picture's size and the samples per pixel of the scene.
 void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes);
 
-/// Horizontal field of view of one along `axis` (x, y, diagonal, smaller, larger); aspect = width ÷ height.
-/// fail() for another axis.
+/// The horizontal field of view, in degrees, of one along `axis` (x, y, diagonal, smaller, larger); aspect =
+/// width ÷ height. Calls fail() for another axis.
 double horizontal_fov(double fov_degrees, const std::string& axis, double aspect, const Location& where);
 
 }  // namespace nearlight::core::mitsuba

@@ -22,7 +22,7 @@ Mat4 sphere_placement(const Object& shape) {
     return translation(center[0], center[1], center[2]) * scaling(radius, radius, radius);
 }
 
-// Between the points p0 and p1.
+// Places the cylinder between the points p0 and p1.
 Mat4 cylinder_placement(const Object& shape) {
     const Triple p0 = shape.triple("p0", {0, 0, 0});
     const Triple p1 = shape.triple("p1", {0, 0, 1});

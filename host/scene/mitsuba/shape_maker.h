@@ -14,7 +14,8 @@ class ShapeMaker {
     ShapeMaker(Scene& scene, NoteSink& notes, TextureMaker& textures, MaterialMaker& materials)
         : scene_(scene), notes_(notes), textures_(textures), materials_(materials) {}
 
-    /// Adds the shape to the scene; a `shapegroup` alone shows nothing, each `instance` of it a copy.
+    /// Adds the shape to the scene. A `shapegroup` alone adds nothing; each `instance` adds a copy of its
+    /// shapes.
     void add(const Object& shape);
 
   private:

@@ -10,7 +10,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr uint kSlices = 128;
 constexpr uint kStacks = 64;
 
-// u and v as Mitsuba gives them.
+// Adds a vertex, with u and v as Mitsuba gives them.
 void add_vertex(Mesh& mesh, Vec3 position, Vec3 normal, double u, double v) {
     mesh.positions.push_back(position);
     mesh.normals.push_back(normal);
@@ -25,7 +25,7 @@ double slice_angle(uint slice) {
     return kTwoPi * slice / kSlices;
 }
 
-// A grid of (rows + 1) × (kSlices + 1) vertices, already in place.
+// Adds the triangles of a grid of (rows + 1) × (kSlices + 1) vertices, which are already there.
 void add_grid(Mesh& mesh, uint rows) {
     for (uint row = 0; row < rows; ++row) {
         for (uint slice = 0; slice < kSlices; ++slice) {
@@ -37,7 +37,7 @@ void add_grid(Mesh& mesh, uint rows) {
     }
 }
 
-// Radius of a regular polygon that has the area of the unit circle.
+// The radius of a regular polygon that has the area of the unit circle.
 double disk_radius() {
     return std::sqrt(kTwoPi / (kSlices * std::sin(kTwoPi / kSlices)));
 }
@@ -45,7 +45,7 @@ double disk_radius() {
 Vec3 sphere_point(uint stack, uint slice) {
     const double theta = std::numbers::pi * stack / kStacks;
     const double phi = slice_angle(slice % kSlices);
-    // Exactly zero at the poles.
+    // The radius of the ring is exactly zero at the poles.
     const double ring = stack == 0 || stack == kStacks ? 0.0 : std::sin(theta);
     return to_vec3(ring * std::cos(phi), ring * std::sin(phi), std::cos(theta));
 }
@@ -70,7 +70,7 @@ Mesh rectangle_mesh() {
     return mesh;
 }
 
-// Each face: normal, and the axes along which u and v grow, in Mitsuba's layout.
+// A face has a normal and the axes along which u and v grow, in Mitsuba's layout.
 Mesh cube_mesh() {
     struct Face {
         Vec3 normal, u, v;

@@ -8,15 +8,15 @@
 
 namespace nearlight::core::mitsuba {
 
-/// XY square [−1, 1]², normal +Z.
+/// The square [−1, 1]² in the XY plane, normal +Z.
 Mesh rectangle_mesh();
-/// [−1, 1]³.
+/// The cube [−1, 1]³.
 Mesh cube_mesh();
-/// Unit disk in XY, normal +Z. The polygon has the area of the circle.
+/// The unit disk in the XY plane, normal +Z. The polygon has the area of the circle.
 Mesh disk_mesh();
-/// Unit sphere, 64 × 128 facets whose area is that of the sphere; smooth normals.
+/// The unit sphere with smooth normals, as 64 × 128 facets whose area is that of the sphere.
 Mesh sphere_mesh();
-/// Around +Z from z = 0 to 1, radius 1, open, normals outwards.
+/// The open cylinder of radius 1 around the Z axis from z = 0 to 1, normals outwards.
 Mesh cylinder_mesh();
 
 }  // namespace nearlight::core::mitsuba

@@ -17,7 +17,7 @@ struct UvMap {
 UvMap read_uv_map(const Object& texture) {
     const Mat4 m = texture.transform("to_uv");
     UvMap map{m(0, 0), m(0, 1), m(0, 3), m(1, 0), m(1, 1), m(1, 3)};
-    // Mitsuba 0.5 and 0.6: scaled, then moved.
+    // Mitsuba 0.5 and 0.6 scale the coordinates, then move them.
     const double uv_scale = texture.number("uvscale", 1.0);
     const double u_scale = texture.number("uscale", uv_scale);
     const double v_scale = texture.number("vscale", uv_scale);
@@ -96,7 +96,7 @@ int TextureMaker::texture_index(const Object& texture) {
     if (const auto found = made_.find(&texture); found != made_.end()) {
         return found->second;
     }
-    int& index = made_.emplace(&texture, -1).first->second;  // a texture within itself finds this
+    int& index = made_.emplace(&texture, -1).first->second;  // a texture that contains itself finds this
     if (texture.type == "bitmap") {
         index = make_bitmap(texture);
     } else if (texture.type == "checkerboard") {

@@ -9,8 +9,8 @@
 
 namespace nearlight::core::mitsuba {
 
-/// Mitsuba counts v from the top row of a bitmap, nearlight from the bottom; shapes and textures both
-/// convert.
+/// Makes the scene's textures from Mitsuba's. Mitsuba counts v from the top row of a bitmap, nearlight from
+/// the bottom; shapes and textures both convert.
 class TextureMaker {
   public:
     TextureMaker(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes), loader_(scene, notes) {}
@@ -18,13 +18,14 @@ class TextureMaker {
     /// A reflectance: one colour, or a texture.
     struct Reflectance {
         Vec3 color{};
-        int texture = -1;  ///< into Scene::textures; `color` is then 1
+        int texture = -1;  ///< index into Scene::textures, where `color` is 1; −1 if there is none
     };
-    /// The property or nested texture called `name`, within [0, 1].
+    /// The property or nested texture called `name`, clamped to [0, 1]; `fallback` if there is neither.
     Reflectance reflectance(const Object& owner, const std::string& name, Vec3 fallback);
-    /// The same where only one colour will do: textures are replaced by their mean, with a note.
+    /// The reflectance called `name` as one colour: a texture is replaced by its mean, with a note.
     Vec3 mean_reflectance(const Object& owner, const std::string& name, Vec3 fallback);
-    /// Any colour that is no reflectance, mean of a texture included; `light`: spectra are those of a light.
+    /// A colour called `name` that is not a reflectance; a texture is replaced by its mean. `light` says that
+    /// spectra are those of a light.
     Vec3 color(const Object& owner, const std::string& name, Vec3 fallback, bool light);
 
   private:

@@ -24,13 +24,13 @@ std::vector<std::string> split(const std::string& text) {
     return words;
 }
 
-// One lobe of the fits below: a Gaussian of different width on either side.
+// One lobe of a fit: a Gaussian with a different width on each side.
 double lobe(double x, double center, double left, double right) {
     const double t = (x - center) * (x < center ? left : right);
     return std::exp(-0.5 * t * t);
 }
 
-// CIE 1931 colour matching functions [Wyman et al., Simple Analytic Approximations to the CIE XYZ Color
+// The CIE 1931 colour matching functions [Wyman et al., Simple Analytic Approximations to the CIE XYZ Color
 // Matching Functions, JCGT 2013], as linear sRGB.
 std::array<double, 3> matching_rgb(double w) {
     const double x = 0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
@@ -57,7 +57,7 @@ double value_at(std::span<const SpectrumSample> samples, double wavelength) {
     return samples.back().value;
 }
 
-// Colour of the equal-energy light E in linear sRGB, of unit luminance.
+// The colour of the equal-energy light E in linear sRGB, with luminance 1.
 constexpr Vec3 kEqualEnergy{1.20479f, 0.94829f, 0.90892f};
 
 }  // namespace

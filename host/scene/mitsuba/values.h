@@ -10,26 +10,26 @@
 
 namespace nearlight::core::mitsuba {
 
-/// "toWorld" → "to_world", "intIOR" → "int_ior".
+/// Turns "toWorld" into "to_world", and "intIOR" into "int_ior".
 std::string snake_case(const std::string& name);
-/// The whole text must be a number; fail() otherwise.
+/// The number that the whole text is. Calls fail() for any other text.
 double parse_number(const std::string& text, const Location& where);
-/// Numbers separated by commas or white space.
+/// Numbers that commas or white space separate.
 std::vector<double> parse_numbers(const std::string& text, const Location& where);
-/// One or three numbers, or #rrggbb (sRGB).
+/// The colour that one or three numbers, or #rrggbb (sRGB), stand for.
 Color parse_rgb(const std::string& text, const Location& where);
 
 struct SpectrumSample {
     double wavelength;  ///< nm
     double value;
 };
-/// Piecewise linear between samples (in order of wavelength), zero outside.
+/// The colour of a spectrum that is linear between samples (in order of wavelength) and zero outside.
 Color spectrum_color(std::span<const SpectrumSample> samples);
-/// One value at every wavelength.
+/// The colour of a spectrum that has one value at every wavelength.
 Color uniform_color(double value);
-/// A number, or pairs "wavelength:value".
+/// The colour of a spectrum: one number, or pairs "wavelength:value".
 Color parse_spectrum(const std::string& text, const Location& where, NoteSink& notes);
-/// Lines of "wavelength value"; '#' begins a comment.
+/// Reads a spectrum from lines of "wavelength value"; '#' begins a comment.
 Color read_spectrum(const std::filesystem::path& file, const Location& where, NoteSink& notes);
 
 }  // namespace nearlight::core::mitsuba

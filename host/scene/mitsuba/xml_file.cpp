@@ -17,7 +17,7 @@ XmlFile::XmlFile(const std::filesystem::path& file)
             line_starts_.push_back(static_cast<std::ptrdiff_t>(i) + 1);
         }
     }
-    // Without conversion of encodings, so that offsets are those of the file.
+    // Encodings are not converted, so that offsets are those of the file.
     const pugi::xml_parse_result result =
         document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result) {

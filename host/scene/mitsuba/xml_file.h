@@ -15,7 +15,7 @@ namespace nearlight::core::mitsuba {
 
 class XmlFile {
   public:
-    /// Throws Error(ErrorKind::file) where the file is missing or not well-formed.
+    /// Reads a file. Throws Error(ErrorKind::file) if it is missing or not well-formed.
     explicit XmlFile(const std::filesystem::path& file);
 
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
@@ -31,7 +31,7 @@ class XmlFile {
     std::vector<std::ptrdiff_t> line_starts_;
 };
 
-/// Values of $names.
+/// The values of $names.
 using Parameters = std::map<std::string, std::string>;
 
 /// An element whose attributes are read with $names replaced.
@@ -41,16 +41,16 @@ struct Element {
     const Parameters& parameters;
 
     [[nodiscard]] bool has(const char* attribute) const { return !node.attribute(attribute).empty(); }
-    /// "" where there is no such attribute. fail() for an undefined $name.
+    /// The text of an attribute; "" if there is no such attribute. Calls fail() for an undefined $name.
     [[nodiscard]] std::string text(const char* attribute) const;
     [[nodiscard]] std::string required(const char* attribute) const;
     [[nodiscard]] double number(const char* attribute, double fallback) const;
-    /// value="x,y,z" (or the attribute called `list`), or x=, y=, z=; one number stands for all three where
-    /// `single` is allowed.
+    /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. If `single`, one
+    /// number stands for all three.
     [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;
 };
 
-/// A <transform>: its operations in order of appearance, each after (left of) those before it.
+/// Reads a <transform>. Its operations apply in order of appearance: each is multiplied from the left.
 Mat4 read_transform(const XmlFile& file, const Element& element);
 
 }  // namespace nearlight::core::mitsuba

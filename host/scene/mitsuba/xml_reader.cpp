@@ -10,7 +10,7 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-// Deeper nesting than any real scene has; keeps hostile files off the stack.
+// More levels than any real scene has. The bound protects the stack from hostile files.
 constexpr int kMaxXmlDepth = 64;
 
 constexpr const char* kObjectTags[] = {"scene",  "shape",  "bsdf",    "texture",   "emitter",

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From XML text to the tree of objects (through pugixml, which only xml_reader.cpp and transform_reader.cpp
-// know).
+// Makes the tree of objects from XML text, through pugixml, which only xml_file and xml_reader know.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +10,8 @@
 
 namespace nearlight::core::mitsuba {
 
-/// The scene as objects, with `parameters` for $names winning over <default>. Throws Error(ErrorKind::file)
-/// with file and line for anything missing, broken or unknown.
+/// Reads the scene as objects. The values of $names in `parameters` win over <default>. Throws
+/// Error(ErrorKind::file) with file and line for anything missing, broken or unknown.
 Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
                   NoteSink& notes);
 
