@@ -21,14 +21,14 @@ class ProgramCompiler;
 struct DeviceOptions {
     /// Kernels are read from this folder; if it is empty, those in the binary are used.
     std::filesystem::path kernel_dir;
-    /// Compiled programs and tunables are kept in this folder. If it is empty, default_cache_dir() is used;
-    /// if it is "none", nothing is kept.
+    /// Compiled programs and tunables are kept in this folder; empty means default_cache_dir(), "none" keeps
+    /// nothing.
     std::filesystem::path cache_dir;
-    /// Whether single rays use the wide tree. If it is not set, they do so on CPUs; other choices are for
-    /// tests and comparisons.
+    /// Whether single rays use the wide tree; unset means on CPUs only. Other choices are for tests and
+    /// comparisons.
     std::optional<bool> wide_rays{};
-    /// Compiles programs for this device; null gives the device a compiler of its own. Devices of one kind
-    /// that share a compiler compile each program once.
+    /// Compiles programs for this device; null gives it one of its own. Devices of a kind that share one
+    /// compile each program once.
     std::shared_ptr<ProgramCompiler> compiler{};
 };
 
@@ -59,11 +59,11 @@ class Device {
     [[nodiscard]] const ChosenTunables& chosen_tunables() const { return tunables_; }
     /// Sets the tunables for stages that are made from now on, and for the launches of all stages.
     void set_tunables(const Tunables& tunables) { tunables_ = {tunables, "set by the program", false, {}}; }
-    /// How many work-items a kernel that gives each of them a long run of elements (scan, sort) should have.
+    /// The number of work-items for kernels that give each a long run of elements (scan, sort).
     [[nodiscard]] std::size_t worker_count() const;
 
-    /// Begins to build a program from `source`, the text of kernels/`file` with its includes expanded.
-    /// Returns the earlier program if the same one was begun before.
+    /// Begins to build a program from `source`, the expanded text of kernels/`file`, or returns the same
+    /// program begun earlier.
     std::shared_future<cl::Program> start_build(const std::string& file, std::string source,
                                                 std::string options);
     [[nodiscard]] ProgramCompiler& compiler() const { return *options_.compiler; }

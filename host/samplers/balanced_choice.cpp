@@ -173,9 +173,9 @@ BalancedChoice::Limit BalancedChoice::limit(const Direction& direction, double s
     return nearest;
 }
 
-/// Takes one step of the walk. The expectation of the step is 0, so that each candidate keeps its
-/// probability. The direction moves the oldest candidate, which is to be settled so that open candidates stay
-/// near each other, and changes the balance least: products · direction is 1 in that slot and 0 elsewhere.
+/// Takes one step of the walk, whose expectation is 0, so that each candidate keeps its probability. The
+/// direction moves the oldest candidate, so that open candidates stay near each other, and changes the
+/// balance least: products · direction is 1 in that slot and 0 elsewhere.
 void BalancedChoice::settle_one() {
     const Direction direction = inverse_[oldest()];
     const Limit ahead = limit(direction, 1.0);

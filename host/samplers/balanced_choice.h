@@ -40,7 +40,7 @@ class BalancedChoice {
 
   private:
     static constexpr std::size_t kMaxOpen = 32;
-    using Direction = std::array<double, kMaxOpen>;  ///< by slot; 0 in slots that are not open
+    using Direction = std::array<double, kMaxOpen>;  ///< one number per slot; 0 if the slot is not open
     using Matrix = std::array<Direction, kMaxOpen>;
     struct Open {
         uint index = 0;
@@ -52,7 +52,7 @@ class BalancedChoice {
     struct Limit {
         double step = 0;
         std::size_t who = 0;
-        double probability = 0;  ///< of `who` there: 0 or 1
+        double probability = 0;  ///< which `who` reaches: 0 or 1
     };
 
     void add_products(std::size_t slot);

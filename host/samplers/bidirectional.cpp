@@ -70,7 +70,7 @@ struct ExaminedVpls {
 
 /// The quantities that the weights depend on, which are the same for both kinds of candidates.
 struct Balance {
-    SparseSet sparse;  ///< for the rough light
+    SparseSet sparse;  ///< sparse set for the rough light
     CameraPoints points;
     float walks_per_watt = 0.0f;
 };

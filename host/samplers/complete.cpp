@@ -4,21 +4,20 @@
 // Candidates. There are several times as many as wanted VPLs: points spread evenly over the close range
 // [paper §3], whether light reaches them or not, and deposits of light walks over the whole scene. The noise
 // of the deposits stays in the picture however well VPLs are chosen among them, and deposits cost little
-// compared with the rays that weigh them. So there are hundreds of deposits per VPL, and a few importons
-// screen them first: deposits pass with a probability in proportion to the error they would leave, and are
-// divided by that probability.
+// compared with the rays that weigh them. So there are hundreds of them per VPL, and a few importons screen
+// them first: they pass with a probability that follows the error they would leave, and are divided by it.
 //
 // Shares. Patches and deposits must not both carry the whole light of the close range. At a point y there,
 // patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · walks / Φ, as
 // each walk carries about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between
 // them: w_patch = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light
 // falls on much surface, which removes the strong deposits beside the camera. Deposits remain where much
-// light falls on little surface (a lamp's shade), which evenly spread patches would miss or turn into
-// outliers. Outside the close range, deposits carry all the light. The shares follow a rough estimate of
-// E(y): a few samples of direct light, a gather from a small sparse set, one short path, and a constant, so
-// that no lit point is taken for dark. The estimate need not be right for the shares to add up to 1 in
-// expectation: at y it has the same distribution for a patch and for a deposit, and it is independent of both
-// and of the light that the patch carries in the end.
+// light falls on little surface (a lamp's shade), which patches would miss or turn into outliers. Outside the
+// close range, deposits carry all the light. The shares follow a rough estimate of E(y): a few samples of
+// direct light, a gather from a small sparse set, one short path, and a constant, so that no lit point is
+// taken for dark. The estimate need not be right for the shares to add up to 1 in expectation: at y it has
+// the same distribution for a patch and for a deposit, and it is independent of both and of the light that
+// the patch carries in the end.
 //
 // Choice. VPLs are drawn from all candidates in proportion to the error that each would leave in the picture
 // (GroupContribution::errors), so that together they bring to each of several dozen parts of the picture what
@@ -89,7 +88,7 @@ double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t 
 void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit, std::size_t importon_count,
                               std::span<float> weights) {
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        // VPLs beyond the range count too, and so do VPLs of which only the neighbourhood is in view.
+        // VPLs beyond the range count too, even if only their neighbourhood is in view.
         if (in_frustum(task.close_range, lit[i].position, task.clamp_radius)) {
             const double error = neighbourhood_error(task, lit[i].position, importon_count);
             weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));

@@ -9,7 +9,7 @@ namespace nearlight::core {
 /// A sparse set: VPLs of light walks over the whole scene that light other VPLs, but not the picture.
 struct SparseSet {
     VplBuffer vpls;
-    float clamp_radius = 0.0f;  ///< to gather them with, m; short paths supply what it takes away
+    float clamp_radius = 0.0f;  ///< for gathering `vpls`, m; short paths supply what it takes away
 };
 
 /// Traces about `wanted` VPLs of up to task.bounce_count − 1 bounces. The set is empty if task.bounce_count
@@ -18,8 +18,8 @@ SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint
 
 /// How many samples each point takes.
 struct IncidentQuality {
-    uint direct_samples = 64;  ///< for area and environment lights
-    uint paths = 4;            ///< for the light that the clamp radius takes away; 0 leaves that light out
+    uint direct_samples = 64;  ///< samples per point for area and environment lights
+    uint paths = 4;  ///< paths per point for light that the clamp radius takes away; 0 leaves it out
 };
 
 /// The sources of incident light: the emitters of the scene, and VPLs of up to `bounce_count` bounces.
@@ -27,7 +27,7 @@ struct IncidentSources {
     const DeviceScene& scene;
     uint bounce_count = 0;
     const VplBuffer& vpls;
-    float clamp_radius = 0.0f;  ///< to gather them with, m
+    float clamp_radius = 0.0f;  ///< for gathering `vpls`, m
 };
 
 /// Writes the irradiance (W/m²) of receivers from light of up to sources.bounce_count bounces. It is unbiased

@@ -76,7 +76,7 @@ LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
 }
 
 struct Pilot {
-    std::vector<float> contributions;  ///< of all candidates, each multiplied by the walks of its round
+    std::vector<float> contributions;  ///< contributions to the camera, each times the walks of its round
     uint walk_count = 0;
 };
 

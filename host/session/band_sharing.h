@@ -25,7 +25,7 @@ using BandMaker = std::function<std::optional<FinishedBand>(uint index, const Ba
 /// One device that takes part. `start` and the function that it returns are called in a thread of the
 /// worker's own.
 struct BandWorker {
-    std::string name;  ///< for messages
+    std::string name;  ///< device's name for messages
     std::function<BandMaker()> start;
 };
 
@@ -37,7 +37,7 @@ struct BandShare {
     bool failed = false;
 };
 struct BandOutcome {
-    std::vector<BandShare> shares;  ///< in the order of the workers
+    std::vector<BandShare> shares;  ///< one per worker, in their order
     bool interrupted = false;       ///< `progress` stopped the work; bands are missing
 };
 

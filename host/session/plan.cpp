@@ -7,11 +7,11 @@
 namespace nearlight::core {
 namespace {
 
-/// The number of bands per device. It is high, so that first rows appear soon, and so that devices wait for
-/// the last one for only half a short band on average.
+/// The number of bands per device. With many bands, first rows appear soon, and devices wait for the last one
+/// for only half a short band on average.
 constexpr std::size_t kBandsPerDevice = 30;
-/// A band on a single device has at least this part (1/8) of a batch's receivers, which keeps the device
-/// busy. Several devices get bands of single tile rows even if those are smaller.
+/// A band on a single device has at least 1/kMinPart of a batch's receivers, which keeps the device busy.
+/// Several devices may get smaller bands.
 constexpr std::size_t kMinPart = 8;
 
 /// The number of receivers per batch: enough work to keep the device busy, but little enough for memory and

@@ -18,7 +18,7 @@ using RenderProgress = std::function<bool(const std::string& stage, double fract
 struct RenderSeconds {
     double build_bvh = 0;
     double compile = 0;   ///< time in which programs were compiled or loaded; other work goes on meanwhile
-    double upload = 0;    ///< of scene and trees
+    double upload = 0;    ///< upload of scene and trees
     double generate = 0;  ///< pilot view and VPLs
     double gather = 0;    ///< camera pass, direct light, gather, film
     double total = 0;
@@ -27,17 +27,17 @@ struct RenderSeconds {
 struct RenderReport {
     int width = 0;
     int height = 0;
-    float range = 0;         ///< of the close range, m
+    float range = 0;         ///< distance at which the close range ends, m
     float clamp_radius = 0;  ///< m
-    uint max_depth = 0;      ///< as Mitsuba counts
+    uint max_depth = 0;      ///< maximum path length, as Mitsuba counts it
     uint passes = 0;         ///< number of passes that were begun
     // The next five count all passes together.
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
     std::size_t sparse_vpls = 0;   ///< VPLs that only lit other VPLs
     std::size_t candidates = 0;    ///< candidates that VPLs were chosen from; 0: there was no choice
-    std::size_t local_lights = 0;  ///< of all tiles
-    float close_fraction = 0;      ///< of the first pass
+    std::size_t local_lights = 0;  ///< local lights of all tiles
+    float close_fraction = 0;      ///< share of close-range VPLs in the first pass
     RenderSeconds seconds;
     std::vector<BandShare> shares;  ///< the part that each device had in the picture
     std::size_t device_bytes = 0;   ///< peak allocation, all devices together

@@ -19,7 +19,7 @@ namespace nearlight::core {
 /// The seconds that it took to get a scene ready.
 struct SessionSeconds {
     double build_bvh = 0;
-    double upload = 0;  ///< of scene and trees
+    double upload = 0;  ///< upload of scene and trees
     double total = 0;
 };
 

@@ -14,7 +14,7 @@ struct View {
     CloseRange close_range{};
     PilotView pilot;            ///< in the memory of the device that led when the view was chosen
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
-    uint max_depth = 8;         ///< as Mitsuba counts
+    uint max_depth = 8;         ///< maximum path length, as Mitsuba counts it
     uint seed = 0;              ///< seed of the pilot view
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };

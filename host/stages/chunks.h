@@ -25,8 +25,7 @@ inline Chunks split_into_chunks(const Device& device, std::size_t element_count,
     const std::size_t size = std::max(min_size, even);
     return {static_cast<uint>(size), static_cast<uint>((element_count + size - 1) / size)};
 }
-/// Splits an array whose elements are little work each, into runs that are long enough to be worth a
-/// work-item.
+/// Splits an array whose elements are little work each into runs that are worth a work-item.
 inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {
     return split_into_chunks(device, element_count, device.tunables().shortest_run);
 }
@@ -36,8 +35,8 @@ inline std::size_t chunk_local_size(const Device& device) {
     return device.tunables().run_local_size;
 }
 
-/// Converts a count to the 32 bits that kernels count in. Throws Error(ErrorKind::out_of_memory) for a larger
-/// count; `what` names the elements in its message.
+/// Converts a count to the 32 bits that kernels use. Throws Error(ErrorKind::out_of_memory) if it is larger;
+/// `what` names the elements.
 inline uint to_kernel_count(std::size_t count, const char* what) {
     if (count > UINT32_MAX) {
         throw Error(ErrorKind::out_of_memory, std::to_string(count) + " " + what +

@@ -8,8 +8,8 @@
 namespace nearlight::core {
 
 struct DeviceScene {
-    DeviceTree tree;   ///< of opaque surfaces
-    DeviceTree glass;  ///< of the glass, which only the camera sees
+    DeviceTree tree;   ///< tree of opaque surfaces
+    DeviceTree glass;  ///< tree of glass, which only the camera sees
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;

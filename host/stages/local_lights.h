@@ -20,7 +20,7 @@ namespace nearlight::core {
 struct LocalLightPlan {
     float clamp_radius = 0.0f;   ///< m
     float widest_radius = 0.0f;  ///< m, at least clamp_radius; local lights lie within it
-    /// In m·√(W/m²); infinity makes the radius of every VPL widest_radius.
+    /// Narrows the radius of well-lit VPLs, in m·√(W/m²); infinity makes every radius widest_radius.
     float radius_at_unit_light = std::numeric_limits<float>::infinity();
     uint rays_per_receiver = 1;  ///< short rays that find local lights
     uint connections = 1;        ///< from each local light to VPLs, chosen with equal probability
@@ -57,7 +57,7 @@ struct LocalLightSlots {
     Buffer<Vpl> lights;             ///< power is exitance (W/m²) over the density of lights (1/m²): flux, W
     Buffer<float> radii;            ///< R_g of each light, m
     Buffer<uint> flags;             ///< 1 where the slot holds a light
-    Buffer<uint> indices;           ///< of the slots that hold a light, ascending
+    Buffer<uint> indices;           ///< slots that hold a light, ascending
     Buffer<std::uint64_t> seen_by;  ///< for each light: bit i is 1 if receiver i of the packet sees it
 };
 

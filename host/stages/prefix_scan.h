@@ -23,8 +23,7 @@ class PrefixScan {
     void exclusive(const Buffer<T>& input, Buffer<T>& output, std::size_t count) {
         scan(input, output, count, false);
     }
-    /// Sets output[i] = input[0] + … + input[i] for all i < count. Both buffers hold at least `count`
-    /// elements, and they may be the same buffer.
+    /// Sets output[i] = input[0] + … + input[i] for all i < count. They may be one buffer.
     void inclusive(const Buffer<T>& input, Buffer<T>& output, std::size_t count) {
         scan(input, output, count, true);
     }

@@ -61,7 +61,7 @@ struct SamplingSettings {
 /// How to make pixels from VPLs and emitters.
 struct GatherSettings {
     std::uint32_t samples_per_pixel = 4;
-    std::uint32_t direct_samples_per_pixel = 64;  ///< towards area lights and the environment
+    std::uint32_t direct_samples_per_pixel = 64;  ///< samples towards area lights and the environment
     bool indirect_only = false;                   ///< the layer of direct light has emission only
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
@@ -90,7 +90,7 @@ struct SessionOptions {
 
 /// How Session::irradiance() estimates the light at points.
 struct IrradianceSettings {
-    std::uint32_t direct_samples = 64;  ///< for each point, towards area lights and the environment
+    std::uint32_t direct_samples = 64;  ///< samples per point, towards area lights and the environment
     /// How many short paths to trace from each point. They bring back the light that the view's clamp radius
     /// takes away; 0 leaves that light out.
     std::uint32_t paths = 16;

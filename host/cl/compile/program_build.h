@@ -16,7 +16,7 @@ namespace nearlight::core {
 struct ProgramRequest {
     DeviceEntry entry;
     cl::Context context;  ///< the context that uses the program
-    std::string file;     ///< for messages: kernels/`file`
+    std::string file;     ///< name of kernels/`file`, for messages
     std::string source;   ///< text with its includes expanded
     std::string options;
     std::filesystem::path cache_dir;
