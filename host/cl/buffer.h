@@ -15,10 +15,11 @@
 
 namespace nearlight::core {
 
-/// `count` elements of T, on CPUs in huge pages where it is large. Never of zero bytes: kernels may be given
-/// an empty one, and must not touch it. Copies are blocking; they order with kernels because the queue is
-/// in-order. May be destroyed while kernels that use it still wait to run: OpenCL keeps the memory for
-/// commands that are in a queue (OpenCL 1.2, clReleaseMemObject), though the device no longer counts it.
+/// `count` elements of T in device memory. Large buffers of CPU devices are in huge pages. An empty buffer
+/// takes memory too, so that it can be given to a kernel, which must not access it. Uploads and downloads
+/// wait until they are done, and the in-order queue puts them in sequence with kernels. A buffer may be
+/// destroyed while kernels that use it still wait to run: OpenCL keeps the memory for commands in a queue
+/// (OpenCL 1.2, clReleaseMemObject), though the device no longer counts it.
 template <typename T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that work is sent to: context, in-order queue, profiler, and where its programs come from.
+// A device that work is sent to: its context, in-order queue, profiler and programs.
 #pragma once
 
 #include <CL/opencl.hpp>
@@ -19,21 +19,25 @@ namespace nearlight::core {
 class ProgramCompiler;
 
 struct DeviceOptions {
-    /// Kernels are read from here where set, else from the binary.
+    /// Kernels are read from this folder; if it is empty, those in the binary are used.
     std::filesystem::path kernel_dir;
-    /// Compiled programs and tunables are kept here; empty: default_cache_dir(). "none" keeps nothing.
+    /// Compiled programs and tunables are kept in this folder; empty means default_cache_dir(), "none" keeps
+    /// nothing.
     std::filesystem::path cache_dir;
-    /// Single rays go through the wide tree; unset: on CPUs. (The other form is for tests and comparisons.)
+    /// Whether single rays use the wide tree; unset means on CPUs only. Other choices are for tests and
+    /// comparisons.
     std::optional<bool> wide_rays{};
-    /// Compiles for this device; empty: one of its own. Devices of a kind that share one compile once.
+    /// Compiles programs for this device; null gives it one of its own. Devices of a kind that share one
+    /// compile each program once.
     std::shared_ptr<ProgramCompiler> compiler{};
 };
 
-/// $NEARLIGHT_CACHE_DIR, or $XDG_CACHE_HOME/nearlight, or ~/.cache/nearlight; empty where there is no home.
+/// The first of $NEARLIGHT_CACHE_DIR, $XDG_CACHE_HOME/nearlight and ~/.cache/nearlight whose variable is set;
+/// empty if there is no home.
 std::filesystem::path default_cache_dir();
 
-/// Not copyable: stages hold a reference to it. All work goes through one in-order queue. For one thread at a
-/// time.
+/// A device that work is sent to through one in-order queue. It cannot be copied, because stages hold
+/// references to it. For one thread at a time.
 class Device {
   public:
     explicit Device(const DeviceEntry& entry, const DeviceOptions& options = {});
@@ -43,32 +47,34 @@ class Device {
     [[nodiscard]] const DeviceEntry& entry() const { return entry_; }
     [[nodiscard]] const std::string& name() const { return entry_.name; }
     [[nodiscard]] bool is_cpu() const { return entry_.kind == DeviceKind::cpu; }
-    /// Which tree kernels take that trace one ray (kernels/lib/ray_tree.cl).
+    /// Whether kernels that trace one ray at a time use the wide tree (kernels/lib/ray_tree.cl).
     [[nodiscard]] bool has_wide_rays() const { return options_.wide_rays.value_or(is_cpu()); }
     [[nodiscard]] const DeviceOptions& options() const { return options_; }
     [[nodiscard]] const cl::Context& context() const { return context_; }
     [[nodiscard]] const cl::CommandQueue& queue() const { return queue_; }
     [[nodiscard]] Profiler& profiler() { return profiler_; }
 
-    /// How stages divide their work; those of choose_tunables() unless set.
+    /// How stages divide their work: the values of choose_tunables() unless set_tunables() replaced them.
     [[nodiscard]] const Tunables& tunables() const { return tunables_.values; }
     [[nodiscard]] const ChosenTunables& chosen_tunables() const { return tunables_; }
-    /// For stages made from now on, and for launches of all.
+    /// Sets the tunables for stages that are made from now on, and for the launches of all stages.
     void set_tunables(const Tunables& tunables) { tunables_ = {tunables, "set by the program", false, {}}; }
-    /// How many work-items a kernel should have that gives each a long run of elements (scan, sort).
+    /// The number of work-items for kernels that give each a long run of elements (scan, sort).
     [[nodiscard]] std::size_t worker_count() const;
 
-    /// Begins to build a program from expanded `source` of kernels/`file`, or gives the one begun before.
+    /// Begins to build a program from `source`, the expanded text of kernels/`file`, or returns the same
+    /// program begun earlier.
     std::shared_future<cl::Program> start_build(const std::string& file, std::string source,
                                                 std::string options);
     [[nodiscard]] ProgramCompiler& compiler() const { return *options_.compiler; }
 
-    /// Waits for everything enqueued; asynchronous failures surface here.
+    /// Waits for all enqueued work. Throws errors of that work too.
     void finish();
 
-    /// Bytes of all live Buffers, and the most there ever were.
+    /// Counts the bytes of a new Buffer, and keeps the maximum for peak_bytes().
     void add_allocated(std::size_t bytes);
     void remove_allocated(std::size_t bytes) { allocated_bytes_ -= bytes; }
+    /// The maximum total size of all live Buffers so far, in bytes.
     [[nodiscard]] std::size_t peak_bytes() const { return peak_bytes_; }
 
   private:
@@ -78,7 +84,7 @@ class Device {
     cl::Context context_;
     cl::CommandQueue queue_;
     Profiler profiler_;
-    std::map<std::string, std::shared_future<cl::Program>> programs_;  ///< by their keys
+    std::map<std::string, std::shared_future<cl::Program>> programs_;  ///< by their keys, for start_build()
     std::size_t allocated_bytes_ = 0;
     std::size_t peak_bytes_ = 0;
 };

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-/// Address space of `bytes` from a multiple of a huge page on; null where there is none.
+/// Address space of `bytes` bytes that begins at a multiple of the huge page size. data() is null if the
+/// system gives none.
 class Pages {
   public:
     explicit Pages(std::size_t bytes) : length_(bytes + kHugePage) {
@@ -23,7 +24,7 @@ class Pages {
         if (base_ != MAP_FAILED) {
             const auto at = reinterpret_cast<std::uintptr_t>(base_);
             data_ = static_cast<char*>(base_) + (kHugePage - at % kHugePage) % kHugePage;
-            madvise(data_, bytes, MADV_HUGEPAGE);  // advice: small pages serve as well
+            madvise(data_, bytes, MADV_HUGEPAGE);  // failure is harmless: small pages work too
         }
     }
     ~Pages() {
@@ -55,7 +56,7 @@ cl::Buffer make_huge_buffer(const cl::Context& context, std::size_t bytes) {
     }
     cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, pages->data());
     buffer.setDestructorCallback(release, pages.get());
-    // From here on OpenCL has it: commands may use the memory after the last handle is gone.
+    // OpenCL owns the memory from here on, because commands may use it after the last handle is gone.
     static_cast<void>(pages.release());
     return buffer;
 }

@@ -14,12 +14,12 @@ namespace nearlight::core {
 
 class Kernel {
   public:
-    /// Does not wait for the compiler: the first launch does, and throws what Program::kernel() throws.
+    /// Does not wait for the compiler. The first launch waits, and throws what Program::kernel() throws.
     Kernel(const Program& program, std::string name) : program_(program), name_(std::move(name)) {}
 
-    /// One work-item for each of `item_count`, in groups of `local_size`; the last group may reach beyond, so
-    /// the kernel checks its index. Arguments are Buffers, groups of them and plain values, in the
-    /// kernel's order.
+    /// Launches `item_count` work-items in work-groups of `local_size`. The last group may exceed
+    /// `item_count`, so the kernel checks its index. Arguments are Buffers, groups of Buffers and plain
+    /// values, in the kernel's order.
     template <typename... Arguments>
     void launch(std::size_t item_count, std::size_t local_size, const Arguments&... arguments) {
         if (item_count == 0) {
@@ -39,7 +39,7 @@ class Kernel {
             device.profiler().record(name_, std::move(event));
         });
     }
-    /// With the device's usual group size.
+    /// Launches `item_count` work-items in work-groups of the device's usual size (Tunables::local_size).
     template <typename... Arguments>
     void launch_items(std::size_t item_count, const Arguments&... arguments) {
         launch(item_count, program_.device().tunables().local_size, arguments...);
@@ -50,12 +50,11 @@ class Kernel {
     void set_arguments(cl_uint& index, const Buffer<T>& buffer) {
         if (buffer.handle()() == nullptr) {
             throw Error(ErrorKind::failure, "kernel " + name_ + ": argument " + std::to_string(index) +
-                                                " is a buffer that was never made; upload what it needs");
+                                                " is a buffer that was never made; upload the data for it");
         }
         handle_->setArg(index++, buffer.handle());
     }
-    /// Something that stands for several buffers, such as a DeviceScene: it visits them in the kernel's
-    /// order.
+    /// Sets the buffers of a group, such as a DeviceScene, which visits them in the kernel's order.
     template <typename T>
     requires requires(const T& group) {
         group.for_each_buffer([](const auto&) {});
@@ -71,7 +70,7 @@ class Kernel {
 
     Program program_;
     std::string name_;
-    std::optional<cl::Kernel> handle_{};  ///< after the first launch
+    std::optional<cl::Kernel> handle_{};  ///< set by the first launch
 };
 
 }  // namespace nearlight::core

@@ -8,9 +8,10 @@
 
 namespace nearlight::core {
 
-/// The text of kernels/`name`, from `kernel_dir` if that is set, else from the binary. `#include "…"` lines
-/// are replaced by the file (relative to kernels/), each once; `#line` directives keep the compiler's
-/// messages true. Throws Error(ErrorKind::kernel_build) for a file that does not exist.
+/// Returns the text of kernels/`name`, from `kernel_dir` if that is not empty, else from the binary. Each
+/// `#include "…"` line is replaced by the file, whose name is relative to kernels/; a file is included once.
+/// `#line` directives give the compiler's messages the right file and line. Throws
+/// Error(ErrorKind::kernel_build) for a file that does not exist.
 std::string expand_kernel_source(const std::string& name, const std::filesystem::path& kernel_dir = {});
 
 }  // namespace nearlight::core

@@ -67,7 +67,7 @@ Error make_opencl_error(const cl::Error& error, const std::string& subject) {
     std::string message =
         std::string(error.what()) + " failed with " + opencl_error_name(error.err()) + " (" + subject + ")";
     if (memory) {
-        message += "; free memory, or ask for less at once";
+        message += "; free memory, or ask for less at a time";
     }
     return {memory ? ErrorKind::out_of_memory : ErrorKind::failure, message};
 }

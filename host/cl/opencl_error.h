@@ -9,14 +9,14 @@
 
 namespace nearlight::core {
 
-/// "CL_OUT_OF_RESOURCES" for -5, "error -9999" for codes that have no name.
+/// The name of an error code: "CL_OUT_OF_RESOURCES" for -5, "error -9999" for a code without a name.
 std::string opencl_error_name(cl_int code);
 
-/// An Error that says which call failed on what ("kernel gather on device X"), with the exit code that suits:
-/// out of memory for failed allocations, runtime otherwise.
+/// Makes an Error that says which call failed on what `subject` ("kernel gather on device X"). Its kind is
+/// ErrorKind::out_of_memory for failed allocations, ErrorKind::failure otherwise.
 Error make_opencl_error(const cl::Error& error, const std::string& subject);
 
-/// Runs `action` and translates cl::Error.
+/// Runs `action`, returns its result, and translates a cl::Error with make_opencl_error().
 template <typename Action>
 auto with_opencl_errors(const std::string& subject, Action&& action) {
     try {

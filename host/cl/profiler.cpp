@@ -13,7 +13,8 @@ const std::map<std::string, Profiler::Total>& Profiler::totals() {
             const cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
             total.seconds += static_cast<double>(end - start) * 1e-9;
         } catch (const cl::Error&) {
-            // No time is kept for this launch; a failed one has been reported where it was waited for.
+            // The driver has no time for this launch. If the launch failed, whoever waited for it has
+            // reported that.
         }
     }
     pending_.clear();

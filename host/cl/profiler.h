@@ -17,7 +17,8 @@ class Profiler {
     };
 
     void record(const std::string& label, cl::Event event) { pending_.emplace_back(label, std::move(event)); }
-    /// Waits for what was recorded and adds it up by label. Launches whose driver keeps no time count as 0 s.
+    /// Waits for the recorded launches and adds up their times by label. A launch counts as 0 s if the driver
+    /// measures no time.
     const std::map<std::string, Total>& totals();
 
   private:

@@ -14,8 +14,8 @@ std::shared_future<cl::Program> begin_build(Device& device, const std::string& f
                               std::move(options));
 }
 
-// -cl-fast-relaxed-math and -cl-finite-math-only are left out on purpose: they break slab tests, which rely
-// on infinities.
+// The options do not include -cl-fast-relaxed-math and -cl-finite-math-only, because these break slab tests,
+// which rely on infinities.
 std::string build_options(const Device& device, const Defines& defines) {
     std::string options = "-cl-std=CL1.2 -cl-mad-enable -cl-denorms-are-zero";
     options += device.has_wide_rays() ? " -DNEARLIGHT_WIDE_RAYS=1" : " -DNEARLIGHT_WIDE_RAYS=0";

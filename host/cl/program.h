@@ -14,8 +14,8 @@ namespace nearlight::core {
 /// Preprocessor definitions for a program: {"SCAN_TYPE", "uint"} becomes -DSCAN_TYPE=uint.
 using Defines = std::map<std::string, std::string>;
 
-/// A file under kernels/ that includes those of several stages, to be compiled as one program on CPUs. PoCL
-/// spends 0.1 s on each program before its first line, and works on functions that stages share once for each
+/// A file under kernels/ that includes the files of several stages, which CPUs compile as one program. PoCL
+/// spends 0.1 s on each program before its first line, and compiles functions that stages share once per
 /// program.
 struct JointProgram {
     const char* file;
@@ -23,17 +23,17 @@ struct JointProgram {
 
 class Program {
   public:
-    /// Begins to compile kernels/`file`, or to take it from the cache, and returns at once. What the device
-    /// has had compiled before is shared. Throws Error(ErrorKind::kernel_build) where there is no such file.
+    /// Begins to compile kernels/`file`, or to load it from the cache, and returns at once. Equal programs of
+    /// one device are compiled once. Throws Error(ErrorKind::kernel_build) if there is no such file.
     Program(Device& device, const std::string& file, const Defines& defines = {});
-    /// On CPUs `joint`, which must include `file`, is compiled in its place. On other devices a driver that
-    /// does not compile one stage must not lose others by it, so each stage is a program of its own there.
+    /// Compiles `joint`, which must include `file`, on CPUs, and `file` on other devices. If a driver of
+    /// these fails to compile one stage, the other stages are not lost, because each is a program of its own.
     Program(Device& device, const std::string& file, const JointProgram& joint);
 
     [[nodiscard]] Device& device() const { return *device_; }
     [[nodiscard]] const std::string& file() const { return file_; }
-    /// Waits for the compiler. Throws Error(ErrorKind::kernel_build), see build_program(); Error where there
-    /// is no such entry point.
+    /// Waits for the compiler and returns the entry point `name`. Throws Error(ErrorKind::kernel_build) as
+    /// build_program() does, and Error if there is no such entry point.
     [[nodiscard]] cl::Kernel kernel(const std::string& name) const;
 
   private:

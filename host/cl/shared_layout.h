@@ -7,13 +7,13 @@
 
 namespace nearlight::core {
 
-/// The size of a struct or a member's offset, bytes; or the value of a shared constant or function.
+/// The size of a struct or the offset of a member, in bytes, or the value of a shared constant or function.
 struct LayoutFact {
     std::string name;
     std::size_t value;
 };
 
-/// In the order in which kernels/layout_probe.cl writes what the device has.
+/// The layout on the host, in the order in which kernels/layout_probe.cl writes that of the device.
 std::vector<LayoutFact> shared_layout();
 
 }  // namespace nearlight::core

@@ -18,10 +18,11 @@ constexpr std::uint32_t kMaxDepth = 1024;
 constexpr std::uint32_t kMaxPasses = 1'000'000;
 constexpr float kMaxLength = 1e9f;
 constexpr float kMaxRoulette = 1000.0f;
-/// A normal that is off by more was not normalised; one that is off by less is rounded.
+/// The maximum deviation of a normal's length from 1. Rounding stays below it; a larger deviation means that
+/// the normal was not normalised.
 constexpr float kNormalTolerance = 1e-3f;
 
-/// NaN is out of every range.
+/// Throws unless `value` is in [min, max]. NaN is out of every range.
 template <typename Number>
 void check_range(std::string_view setting, Number value, Number min, Number max) {
     if (!(value >= min && value <= max)) {
@@ -79,7 +80,7 @@ void check(const RenderSettings& settings) {
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {
     if (points.size() != normals.size()) {
         throw Error(ErrorKind::invalid_argument,
-                    std::to_string(points.size()) + " points need as many normals, not " +
+                    std::to_string(points.size()) + " points need as many normals as points, not " +
                         std::to_string(normals.size()),
                     "normals");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rooms take settings as they are; callers of the library may have mistyped theirs.
+// Checks of the settings that callers of the library give, because the rooms use settings unchecked.
 #pragma once
 
 #include <span>
@@ -8,14 +8,15 @@
 
 namespace nearlight {
 
-// All throw Error(ErrorKind::invalid_argument) that names the setting.
+// All these functions throw Error(ErrorKind::invalid_argument), which names the setting that is out of range.
 void check(const ViewSettings& settings);
 void check(const SamplingSettings& settings);
 void check(const GatherSettings& settings);
 void check(const IrradianceSettings& settings);
 void check(const RenderSettings& settings);
 
-/// As many normals as points, all of length 1.
+/// Throws Error(ErrorKind::invalid_argument) unless there are as many normals as points and all have length
+/// 1.
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals);
 
 }  // namespace nearlight

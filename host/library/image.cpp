@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kBeauty = "beauty";
 
-/// "direct.R" belongs to the layer "direct"; R, G and B to the beauty.
+/// The layer of a channel: "direct" for "direct.R", and the beauty for R, G and B.
 std::string_view layer_part(std::string_view channel) {
     const std::size_t dot = channel.rfind('.');
     return dot == std::string_view::npos ? kBeauty : channel.substr(0, dot);
@@ -27,7 +27,7 @@ std::size_t value_count(const Image& image) {
            static_cast<std::size_t>(std::max(image.height, 0)) * image.channels.size();
 }
 
-/// Copies the channels whose indices are given, in that order.
+/// Copies the channels with the indices `selected`, in that order.
 Image select_channels(const Image& image, const std::vector<std::size_t>& selected) {
     Image result{.width = image.width, .height = image.height};
     for (const std::size_t channel : selected) {

@@ -34,7 +34,7 @@ std::vector<core::Vec3> core_vectors(std::span<const Vec3> vectors) {
     return result;
 }
 
-/// Of zeros, to be filled from the top.
+/// Makes a picture of zeros, which ImageFiller fills from the top.
 Image blank_picture(int width, int height) {
     try {
         Image image{.width = width, .height = height, .channels = picture_channels()};
@@ -46,7 +46,7 @@ Image blank_picture(int width, int height) {
                                               std::to_string(height) + " pixels does not fit in memory");
 }
 
-/// Puts rows into an image, one below the other.
+/// Copies rows into an image, from top to bottom.
 class ImageFiller {
   public:
     explicit ImageFiller(Image& image) : image_(image) {}

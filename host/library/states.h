@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the handles of include/nearlight/ hold.
+// The states that the handles in include/nearlight/ share.
 #pragma once
 
 #include <memory>
@@ -35,17 +35,17 @@ struct Session::State {
 
     std::shared_ptr<Devices::State> devices;
     std::shared_ptr<const Scene::State> scene;
-    core::Session session;  ///< last: it refers to the others
+    core::Session session;  ///< declared last, because it refers to the others
 };
 
-/// Memory of devices is released before the session that it belongs to.
+/// A view and the session that made it. The view's device memory is released before the session.
 struct View::State {
     std::shared_ptr<Session::State> owner;
     core::View view;
 };
 
 struct VplSet::State {
-    std::shared_ptr<const View::State> view;  ///< that they were made for
+    std::shared_ptr<const View::State> view;  ///< the view that they were made for
     core::VplSet set;
 };
 

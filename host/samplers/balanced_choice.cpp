@@ -8,18 +8,19 @@
 namespace nearlight::core {
 namespace {
 
-/// Of the mean square of a column: keeps the least squares solvable where columns are nearly alike.
+/// The ridge as a part of the mean square of a column. It keeps the least squares solvable if columns are
+/// nearly alike.
 constexpr double kRidge = 1e-4;
-/// Nearer to 0 or 1 than this is there.
+/// A probability closer to 0 or 1 than this is settled.
 constexpr double kSettled = 1e-9;
-/// After so many changes, or where a column's square is so many times the mean of before, the inverse is
-/// begun again.
+/// The inverse is begun again after kExclusions exclusions, or when the square of a column exceeds kMaxGrowth
+/// times the mean at the last beginning.
 constexpr std::size_t kExclusions = 64;
 constexpr double kMaxGrowth = 16.0;
-/// Sums of squares of greater numbers might not be finite.
+/// Numbers beyond this are not used, because the sums of their squares might not be finite.
 constexpr float kMaxNumber = 1e15f;
 
-/// Row and column `from` become `to`; nothing is left of them there.
+/// Moves row and column `from` to `to` and sets `from` to 0.
 template <typename Matrix>
 void move_slot(Matrix& matrix, std::size_t from, std::size_t to) {
     matrix[to] = matrix[from];
@@ -79,7 +80,8 @@ Choice BalancedChoice::finish() {
     return choice;
 }
 
-/// Of the column in `slot` with all, itself among them; all slots at once, which makes vector code.
+/// Computes the dot products of the column in `slot` with all columns, its own included. The inner loop
+/// covers all slots, so that it becomes vector code.
 void BalancedChoice::add_products(std::size_t slot) {
     std::array<float, kMaxOpen> sums{};
     for (std::size_t k = 0; k <= row_length_; ++k) {
@@ -98,7 +100,7 @@ std::size_t BalancedChoice::oldest() const {
     return static_cast<std::size_t>(std::ranges::min_element(open_, {}, &Open::arrival) - open_.begin());
 }
 
-/// Of the open columns.
+/// The mean of the squared lengths of the open columns.
 double BalancedChoice::mean_square() const {
     double sum = 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -107,7 +109,7 @@ double BalancedChoice::mean_square() const {
     return sum / static_cast<double>(open_.size());
 }
 
-/// Borders the inverse by a slot.
+/// Extends the inverse by the row and column of a slot (bordering).
 void BalancedChoice::include(std::size_t slot) {
     Direction solution{};
     double projected = 0;
@@ -120,7 +122,7 @@ void BalancedChoice::include(std::size_t slot) {
     for (std::size_t i = 0; i < kMaxOpen; ++i) {
         projected += i == slot ? 0.0 : products_[slot][i] * solution[i];
     }
-    // Rounding (products are sums of floats) must not make a pivot of what is not above 0.
+    // The pivot must stay above 0, whatever rounding did to the products, which are sums of floats.
     const double pivot = std::max(products_[slot][slot] + ridge_ - projected, 0.1 * ridge_);
     solution[slot] = -1.0;
     for (std::size_t i = 0; i < kMaxOpen; ++i) {
@@ -130,7 +132,7 @@ void BalancedChoice::include(std::size_t slot) {
     }
 }
 
-/// Takes a slot out of the inverse.
+/// Removes the row and column of a slot from the inverse.
 void BalancedChoice::exclude(std::size_t slot) {
     const Direction row = inverse_[slot];
     for (std::size_t i = 0; i < kMaxOpen; ++i) {
@@ -145,7 +147,8 @@ void BalancedChoice::exclude(std::size_t slot) {
     ++exclusions_;
 }
 
-/// Begins the inverse again: with a ridge for the columns of now, and without rounding errors of before.
+/// Begins the inverse again, with a ridge that suits the present columns and without accumulated rounding
+/// errors.
 void BalancedChoice::invert_again() {
     usual_square_ = mean_square();
     ridge_ = usual_square_ > 0 ? kRidge * usual_square_ : 1.0;
@@ -156,7 +159,7 @@ void BalancedChoice::invert_again() {
     }
 }
 
-/// `sign` 1: along the direction; −1: the other way.
+/// Finds how far the walk can go along `direction` if `sign` is 1, or against it if `sign` is −1.
 BalancedChoice::Limit BalancedChoice::limit(const Direction& direction, double sign) const {
     Limit nearest{.step = std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -170,9 +173,9 @@ BalancedChoice::Limit BalancedChoice::limit(const Direction& direction, double s
     return nearest;
 }
 
-/// One step of the walk. Its expectation is no step at all, so that each keeps its probability. The direction
-/// moves the oldest (it is to go, so that the open ones stay near each other) and changes the balance least:
-/// products · direction = 1 there, 0 elsewhere.
+/// Takes one step of the walk, whose expectation is 0, so that each candidate keeps its probability. The
+/// direction moves the oldest candidate, so that open candidates stay near each other, and changes the
+/// balance least: products · direction is 1 in that slot and 0 elsewhere.
 void BalancedChoice::settle_one() {
     const Direction direction = inverse_[oldest()];
     const Limit ahead = limit(direction, 1.0);
@@ -192,7 +195,7 @@ void BalancedChoice::settle_one() {
     }
 }
 
-/// The last of the open ones takes its place.
+/// Removes a settled candidate; the last open candidate takes its slot.
 void BalancedChoice::settle(std::size_t slot, bool drawn) {
     if (drawn) {
         drawn_.emplace_back(open_[slot].index, static_cast<float>(open_[slot].factor));

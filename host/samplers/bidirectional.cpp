@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bidirectional instant radiosity [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]: VPLs of light
 // walks lie where light is; reverse VPLs, one step from what the camera sees, lie where light would matter.
-// Few are chosen out of many of both, by what they bring to the camera.
+// Of many VPLs of both kinds, few are chosen by what they bring to the camera.
 //
 // At y, reverse VPLs have the density n(y), summed over exactly the points that sent them
-// (host/stages/reverse_vpls.h), and those of W walks about q(y) = W·E(y)/Φ, Φ the power of all lights. Unlike
-// the original, which gives each kind one half, they are weighted with n/(n + q) and q/(n + q) (balance
-// heuristic). Weights add up to 1 wherever a VPL can lie, so that light is counted once; for that E need only
-// be the same function of the place for both kinds, and is a rough estimate whose random numbers are hashes
-// of the place. The power of a reverse VPL is albedo·E'·(n/(n + q))/n, with a thorough estimate E' of all the
-// light that arrives, made for the chosen ones only and with other random numbers than the weights. Walks are
-// counted as they are launched, and their number comes from an independent pilot.
+// (host/stages/reverse_vpls.h), and VPLs of W walks have about q(y) = W·E(y)/Φ, where Φ is the power of all
+// lights. Unlike the original, which gives each kind one half, they are weighted with n/(n + q) and q/(n + q)
+// (balance heuristic). The weights add up to 1 wherever a VPL can lie, so light is counted once. For that, E
+// only has to be the same function of the place for both kinds; it is a rough estimate whose random numbers
+// are hashes of the place. The power of a reverse VPL is albedo·E'·(n/(n + q))/n. E' is a thorough estimate
+// of all arriving light, made for chosen VPLs only and with other random numbers than the weights. W is the
+// number of launched walks, which comes from an independent pilot.
 #include <algorithm>
 #include <cmath>
 
@@ -26,14 +26,14 @@
 namespace nearlight::core {
 namespace {
 
-/// ExaminedVpls of each kind, as a multiple of the budget, and at least.
+/// The number of candidates of each kind: a multiple of the budget, and a minimum.
 constexpr double kCandidatesPerVpl = 4;
 constexpr uint kMinCandidates = 256;
 constexpr std::size_t kMaxCameraPoints = 512;
-/// Paths that bring light to candidates, for the weights, and to the reverse ones of those that are chosen.
+/// The sparse sets that light candidates, for the weights, and that light the chosen reverse VPLs.
 constexpr uint kReverseSparseVpls = 512;
 constexpr IncidentQuality kRoughQuality{.direct_samples = 4, .paths = 2};
-/// Of the mean, what every reverse candidate is taken to receive when VPLs are chosen.
+/// The part of the mean irradiance that is added to every reverse candidate's when VPLs are chosen.
 constexpr float kMinLight = 0.1f;
 constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
@@ -46,7 +46,7 @@ uint multiple_of_budget(double factor, const SamplingTask& task) {
     return static_cast<uint>(std::min(std::round(factor * task.vpl_count), 1e8));
 }
 
-/// The points that send reverse rays: an even part of the importons, from a random one on.
+/// Chooses the points that send reverse rays: importons at even distances in the array, with a random offset.
 CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& task, uint wanted_rays) {
     const std::vector<Importon> importons = task.view.importons.importons.download();
     const std::size_t count =
@@ -60,17 +60,17 @@ CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& tas
     return make_camera_points(stages.device, points, static_cast<uint>((wanted_rays + count - 1) / count));
 }
 
-/// VPLs of one kind, along the Morton curve, and what their weights are made of.
+/// VPLs of one kind along the Morton curve, and the quantities that their weights follow from.
 struct ExaminedVpls {
     std::vector<Vpl> vpls;
-    std::vector<Vec3> rough_light;        ///< irradiance
+    std::vector<Vec3> rough_light;        ///< irradiance, W/m²
     std::vector<float> reverse_density;   ///< n, 1/m²
     std::vector<float> standard_density;  ///< q, 1/m²
 };
 
-/// What the weights depend on, the same for both kinds of candidates.
+/// The quantities that the weights depend on, which are the same for both kinds of candidates.
 struct Balance {
-    SparseSet sparse;  ///< for the rough light
+    SparseSet sparse;  ///< sparse set for the rough light
     CameraPoints points;
     float walks_per_watt = 0.0f;
 };
@@ -97,8 +97,8 @@ ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Bala
     return candidates;
 }
 
-/// Powers of reverse candidates for an irradiance of 1, weighted. Where rounding says that no point sees one,
-/// n = 0, walks answer for all of the light there.
+/// Weights the powers of reverse candidates, for an irradiance of 1. Where rounding makes n = 0, as if no
+/// point saw the candidate, walks carry all of the light.
 std::vector<Vpl> weigh_reverse(const ExaminedVpls& reverse) {
     std::vector<Vpl> vpls = reverse.vpls;
     for (std::size_t i = 0; i < vpls.size(); ++i) {
@@ -118,8 +118,8 @@ std::vector<Vpl> weigh_standard(const ExaminedVpls& standard) {
     return vpls;
 }
 
-/// Rough light with some of its mean added, to choose by: of a point that only seems dark, light would be
-/// lost for good if it could not be chosen.
+/// Adds a part of the mean to rough light that VPLs are chosen by. Light would be lost if a point that only
+/// seems dark could not be chosen.
 std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
     Vec3 sum{0, 0, 0};
     for (const Vec3 e : rough_light) {
@@ -138,7 +138,7 @@ std::vector<Vec3> never_dark(std::span<const Vec3> rough_light) {
 
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     if (task.view.importons.count == 0) {
-        return sample_instant_radiosity(stages, task);  // nothing to go backwards from
+        return sample_instant_radiosity(stages, task);  // there are no points to send rays from
     }
     const uint wanted = std::max(kMinCandidates, multiple_of_budget(kCandidatesPerVpl, task));
     const Deposits deposits =
@@ -173,7 +173,7 @@ VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task) {
     set.sparse_count = balance.sparse.vpls.count() + sparse.vpls.count();
     set.candidate_count = candidates.size();
     say_debug(std::to_string(chosen_reverse) + " of " + std::to_string(vpls.size()) +
-              " VPLs are reverse ones");
+              " VPLs are reverse VPLs");
     return set;
 }
 

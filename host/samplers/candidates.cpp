@@ -10,27 +10,30 @@
 namespace nearlight::core {
 namespace {
 
-/// Of the choice, that follows power alone.
+/// The part of the weights that follows power alone.
 constexpr double kBlindPart = 0.1;
-/// Candidates on the device at a time, so that device memory stays small.
+/// The maximum number of candidates on the device at a time, which bounds device memory.
 constexpr std::size_t kMaxInChunk = std::size_t{1} << 18u;
-/// The same where rows of numbers are asked for.
+/// The maximum number of candidates on the device at a time if their rows of numbers are computed.
 constexpr std::size_t kMaxRowsInChunk = std::size_t{1} << 15u;
-/// Candidates of which rows are kept: 96 MiB, for some 10 000 VPLs.
+/// The maximum number of candidates whose rows are kept: 96 MiB, which is enough for some 10 000 VPLs.
 constexpr std::size_t kMaxRowsKept = std::size_t{1} << 17u;
 
 std::size_t divide_rounding_up(std::size_t count, std::size_t by) {
     return (count + by - 1) / by;
 }
 
-/// As many at a time as one allocation has room for, at most `most`, and all times nearly alike.
-std::size_t chunk_size(const Device& device, std::size_t count, std::size_t most, std::size_t bytes_each) {
+/// The number of candidates to work on at a time: as many as one allocation has room for, at most `max_size`.
+/// All chunks have nearly the same size.
+std::size_t chunk_size(const Device& device, std::size_t count, std::size_t max_size,
+                       std::size_t bytes_each) {
     const std::size_t room = device.entry().max_allocation_bytes / std::max(bytes_each, 2 * sizeof(Vpl));
-    const std::size_t chunks = divide_rounding_up(count, std::clamp<std::size_t>(room, 1, most));
+    const std::size_t chunks = divide_rounding_up(count, std::clamp<std::size_t>(room, 1, max_size));
     return divide_rounding_up(count, std::max<std::size_t>(chunks, 1));
 }
 
-/// Calls visit(first, GroupContribution of candidates from `first` on) for all in turn.
+/// Calls visit(first, contribution) for all candidates, chunk by chunk, with the GroupContribution of a chunk
+/// that begins at candidate `first`.
 template <typename Visit>
 void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
                            const Visit& visit) {
@@ -44,7 +47,8 @@ void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std:
     }
 }
 
-/// Adds to `weights`, which sum up to something else than 0 unless the view sees none of the candidates.
+/// Adds to the weights of candidates the part that follows power alone. If all weights are 0, because the
+/// view sees no candidate, weights follow power alone.
 void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
     double seen = 0;
     double power = 0;
@@ -100,7 +104,7 @@ Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::spa
     const Probabilities probabilities = choice_probabilities(weights, wanted);
     const std::size_t row_length = std::size_t{3} * task.view.importon_groups.group_count;
     BalancedChoice choice(row_length, probabilities.tau, random);
-    std::vector<uint> order;  // of those that chance decides about: the others need no rows
+    std::vector<uint> order;  // candidates that chance decides about; the others need no rows
     for (const uint index : stages.vpl_order.order(candidates)) {
         if (probabilities.of[index] >= 1) {
             choice.offer(index, 1.0, {});

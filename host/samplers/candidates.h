@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What samplers that choose VPLs out of many candidates want to know about them.
+// Weights of candidates, and the choice among them, for samplers that choose VPLs out of many candidates.
 #pragma once
 
 #include <span>
@@ -11,23 +11,23 @@
 
 namespace nearlight::core {
 
-/// In proportion to the probabilities that candidates are to be chosen with: what each brings to the camera,
-/// in the given norm, and a small part that follows power alone, so that a candidate is chosen now and then
-/// even where the sample of the view does not see it.
+/// Weights in proportion to which candidates are to be chosen: what each brings to the camera, in the given
+/// norm, plus a small part that follows power alone. Because of that part, candidates that the importons do
+/// not see are chosen now and then.
 std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& task,
                                   std::span<const Vpl> candidates, ContributionNorm norm);
 
-/// What candidates bring to the picture, by many importons.
+/// Estimates from many importons of what candidates bring to the picture.
 struct JudgedCandidates {
-    std::vector<float> weights;  ///< by the error each would leave, as of choice_weights()
-    std::vector<float> rows;     ///< GroupContribution::rows; empty where they are too many to keep
+    std::vector<float> weights;  ///< as choice_weights(), by the error that each would leave
+    std::vector<float> rows;     ///< GroupContribution::rows; empty if there are too many to keep
 };
 
 JudgedCandidates judge(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates);
 
-/// Draws `wanted` of the candidates in proportion to `weights`, those together that bring to every part of
-/// the picture what all would (balanced_choice.h), along the Morton curve. As with resample(), each counts 1
-/// / its probability. `rows` as judge() has found them: where they were not kept, they are found again.
+/// Draws `wanted` candidates along the Morton curve in proportion to `weights`, so that together they bring
+/// to every part of the picture what all candidates would (balanced_choice.h). The factor of each is 1 / its
+/// probability. `rows` are those of judge(); if they are empty, they are computed again.
 Choice choose_balanced(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
                        std::span<const float> rows, std::span<const float> weights, std::size_t wanted,
                        Pcg32 random);

@@ -15,8 +15,9 @@ constexpr uint kPilotSeed = 0x5a17u;
 }  // namespace
 
 float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
-    // Deposits of depth 1 in the close range are what patches replace; the rest is what walks must supply.
-    // Both are told apart by tracing the same walks with everything kept, and with what this policy keeps.
+    // Patches replace the deposits of depth 1 in the close range, and walks must supply the others. Tracing
+    // the same walks twice, once keeping all deposits and once keeping what the policy keeps, tells the two
+    // apart.
     const LightWalks walks{.walk_count = kPilotWalks,
                            .bounce_count = task.bounce_count,
                            .mean_albedo = task.scene.mean_albedo,

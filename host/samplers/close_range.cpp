@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Close-range VPL sampling [paper §3] by the policies `paper` and `partition`: VPLs with direct light, spread
-// evenly over the lit surfaces near and before the camera, sparse light walks for the rest. docs/method.md
-// has the repairs to the paper's text and why they are needed. The policy `complete` is in complete.cpp.
+// Close-range VPL sampling [paper §3] by the policies `paper` and `partition`: VPLs with direct light are
+// spread evenly over the lit surfaces of the close range, and sparse light walks supply the other light.
+// docs/method.md says where and why the paper's text had to be corrected. The policy `complete` is in
+// complete.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -15,15 +16,18 @@
 namespace nearlight::core {
 namespace {
 
-/// For area and environment lights; the patches' irradiance is their power, so its noise is theirs.
+/// Samples per patch for area and environment lights. The power of a patch follows its irradiance, noise
+/// included.
 constexpr uint kDirectSamplesPerPatch = 64;
-/// Points that are placed to learn which share of them becomes VPLs.
+/// The number of points that the pilot places to measure which share of them becomes VPLs.
 constexpr uint kPilotPoints = 4096;
-/// Where hardly a point of the selected triangles is lit or in view, more would take for ever.
+/// The maximum number of points per wanted VPL. It bounds the time if hardly any point of the selected
+/// triangles is lit and in view.
 constexpr double kMaxPointsPerVpl = 64;
 constexpr uint kCloseRangePilotSeed = 0x717e5u;
 
-/// Step 6: VPLs on `point_count` points, with the direct light there; those in the dark are left out.
+/// Step 6 of the paper: makes VPLs on `point_count` points with the direct light there. Points in the dark
+/// give no VPL.
 std::vector<Vpl> lit_patches(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface,
                              std::size_t point_count, uint seed) {
     const std::vector<Vpl> dark = surface.place(point_count, seed);
@@ -42,8 +46,8 @@ std::vector<Vpl> lit_patches(SamplerStages& stages, const SamplingTask& task, Cl
     return lit;
 }
 
-/// About `wanted` patch VPLs. How many points that takes is learnt from an independent pilot: points in the
-/// shade, beyond the view or the range become none, and stopping at a number of VPLs would be biased.
+/// Makes about `wanted` patch VPLs. Points in the shade, out of view or beyond the range give none, so an
+/// independent pilot measures how many points that takes; to stop at a number of VPLs would bring bias.
 std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface,
                              uint wanted) {
     if (wanted == 0) {
@@ -73,8 +77,9 @@ VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& tas
     std::vector<Vpl> vpls = place_about(stages, task, surface, close_budget);
     set.close_count = vpls.size();
     const std::vector<Vpl> distant =
-        trace_about(stages, task, surface.region(), deposits_to_keep(task.policy),
-                    std::max(task.vpl_count - close_budget, 1u))  // without any, the far light would be lost
+        trace_about(
+            stages, task, surface.region(), deposits_to_keep(task.policy),
+            std::max(task.vpl_count - close_budget, 1u))  // with no walks, distant light would be lost
             .vpls;
     set.distant_count = distant.size();
     vpls.insert(vpls.end(), distant.begin(), distant.end());

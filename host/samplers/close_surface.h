@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface near and before the camera, and points spread evenly over it [paper §3, steps 1 to 5].
+// The surface in the close range, and points spread evenly over it [paper §3, steps 1 to 5].
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace nearlight::core {
 
-/// Which triangles are selected, and what belongs to the region.
+/// Which triangles are selected, and which part of them belongs to the close region.
 struct CloseSelection {
     bool only_lit = true;          ///< leave out triangles that light does not reach
-    bool whole_triangles = false;  ///< a selected triangle belongs to the region whole, not point by point
+    bool whole_triangles = false;  ///< selected triangles belong to the region as a whole, not point by point
 };
 
 class CloseSurface {
@@ -21,20 +21,21 @@ class CloseSurface {
 
     [[nodiscard]] const CloseRegion& region() const { return region_; }
     [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
-    [[nodiscard]] double area() const { return area_; }  ///< of the selected triangles, m²
-    /// No triangle was selected, or those that were have no area.
+    [[nodiscard]] double area() const { return area_; }  ///< area of the selected triangles, m²
+    /// Whether no triangle was selected, or the selected triangles have no area.
     [[nodiscard]] bool empty() const { return triangle_count_ == 0 || !(area_ > 0.0); }
 
-    /// `point_count` points, each in one of as many equal parts of the surface, as VPLs on both sides,
-    /// without light: power is albedo times the area a point stands for. Only those on sides that reflect and
-    /// in the region, along the Morton curve.
+    /// Places `point_count` points, one in each of as many equal parts of the surface, and returns VPLs
+    /// without light: their power is the albedo times the area (m²) that a point stands for. Each side of a
+    /// point gives a VPL if it reflects and the point is in the region. VPLs are in order along the Morton
+    /// curve.
     [[nodiscard]] std::vector<Vpl> place(std::size_t point_count, uint seed);
 
   private:
     SamplerStages& stages_;
     const SamplingTask& task_;
     CloseRegion region_;
-    Buffer<uint> ids_;  ///< of the selected triangles, along the Morton curve
+    Buffer<uint> ids_;  ///< the selected triangles along the Morton curve
     std::size_t triangle_count_ = 0;
     double area_ = 0.0;  ///< m²
 };

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // The policy `complete` of close-range sampling, which goes beyond the paper:
 //
-// Candidates, several times as many as are wanted, are points spread evenly over the close range [paper §3],
-// whether light reaches them or not, and deposits of light walks over the whole scene. What the deposits
-// leave of noise stays in the picture however well one chooses among them, and they cost little beside the
-// rays that weigh them. So there are hundreds for each VPL, and a few importons screen them first: those that
-// pass are drawn like the VPLs below, each divided by its probability.
+// Candidates. There are several times as many as wanted VPLs: points spread evenly over the close range
+// [paper §3], whether light reaches them or not, and deposits of light walks over the whole scene. The noise
+// of the deposits stays in the picture however well VPLs are chosen among them, and deposits cost little
+// compared with the rays that weigh them. So there are hundreds of them per VPL, and a few importons screen
+// them first: they pass with a probability that follows the error they would leave, and are divided by it.
 //
-// Shares. Two of a kind must not both answer for the close range. A point there is the end of a patch with
-// density p_patch = points / area, and of a walk with density p_walk ≈ E(y) · walks / Φ, as each walk carries
-// about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between them: w_patch =
-// p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light falls on much
-// surface, which ends the strong deposits beside the camera, and walks remain where much light falls on
-// little surface (a lamp's shade), which evenly spread patches would miss or make outliers of. Outside the
-// close range walks have it all. The shares follow a rough estimate of E(y): a few samples of direct light, a
-// gather from a small sparse set, one short path, and a constant, so that nothing is taken for dark that is
-// not. The estimate need not be right for the shares to add up to 1 in expectation: at y it has the same
-// distribution for a patch and for a walk, and it is independent of both and of the light that the patch
-// carries in the end.
+// Shares. Patches and deposits must not both carry the whole light of the close range. At a point y there,
+// patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · walks / Φ, as
+// each walk carries about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between
+// them: w_patch = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light
+// falls on much surface, which removes the strong deposits beside the camera. Deposits remain where much
+// light falls on little surface (a lamp's shade), which patches would miss or turn into outliers. Outside the
+// close range, deposits carry all the light. The shares follow a rough estimate of E(y): a few samples of
+// direct light, a gather from a small sparse set, one short path, and a constant, so that no lit point is
+// taken for dark. The estimate need not be right for the shares to add up to 1 in expectation: at y it has
+// the same distribution for a patch and for a deposit, and it is independent of both and of the light that
+// the patch carries in the end.
 //
-// Choice. VPLs are drawn from all candidates in proportion to the error each would leave in the picture
-// (GroupContribution::errors), and those together that bring to each of several dozen parts of the
-// picture what all candidates would (balanced_choice.h). The split between close and distant follows by
-// itself. Each is divided by the probability that it was really chosen with: unbiased.
+// Choice. VPLs are drawn from all candidates in proportion to the error that each would leave in the picture
+// (GroupContribution::errors), so that together they bring to each of several dozen parts of the picture what
+// all candidates would (balanced_choice.h). The split between close and distant VPLs follows from that. The
+// power of each VPL is divided by the probability that it was drawn with, so there is no bias.
 //
 // Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
 // larger sparse set, and short paths for what the bounded gather leaves out.
@@ -44,19 +44,19 @@
 namespace nearlight::core {
 namespace {
 
-// bench/log/generation.md has what was tried, and on which views.
-constexpr uint kPointsPerVpl = 2;  ///< candidates on the close range; each has two sides
+// bench/log/generation.md says what was tried, and on which views.
+constexpr uint kPointsPerVpl = 2;  ///< points in the close range, which have two sides each
 constexpr uint kDepositsPerVpl = 256;
-constexpr uint kScreenedPerVpl = 10;  ///< candidates that remain of them
-/// Deposits; where more VPLs are wanted, there is less choice.
+constexpr uint kScreenedPerVpl = 10;  ///< deposits that pass the screening
+/// The maximum number of deposits. For more VPLs than it allows, there are fewer deposits per VPL.
 constexpr uint kMaxDeposits = 1u << 22u;
 constexpr uint kRoughSparseVpls = 128;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
-/// Rough irradiance where none is found, of the mean that the lights would give all surfaces.
+/// The constant part of rough irradiance, as a part of the mean that the lights would give to all surfaces.
 constexpr float kAmbientShare = 0.3f;
-/// Part of the error that a VPL makes in its own neighbourhood, if that is in view and faces it. The camera's
-/// points are too few to meet every neighbourhood.
+/// The weight of the error that a VPL leaves in its own neighbourhood if that is in view and faces the VPL.
+/// Importons are too few to lie in every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
 constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kChoiceStream = 0x5e1ec7u;
@@ -68,15 +68,15 @@ bool is_close(const Vpl& vpl) {
 }
 
 struct Candidates {
-    std::vector<Vpl> vpls;  ///< patches, without light yet, then screened deposits
+    std::vector<Vpl> vpls;  ///< patches, which have no light yet, then screened deposits
     std::size_t patch_count = 0;
     double patch_density = 0;   ///< points / m²
-    double walks_per_watt = 0;  ///< before the screening
+    double walks_per_watt = 0;  ///< walks before the screening, per watt of the lights
 };
 
-/// What a VPL of 1 W leaves as error around it, in the measure of GroupContribution::errors: of
-/// `importon_count` importons in a picture (about a steradian) those within the clamp radius, each by the
-/// bounded term.
+/// The error that a VPL of 1 W leaves around it, in the measure of GroupContribution::errors. It counts those
+/// of the picture's `importon_count` importons (the picture spans about a steradian) that lie within the
+/// clamp radius, each with the bounded geometry term.
 double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t importon_count) {
     const double radius = std::max<double>(task.clamp_radius, 1e-3 * task.close_range.range);
     const double distance = length(position - task.close_range.origin);
@@ -88,7 +88,7 @@ double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t 
 void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit, std::size_t importon_count,
                               std::span<float> weights) {
     for (std::size_t i = 0; i < lit.size(); ++i) {
-        // Beyond the range too, and where only the neighbourhood is in view.
+        // VPLs beyond the range count too, even if only their neighbourhood is in view.
         if (in_frustum(task.close_range, lit[i].position, task.clamp_radius)) {
             const double error = neighbourhood_error(task, lit[i].position, importon_count);
             weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));
@@ -96,13 +96,13 @@ void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit
     }
 }
 
-/// That are traced: bounded, but never fewer than VPLs.
+/// The number of deposits to trace, which is bounded but at least the number of VPLs.
 uint deposit_count(const SamplingTask& task) {
     const uint ample = std::min(kMaxDeposits / kDepositsPerVpl, task.vpl_count) * kDepositsPerVpl;
     return std::max(task.vpl_count, ample);
 }
 
-/// Deposits of walks over the whole scene, those that pass the screening, along the Morton curve.
+/// Returns the deposits that pass the screening, in their order along the Morton curve.
 std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
                                    std::span<const Vpl> deposits) {
     const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
@@ -128,7 +128,7 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     return candidates;
 }
 
-/// The part of each candidate's light that is its own.
+/// The share of the light that each candidate carries: w_patch or w_walk, and 1 outside the close range.
 std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> rough_light) {
     std::vector<float> result(candidates.vpls.size(), 1.0f);
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -144,7 +144,8 @@ std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> ro
     return result;
 }
 
-/// Draws task.vpl_count candidates; close and distant ones apart where the user gave the split.
+/// Draws task.vpl_count candidates. Close and distant candidates are drawn separately if the user gave the
+/// split.
 Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> lit) {
     auto [weights, rows] = judge(stages, task, lit);
     add_neighbourhood_errors(task, lit, task.view.importon_groups.importon_count, weights);
@@ -159,14 +160,14 @@ Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const V
     for (std::size_t i = 0; i < weights.size(); ++i) {
         (is_close(lit[i]) ? close : distant)[i] = weights[i];
     }
-    // Neither side may be empty, or its light would be lost.
+    // Each side gets at least one VPL, because its light would be lost otherwise.
     const Choice choice =
         choose_balanced(stages, task, lit, rows, close, std::max<std::size_t>(close_count, 1),
                         Pcg32(task.seed, kChoiceStream));
     const Choice rest = choose_balanced(stages, task, lit, rows, distant,
                                         std::max<std::size_t>(task.vpl_count - close_count, 1),
                                         Pcg32(task.seed, kDistantChoiceStream));
-    // Patches come first among the candidates, and must among the chosen.
+    // Patches come first among the candidates, so they must come first among the chosen too.
     std::vector<std::pair<uint, float>> merged;
     for (const Choice& part : {choice, rest}) {
         for (std::size_t i = 0; i < part.indices.size(); ++i) {
@@ -182,7 +183,7 @@ Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const V
     return both;
 }
 
-/// The chosen VPLs; the patches among them, which come first, still without light.
+/// Returns the chosen VPLs. The patches among them come first and have no light yet.
 std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float> share,
                              const Choice& choice) {
     std::vector<Vpl> vpls = take(choice, candidates.vpls);
@@ -192,7 +193,8 @@ std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float
     return vpls;
 }
 
-/// What arrives at each candidate of the close range, roughly, and never nothing. Elsewhere nobody asks: 0.
+/// Estimates the irradiance at each candidate of the close range roughly, and never as 0. Elsewhere it is not
+/// needed, and is 0.
 std::vector<Vec3> rough_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
                               std::span<const Vpl> candidates) {
     std::vector<Vpl> close;
@@ -210,7 +212,7 @@ std::vector<Vec3> rough_light(SamplerStages& stages, const SamplingTask& task, c
     return light;
 }
 
-/// Candidates as they look by rough light, to choose by.
+/// Returns the candidates with the power that rough light gives them, for the choice among them.
 std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3> light,
                              std::span<const float> share) {
     std::vector<Vpl> lit = candidates.vpls;

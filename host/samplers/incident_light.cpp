@@ -11,8 +11,9 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kSparseSeed = 0x5ba5e5u;
-/// The sparse set is gathered with this clamp radius, as part of the close range. Large, because a strong VPL
-/// beside a point would make that point's power an outlier, and the paths that make up for it are cheap.
+/// The clamp radius that the sparse set is gathered with, as a part of the range. It is large because a
+/// strong VPL beside a point would make that point's power an outlier, and the paths that supply the missing
+/// light are cheap.
 constexpr float kClampRadiusToRange = 0.1f;
 
 template <typename Packet>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instant radiosity [Keller, SIGGRAPH 1997]: every VPL comes from quasi-random walks over the whole scene.
-// Unlike the original, sequences are randomised (Owen scrambling) and the number of walks that go on to a
-// depth is a real number met in expectation, so each depth is unbiased rather than only consistent.
+// Unlike in the original, sequences are randomised (Owen scrambling), and the number of walks that go on to a
+// depth is a real number that is met in expectation. So each depth is unbiased and not only consistent.
 #include "host/samplers/sampler.h"
 #include "host/samplers/sparse_walks.h"
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Global and local virtual lights [Davidovič et al., Combining Global and Local Virtual Lights for Detailed
-// Glossy Illumination, SIGGRAPH Asia 2010]: VPLs of light walks are gathered with a wide clamp, under which
-// they are smooth, and lights of each tile of the picture supply what it takes away (kernels/local_lights.cl
-// has the mathematics).
+// Glossy Illumination, SIGGRAPH Asia 2010]: VPLs of light walks are gathered with a wide clamp radius, which
+// makes their light smooth, and local lights of each tile supply what that takes away
+// (kernels/local_lights.cl has the mathematics).
 //
 // The wide clamp follows the distance between VPLs: it is narrower where much light falls, since many VPLs
-// lie there. With one clamp for all, light from a small bright place (the inside of a lamp shade) came from
-// the few short rays that found it: on scenes/desk with 1000 and 4000 VPLs the RMSE was 0.156 and 0.154, and
-// is 0.050 and 0.025. The clamp is a function of the place where a VPL lies, which knows nothing of the VPLs,
-// so nothing is biased.
+// lie there. With a single clamp radius, light from a small bright place (the inside of a lamp shade) would
+// come from the few short rays that find it: on scenes/desk with 1000 and 4000 VPLs, the RMSE is 0.156 and
+// 0.154 that way, and 0.050 and 0.025 this way. The clamp radius is a function of the VPL's place that does
+// not depend on the VPLs, so there is no bias.
 //
-// Unlike the original, global VPLs are summed one by one instead of being clustered by visibility, and tiles
-// are those of the gather (8 × 8 pixels of one camera sample). What falls on a local light comes from some of
-// the global VPLs, as in the original; but there too the wide clamp takes light away, and short paths supply
-// it. So the sum has the expectation that every other sampler has, at any width of the clamp.
+// Unlike in the original, global VPLs are summed one by one instead of being clustered by visibility, and
+// tiles are those of the gather (8 × 8 pixels of one camera sample). As in the original, some of the global
+// VPLs light a local light; but the wide clamp takes light away there too, and short paths supply it. So the
+// sum has the expectation that every other sampler has, at any clamp radius.
 #include <cmath>
 
 #include "host/base/math.h"
@@ -23,10 +23,11 @@
 namespace nearlight::core {
 namespace {
 
-/// Of the wide clamp to the user's; where that is 0, to the close range.
+/// The wide clamp radius as a multiple of the user's, or, if that is 0, as a part of the range.
 constexpr float kGatherToClampRadius = 6.0f;
 constexpr float kGatherRadiusToRange = 0.15f;
-/// The radius is where so many VPLs of depth 1 are expected to lie nearer, or the widest.
+/// The number of VPLs of depth 1 that are expected within the gather radius, unless the wide clamp radius is
+/// smaller.
 constexpr float kVplsInGatherRadius = 8.0f;
 constexpr uint kRaysPerReceiver = 2;
 constexpr uint kConnections = 32;
@@ -40,7 +41,8 @@ VplSet sample_local(SamplerStages& stages, const SamplingTask& task) {
         trace_about(stages, task, empty_region(stages, task.scene), KeepDeposits::all, task.vpl_count);
     const float widest = task.clamp_radius > 0.0f ? kGatherToClampRadius * task.clamp_radius
                                                   : kGatherRadiusToRange * task.close_range.range;
-    // A square metre that receives E has E · walks / Φ deposits of depth 1, Φ the power of all lights.
+    // A square metre with the irradiance E has E · walks / Φ deposits of depth 1, where Φ is the power of all
+    // lights.
     const float walks_per_watt = static_cast<float>(deposits.walk_count) / task.scene.total_power;
     VplSet set;
     set.vpls = stages.vpl_order.sort(deposits.vpls);

@@ -2,20 +2,20 @@
 // Metropolis instant radiosity [Segovia, Iehl & Péroche, Eurographics 2007]: VPLs are states of Markov chains
 // that follow what VPLs bring to the camera, so that each brings the same.
 //
-// What differs from the original, and why it is unbiased all the same:
+// It differs from the original in these points, and is still unbiased:
 // - A state is a point of primary sample space [Kelemen et al. 2002] that stands for a light walk to one
 //   depth, not a path from the camera. A chain follows f = contribution to the camera + a small share of the
-//   power, and its states have power · b / (f · number of states), b the mean of f.
-// - The contribution is estimated over receivers that stay the same for the whole run: given them f is a
-//   plain function, the same one for acceptance and for weight. The share of power in it reaches VPLs that
-//   those receivers miss.
-// - Many short chains in step, for the device's sake. They start from a choice of seeds in proportion to f,
-//   and b is the mean of f over the same seeds: then start-up leaves no bias, however short a chain is
-//   [Veach 1997, §11.3.1].
-// - All states of all chains are kept, and of them every so many along the Morton curve become VPLs, with a
-//   random shift, so that any state has the same chance. Repeats that are chosen become one VPL.
-// - One try a step instead of several: a try costs as much as a step, and every step is a state to choose.
-//   Two tries were built and measured, and gained nothing at equal cost or at twice the cost
+//   power, and the power of its states is multiplied by b / (f · number of states), where b is the mean of f.
+// - The contribution is estimated over receivers that stay the same for the whole run. Given these, f is a
+//   plain function, and acceptance and weight use the same one. Its share of power reaches VPLs that those
+//   receivers miss.
+// - Many short chains take their steps together, which keeps the device busy. They start from seeds that are
+//   chosen in proportion to f, and b is the mean of f over the same seeds. So start-up leaves no bias,
+//   however short a chain is [Veach 1997, §11.3.1].
+// - All states of all chains are kept. States at even distances along the Morton curve, with a random shift,
+//   become VPLs, so that any state has the same chance. Repeats of a state become one VPL.
+// - There is one try per step instead of several: a try costs as much as a step, and every step gives a state
+//   to choose from. Measured with two tries, nothing is gained at equal cost or at twice the cost
 //   (bench/log/samplers.md).
 #include <algorithm>
 #include <cmath>
@@ -29,19 +29,20 @@ namespace nearlight::core {
 namespace {
 
 // Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
-// range. Seeds / chains / steps of 8/4/4 gave 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
-// 0.036, 8/2/4 0.0084 and 0.037. With only as many states as VPLs, whatever the steps between them, it was
-// 0.0093 to 0.0102 and 0.037 to 0.040: several states a VPL to choose from are what matters.
+// range. Seeds / chains / steps of 8/4/4 give 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
+// 0.036, 8/2/4 0.0084 and 0.037. With only as many states as VPLs, the RMSE is 0.0093 to 0.0102 and 0.037 to
+// 0.040, whatever the steps between them: it matters to have several states per VPL to choose from.
 constexpr double kSeedsPerVpl = 8;
 constexpr double kChainsPerVpl = 4;
 constexpr uint kStepsPerChain = 4;
-/// Share of the mean target that is for what the estimate misses. It bounds the power of VPLs there.
+/// The share of the mean target that follows power alone. It bounds the power of VPLs that the estimate
+/// misses.
 constexpr double kMetropolisBlindShare = 0.1;
 
 constexpr uint kPilotSeeds = 2048;
 constexpr uint kMinSeeds = 2048;
 constexpr uint kMaxSeeds = 1u << 21u;
-constexpr uint kMaxPairs = 1u << 22u;  ///< of numbers in one buffer, 32 MiB
+constexpr uint kMaxPairs = 1u << 22u;  ///< pairs of numbers in one buffer, 32 MiB
 constexpr uint kMetropolisPilotSeed = 0x3e7f0u;
 constexpr std::uint64_t kStarts = 0x57a7;
 constexpr std::uint64_t kThinning = 0x7415;
@@ -72,7 +73,7 @@ Seeds make_seeds(SamplerStages& stages, const PathSpace& space, uint count) {
     return seeds;
 }
 
-/// The blind target with which it makes up its share of the mean target.
+/// Chooses the blind target that makes kMetropolisBlindShare of the mean target.
 float choose_blind_target(SamplerStages& stages, PathSpace& space) {
     space.blind_target = 0.0f;
     const Seeds pilot = make_seeds(stages, space, kPilotSeeds);
@@ -82,10 +83,11 @@ float choose_blind_target(SamplerStages& stages, PathSpace& space) {
     }
     const double target = kMetropolisBlindShare / (1 - kMetropolisBlindShare) * pilot.mean_target / power;
     return target > 0 && target < 1e30 ? static_cast<float>(target)
-                                       : 1.0f;  // nothing is in view, or lit: power alone counts
+                                       : 1.0f;  // nothing lit is in view, so power alone counts
 }
 
-/// Indices of `count` seeds along the Morton curve, seed i expected count · target_i / Σ target times.
+/// Chooses `count` indices of seeds along the Morton curve. Seed i is expected count · target_i / Σ target
+/// times.
 std::vector<uint> choose_starts(SamplerStages& stages, const Seeds& seeds, std::size_t count, double shift) {
     Buffer<uint> order(stages.device, seeds.targets.size());
     stages.morton_sort.order(seeds.vpls, seeds.targets.size(), order);
@@ -100,7 +102,7 @@ std::vector<uint> choose_starts(SamplerStages& stages, const Seeds& seeds, std::
     return starts;
 }
 
-/// All states of all chains, along the Morton curve; each carries its share of the light.
+/// Returns all states of all chains along the Morton curve. Each carries its share of the light.
 std::vector<Vpl> run_chains(SamplerStages& stages, const PathSpace& space, const Seeds& seeds,
                             const std::vector<uint>& starts, uint steps) {
     PathStates chains(stages.device, starts.size(), space.bounce_count);
@@ -120,7 +122,8 @@ std::vector<Vpl> run_chains(SamplerStages& stages, const PathSpace& space, const
     return sorted.download();
 }
 
-/// Every so many of them, with the power of all; one VPL for neighbours that are the same state.
+/// Picks about `wanted` states at even distances, which get the power of all. Neighbours that are the same
+/// state become one VPL.
 std::vector<Vpl> thin(const std::vector<Vpl>& states, uint wanted, double shift) {
     const std::vector<float> weights(states.size(), 1.0f);
     const Choice choice = resample(weights, wanted, shift);
@@ -158,7 +161,7 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
         choose_starts(stages, seeds, chain_count, Pcg32(task.seed, kStarts).uniform());
     const double steps_needed = std::ceil(2.0 * task.vpl_count / static_cast<double>(chain_count));
     const uint steps =
-        std::max(kStepsPerChain, static_cast<uint>(steps_needed));  // where memory bounds the chains
+        std::max(kStepsPerChain, static_cast<uint>(steps_needed));  // more steps if memory bounds the chains
     const std::vector<Vpl> states = run_chains(stages, space, seeds, starts, steps);
     VplSet set;
     set.vpls = stages.vpl_order.sort(thin(states, task.vpl_count, Pcg32(task.seed, kThinning).uniform()));

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rejection of VPLs that bring little to the camera [Georgiev & Slusallek, Simple and Robust Iterative
 // Importance Sampling of Virtual Point Lights, Eurographics 2010]: candidates come from instant radiosity,
-// and one whose contribution to the picture is estimated at Φ is accepted with probability
-// p = min(Φ/Φv + ε, 1), its power divided by p. So most of those that are accepted bring the same, Φv.
+// and a candidate whose contribution to the picture is estimated at Φ is accepted with probability p =
+// min(Φ/Φv + ε, 1) and its power divided by p. So nearly all accepted VPLs bring the same contribution Φv.
 //
-// What differs from the original:
-// - It refines Φv from frame to frame, from 0 on. Here an independent pilot fixes Φv and the number of walks
-//   before the pass that uses them, so the pass is unbiased by itself. Powers are divided by the walks
-//   launched, never by what was accepted, and nothing stops at a number of VPLs.
-// - Φv is higher than the mean contribution, so more candidates are weighed and fewer kept, which evens them
-//   out further.
+// It differs from the original in these points:
+// - The original refines Φv from frame to frame, beginning with 0. Here, an independent pilot fixes Φv and
+//   the number of walks before the pass that uses them, so the pass is unbiased by itself. Powers are divided
+//   by the number of launched walks, not of accepted VPLs, and the walks do not stop at a number of VPLs.
+// - Φv is higher than the mean contribution, so more candidates are weighed and fewer of them kept, which
+//   makes their contributions more even.
 // - Decisions are not independent of each other: acceptances are equidistant in the running sum of p along
 //   the Morton curve, with one random shift. Each candidate is still accepted with probability p, but their
-//   number hardly varies and neighbours share it evenly.
-// The estimate of Φ may be anything (here it is a sum over the pilot view's receivers): p is positive
-// everywhere, and the shift depends neither on walks nor on the estimate.
+//   number hardly varies and neighbours share it evenly. The result is unbiased for any estimate of Φ (here
+//   it is a sum over the pilot view's receivers), because p is positive everywhere and the shift depends
+//   neither on walks nor on the estimate.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,14 +29,14 @@ namespace nearlight::core {
 namespace {
 
 // Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
-// range: Φv of 2, 8, 16 and 32 times the mean contribution gave 0.0087, 0.0075, 0.0074 and 0.0072 on the one,
-// 0.040, 0.037, 0.034 and 0.035 on the other, and independent decisions 0.0095 and 0.039 at 8; blind shares
-// from 0.02 to 0.2 were equal within the noise.
+// range: Φv of 2, 8, 16 and 32 times the mean contribution gives 0.0087, 0.0075, 0.0074 and 0.0072 on the
+// first scene, and 0.040, 0.037, 0.034 and 0.035 on the second. Independent decisions give 0.0095 and 0.039
+// at 8 times the mean. Blind shares from 0.02 to 0.2 are equal within the noise.
 constexpr double kWantedToMean = 16;
-/// Bounds the work where few candidates bring anything: then Φv is lowered.
+/// The maximum number of candidates per VPL. It bounds the work if few candidates bring anything, by a lower
+/// Φv.
 constexpr double kMaxCandidatesPerVpl = 32;
-/// At least this share of the VPLs is accepted by ε alone. It bounds the power of VPLs that the estimate
-/// misses.
+/// The minimum share of the VPLs that ε alone accepts. It bounds the power of VPLs that the estimate misses.
 constexpr double kRejectionBlindShare = 0.1;
 
 constexpr uint kFirstPilotWalks = 2048;
@@ -46,9 +46,10 @@ constexpr uint kRejectionPilotSeed = 0x4e1ec7u;
 constexpr std::uint64_t kDecisions = 0xacce97;
 
 struct WeighedCandidates {
-    Buffer<Vpl> vpls;                  ///< along the Morton curve
-    std::vector<float> contributions;  ///< to the camera, times the walks launched: what each would bring if
-                                       ///< it came from the only walk
+    Buffer<Vpl> vpls;  ///< along the Morton curve
+    /// What each candidate would bring to the camera if it came from the only walk: its contribution times
+    /// the number of launched walks.
+    std::vector<float> contributions;
 };
 
 WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
@@ -75,11 +76,12 @@ LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
 }
 
 struct Pilot {
-    std::vector<float> contributions;  ///< of all candidates, each as if it came from the only walk
+    std::vector<float> contributions;  ///< contributions to the camera, each times the walks of its round
     uint walk_count = 0;
 };
 
-/// Walks, in rounds of twice as many, until enough of them tell what candidates bring to the camera.
+/// Traces rounds of walks, each with twice as many as the round before, until enough candidates contribute to
+/// the camera.
 Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     Pilot pilot;
     const auto contributes = [](float contribution) { return contribution > 0.0f; };
@@ -107,7 +109,7 @@ struct Acceptance {
     [[nodiscard]] double probability(double contribution) const {
         return std::min(contribution / wanted + floor, 1.0);
     }
-    /// Expected number of VPLs from these candidates.
+    /// The expected number of VPLs that are accepted of candidates with these contributions.
     [[nodiscard]] double expected(const std::vector<float>& contributions) const {
         double sum = 0;
         for (const float contribution : contributions) {
@@ -117,13 +119,13 @@ struct Acceptance {
     }
 };
 
-/// Empty where no candidate brings anything.
+/// Chooses Φv and ε. Returns nothing if no candidate brings anything.
 std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributions) {
     double total = 0;
-    float least = std::numeric_limits<float>::max();
+    float min_contribution = std::numeric_limits<float>::max();
     for (const float contribution : contributions) {
         total += contribution;
-        least = contribution > 0.0f ? std::min(least, contribution) : least;
+        min_contribution = contribution > 0.0f ? std::min(min_contribution, contribution) : min_contribution;
     }
     if (!(total > 0.0) || !std::isfinite(total)) {
         return std::nullopt;
@@ -131,9 +133,10 @@ std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributi
     const auto count = static_cast<double>(contributions.size());
     constexpr double kMin = 1 / kMaxCandidatesPerVpl;
     Acceptance acceptance{.wanted = kWantedToMean * total / count};
-    // Below the least contribution all that bring anything are accepted, and a lower Φv would change nothing.
+    // With Φv below the minimum contribution, every contributing candidate is accepted, so a lower Φv would
+    // change nothing.
     while (acceptance.expected(contributions) / count < (1 - kRejectionBlindShare) * kMin &&
-           acceptance.wanted > least) {
+           acceptance.wanted > min_contribution) {
         acceptance.wanted *= 0.9;
     }
     const double accepted = acceptance.expected(contributions) / count;
@@ -142,7 +145,7 @@ std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributi
     return acceptance;
 }
 
-/// How many walks leave about task.vpl_count accepted candidates.
+/// The number of walks that leave about task.vpl_count accepted candidates.
 uint choose_walk_count(const SamplingTask& task, const Pilot& pilot, const Acceptance& acceptance) {
     const double accepted_per_walk = acceptance.expected(pilot.contributions) / pilot.walk_count;
     return static_cast<uint>(std::clamp(std::round(task.vpl_count / accepted_per_walk), 1.0, 1e8));
@@ -161,7 +164,7 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     VplSet set;
     std::vector<Vpl> accepted;
     double sum = Pcg32(task.seed, kDecisions)
-                     .uniform();  // of probabilities; where it passes a whole number, one is accepted
+                     .uniform();  // of probabilities; a candidate is accepted where it passes a whole number
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
     stages.light_tracer.run(
         task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {

@@ -17,7 +17,7 @@ bool usable(float weight) {
     return weight > 0.0f && std::isfinite(weight);
 }
 
-/// τ with Σ min(1, weight / τ) = wanted; 0 if there are no more than `wanted` usable weights.
+/// Finds τ for which Σ min(1, weight / τ) = wanted; 0 if there are no more than `wanted` usable weights.
 double threshold(std::span<const float> weights, std::size_t wanted) {
     std::vector<float> descending;
     std::ranges::copy_if(weights, std::back_inserter(descending), usable);
@@ -28,7 +28,8 @@ double threshold(std::span<const float> weights, std::size_t wanted) {
     const auto asked = descending.begin() + static_cast<std::ptrdiff_t>(wanted);
     std::ranges::nth_element(descending, asked, std::greater());
     std::sort(descending.begin(), asked, std::greater());
-    // The `sure` largest are chosen for certain; the rest share what is left of `wanted` in proportion.
+    // The `sure` largest weights are chosen for certain; the other weights share the rest of `wanted` in
+    // proportion.
     for (std::size_t sure = 0; sure < wanted; ++sure) {
         const double tau = rest / static_cast<double>(wanted - sure);
         if (descending[sure] <= tau) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one interface of all samplers: a task in, a set of virtual point lights out. A sampler knows no images.
+// The interface of all samplers, which turn a task into a set of virtual point lights. A sampler knows
+// nothing of images.
 #pragma once
 
 #include <optional>
@@ -21,28 +22,29 @@ std::string to_string(Policy policy);
 
 struct SamplingTask {
     const DeviceScene& scene;
-    const PilotView& view;  ///< a few receivers of the picture
+    const PilotView& view;  ///< the pilot view, a small sample of the picture's receivers
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
-    uint vpl_count = 1000;  ///< to aim at; walks decide how many there are exactly
-    uint bounce_count = 6;  ///< deepest VPL
-    std::optional<float>
-        close_fraction;  ///< share of the budget for the close range, [0, 1]; empty: by pilot
+    uint vpl_count = 1000;  ///< target number; light walks decide the exact one
+    uint bounce_count = 6;  ///< maximum depth of a VPL
+    /// The share of vpl_count for the close range, in [0, 1]; if it is empty, a pilot chooses it.
+    std::optional<float> close_fraction;
     CloseRange close_range{};
     float clamp_radius = 0.0f;
     uint seed = 0;
 };
 
-/// Ready to be gathered: powers add up to the scene's reflected flux in expectation.
+/// A set of VPLs that is ready to be gathered. The powers add up to the scene's reflected flux in
+/// expectation.
 struct VplSet {
     VplBuffer vpls;                   ///< along the Morton curve
     std::size_t close_count = 0;      ///< placed on close-range patches
     std::size_t distant_count = 0;    ///< deposited by light walks
     std::size_t close_triangles = 0;  ///< triangles that patches were placed on
-    std::size_t sparse_count = 0;     ///< VPLs that only lit other VPLs and are not gathered by the picture
-    std::size_t candidate_count = 0;  ///< that `vpls` were chosen from; 0: there was no choice
-    float close_fraction = 0.0f;      ///< that was used
-    /// Where set, VPLs are to be gathered with its radius, and local lights supply the rest.
+    std::size_t sparse_count = 0;     ///< VPLs of the sparse sets, which no pixel gathers
+    std::size_t candidate_count = 0;  ///< candidates that `vpls` were chosen from; 0: there was no choice
+    float close_fraction = 0.0f;      ///< share of the VPLs for the close range that was used
+    /// If it is set, VPLs are to be gathered with the plan's radii, and local lights supply the rest.
     std::optional<LocalLightPlan> local{};
 };
 
@@ -55,15 +57,15 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_bidirectional(SamplerStages& stages, const SamplingTask& task);
 VplSet sample_local(SamplerStages& stages, const SamplingTask& task);
 
-/// A row of the table of samplers, by which commands know them.
+/// A row of the table of samplers, from which commands take names and descriptions.
 struct SamplerEntry {
     SamplerKind kind;
     const char* name;
     const char* description;  ///< a few words, for help texts
     VplSet (*sample)(SamplerStages& stages, const SamplingTask& task);
-    /// Begins to compile the stages that only some samplers need; null: there are none.
+    /// Begins to compile the stages that only some samplers need; null if the sampler needs none of them.
     void (*begin_compiling)(SamplerStages& stages, Policy policy);
-    bool makes_local_lights;  ///< VplSet::local is set, so rows are gathered with local lights
+    bool makes_local_lights;  ///< whether it sets VplSet::local, so that pictures need local lights
 };
 struct PolicyEntry {
     Policy policy;

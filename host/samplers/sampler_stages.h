@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages that samplers draw on, on one device.
+// The stages that samplers use, on one device.
 #pragma once
 
 #include <optional>
@@ -55,7 +55,8 @@ struct SamplerStages {
     VplOrder vpl_order;
     VplContribution vpl_contribution;
 
-    // Made when first asked for: few samplers need them, and their kernels take long to compile.
+    // These stages are made when they are first needed: few samplers use them, and their kernels take long to
+    // compile.
 
     LightVisibility& light_visibility() { return made(light_visibility_, device); }
     MetropolisChains& metropolis_chains() { return made(metropolis_chains_, device, vpl_contribution); }

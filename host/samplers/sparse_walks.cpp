@@ -7,8 +7,9 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kPilotWalks = 512;
-/// Where hardly a walk lands (a light outside that shines past the scene), more would take for ever.
+constexpr uint kWalkCountPilotWalks = 512;
+/// The maximum number of walks per wanted VPL. It bounds the time if hardly any walk lands, such as those of
+/// a light that shines past the scene.
 constexpr uint kMaxWalksPerVpl = 256;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
@@ -28,12 +29,12 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     if (wanted == 0) {
         return {};
     }
-    LightWalks walks{.walk_count = kPilotWalks,
+    LightWalks walks{.walk_count = kWalkCountPilotWalks,
                      .bounce_count = task.bounce_count,
                      .mean_albedo = task.scene.mean_albedo,
                      .seed = task.seed ^ kWalkCountPilotSeed};
     const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
-    const double deposits_per_walk = static_cast<double>(pilot_deposits) / kPilotWalks;
+    const double deposits_per_walk = static_cast<double>(pilot_deposits) / kWalkCountPilotWalks;
     const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMaxWalksPerVpl);
     walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, 1e8));
     walks.seed = task.seed;

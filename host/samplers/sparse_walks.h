@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light walks whose number follows from how many VPLs are wanted.
+// Light walks whose number follows from the wanted number of VPLs.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,17 @@
 
 namespace nearlight::core {
 
-/// A region without triangles: nothing is close.
+/// Makes a close region without triangles, so that no deposit is close.
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
 
 struct Deposits {
     std::vector<Vpl> vpls;
-    uint walk_count = 0;  ///< that were launched
+    uint walk_count = 0;  ///< number of walks that were launched
 };
 
-/// About `wanted` deposits. A small independent pilot measures how many a walk leaves, so that the number of
-/// walks does not depend on the walks themselves: stopping at a number of deposits would be biased.
+/// Traces about `wanted` deposits. A small independent pilot measures how many deposits a walk leaves, so
+/// that the number of walks does not depend on the walks themselves; to stop at a number of deposits would
+/// bring bias.
 Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
                      KeepDeposits keep, uint wanted);
 

@@ -47,7 +47,8 @@ const VplBuffer& BandRenderer::vpls() const {
     return picture_.vpls.vpls.is_on(stages_.device) ? picture_.vpls.vpls : own_vpls_;
 }
 
-/// By Russian roulette, if that was asked for; else every bundle asks about all VPLs.
+/// Selects VPLs by Russian roulette if the settings ask for it. Returns nothing otherwise: every bundle then
+/// asks about all VPLs.
 std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
     if (!(picture_.settings.roulette > 0.0f)) {
         return std::nullopt;
@@ -66,7 +67,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
          .seed = picture_.seed});
 }
 
-/// Indirect light of a batch's receivers. False if cancelled.
+/// Gathers the indirect light of a batch's receivers. Returns false if cancelled.
 bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
@@ -85,7 +86,7 @@ bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress
                                    buffers_.indirect, progress);
 }
 
-/// One batch: receivers, direct light, indirect light, film. False if cancelled.
+/// Renders one batch: receivers, direct light, indirect light, film. Returns false if cancelled.
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
     const GatherSettings& settings = picture_.settings;
     const uint width = picture_.view.camera.width;

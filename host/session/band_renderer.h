@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One device's part in a picture: bands of it, from the camera to finished rows.
+// Renders one device's bands of a picture, from the camera to finished rows.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace nearlight::core {
 
-/// The stages of a band, compiling from construction on.
+/// The stages that make a band. Construction begins to compile them.
 struct BandStages {
     BandStages(Device& on_device, GatherKernel gather_kernel)
         : device(on_device),
@@ -32,30 +32,30 @@ struct BandStages {
     DirectLight direct_light;
     Gatherer gatherer;
     Film film;
-    // Made when first wanted:
+    // These stages are made when they are first needed.
     std::optional<LocalGather> local_gather{};
     std::optional<Roulette> roulette{};
 };
 
-/// What is the same for all bands and devices.
+/// The parts of a picture's task that are the same for all bands and devices.
 struct Picture {
     const View& view;
     const GatherSettings& settings;
     uint seed = 0;
     const RenderPlan& plan;
-    const VplSet& vpls;  ///< on one device; every other one has the host's copy
+    const VplSet& vpls;  ///< on one device, and on the host if there are several devices
 };
 
 class BandRenderer {
   public:
-    /// Uploads the VPLs unless they are on this device. Refers to all of its arguments.
+    /// Uploads the VPLs unless they are on this device. Keeps references to all of its arguments.
     BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture);
 
-    /// Rows of all layers of band `index` of picture.plan; empty if cancelled.
+    /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.
     std::optional<FinishedBand> render(uint index, const BandProgress& progress);
 
   private:
-    /// Device memory that all batches use in turn.
+    /// Device memory that all batches use one after the other.
     struct BatchBuffers {
         BatchBuffers(Device& device, std::size_t packets, std::size_t pixels);
 
@@ -77,7 +77,7 @@ class BandRenderer {
     const Picture& picture_;
     Buffer<PinholeCamera> camera_;
     Buffer<CloseRange> close_range_;
-    VplBuffer own_vpls_;  ///< empty where the set itself is on this device
+    VplBuffer own_vpls_;  ///< empty if picture.vpls is on this device
     BatchBuffers buffers_;
 };
 

@@ -27,7 +27,7 @@ std::string message_of(const std::exception_ptr& error) {
     }
 }
 
-/// What workers and caller share. All members are guarded by one mutex.
+/// The state that workers and caller share. One mutex guards all members.
 class Board {
   public:
     Board(uint band_count, uint window, std::size_t worker_count)
@@ -37,12 +37,13 @@ class Board {
         }
     }
 
-    // For workers.
+    // Workers call the next functions.
 
-    /// The first band that waits; empty when all are finished or nobody wants more.
+    /// Waits for and takes the first waiting band. Returns nothing when all bands are finished or the work
+    /// was stopped.
     std::optional<uint> take() {
         std::unique_lock lock(mutex_);
-        // A band in another's hands may yet come back.
+        // A band that another worker has may yet come back.
         changed_.wait(lock, [&] { return stopping_ || finished_count_ == band_count_ || may_take(); });
         if (stopping_ || waiting_.empty()) {
             return std::nullopt;
@@ -62,7 +63,7 @@ class Board {
         fractions_[worker] = 0;
         announce();
     }
-    /// Ends a worker; what it had in hand waits again.
+    /// Ends a worker. Its unfinished band, if any, waits again.
     void leave(std::size_t worker, std::optional<uint> unfinished, std::exception_ptr error) {
         const std::lock_guard lock(mutex_);
         fractions_[worker] = 0;
@@ -76,20 +77,20 @@ class Board {
         announce();
     }
 
-    // For the caller.
+    // The caller of share_bands() calls the next functions.
 
     struct Failure {
         std::size_t worker;
         std::exception_ptr error;
     };
     struct News {
-        std::vector<FinishedBand> bands;  ///< that follow those of earlier news
+        std::vector<FinishedBand> bands;  ///< finished bands that follow those of earlier news
         std::vector<Failure> failures;
         double fraction = 0;
-        std::size_t working = 0;  ///< workers that go on
+        std::size_t working = 0;  ///< number of workers that have not ended
         bool complete = false;    ///< every band was handed out
     };
-    /// Waits until there is any; the first do not wait.
+    /// Waits until there is news and returns it. The first call does not wait.
     News wait() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return is_new_; });
@@ -130,17 +131,17 @@ class Board {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::set<uint> waiting_;
-    std::map<uint, FinishedBand> finished_;  ///< and not handed out
+    std::map<uint, FinishedBand> finished_;  ///< finished bands that were not handed out
     uint finished_count_ = 0;
     uint next_out_ = 0;              ///< the first band that was not handed out
-    std::vector<double> fractions_;  ///< of the band in each worker's hand
+    std::vector<double> fractions_;  ///< how far each worker is with its band
     std::size_t working_;
-    std::vector<Failure> failures_;  ///< not yet told
+    std::vector<Failure> failures_;  ///< failures that no news has reported
     bool stopping_ = false;
     bool is_new_ = true;  ///< something changed since the last news
 };
 
-/// The life of one worker's thread.
+/// Takes and makes bands until none are left; runs in the worker's thread.
 void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& share) {
     std::optional<uint> in_hand;
     Stopwatch watch;
@@ -165,7 +166,7 @@ void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& 
     }
 }
 
-/// Threads that are stopped and waited for, whatever happens.
+/// The workers' threads. The destructor stops and joins them, so that no exception leaves them running.
 class Crew {
   public:
     Crew(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares) : board_(board) {
@@ -182,7 +183,7 @@ class Crew {
     std::vector<std::jthread> threads_;  // joined after stop()
 };
 
-/// Warns of workers that failed; where nobody is left to do their part, throws what the last one threw.
+/// Warns of workers that failed. If no worker is left to do their part, rethrows the last one's exception.
 void tell_failures(const Board::News& news, std::span<const BandWorker> workers) {
     const bool lost = news.working == 0 && !news.complete;
     for (const Board::Failure& failure : news.failures) {
@@ -190,11 +191,11 @@ void tell_failures(const Board::News& news, std::span<const BandWorker> workers)
             std::rethrow_exception(failure.error);
         }
         say_warning("device " + workers[failure.worker].name +
-                    " failed, others do its part: " + message_of(failure.error));
+                    " failed, and others do its part: " + message_of(failure.error));
     }
 }
 
-/// False if `progress` stopped the work. No worker is at work afterwards.
+/// Runs the workers. Returns false if `progress` stopped them. No worker is running afterwards.
 bool work_together(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares,
                    const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress) {
     const Crew crew(board, workers, shares);

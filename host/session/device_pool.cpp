@@ -55,13 +55,14 @@ std::size_t DevicePool::peak_bytes() const {
     return bytes;
 }
 
-/// Must be called while `error` is handled: where there is no other device, it is thrown on.
+/// Drops a device that failed with `error`. Must be called while `error` is being handled, because it is
+/// rethrown if there is no other device.
 void DevicePool::lose(std::size_t index, const Error& error) {
     if (devices_.size() == 1) {
         throw;
     }
     say_warning("device " + devices_[index]->device().entry().label() +
-                " failed, others do its part: " + error.what());
+                " failed, and others do its part: " + error.what());
     drop(index);
 }
 

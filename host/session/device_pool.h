@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The devices that make a picture, and what becomes of those that fail.
+// The pool of devices that make a picture, which drops devices that fail.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace nearlight::core {
 
-/// A device with what a picture needs on it; stages compile from construction on.
+/// A device with the stages and the scene that a picture needs. Construction begins to compile the stages.
 struct PoolDevice {
     PoolDevice(Device& device, GatherKernel kernel) : bands(device, kernel) {}
 
@@ -24,28 +24,29 @@ struct PoolDevice {
 
     BandStages bands;
     DeviceScene scene{};
-    std::optional<SamplerStages> samplers{};  ///< of the leader only
+    std::optional<SamplerStages> samplers{};  ///< only the leader has them
 };
 
-/// Devices that have not failed, one at least. The first leads: views and VPLs are made on it. A device that
-/// fails is dropped with a warning, and the next one leads; the last one's error is thrown.
+/// The devices that have not failed, at least one. The first device leads: views and VPLs are made on it. A
+/// device that fails is dropped with a warning, and the next one leads if it was the leader. If the last
+/// device fails, its error is thrown.
 class DevicePool {
   public:
-    /// Refers to `devices`, one or more, which must outlive it.
+    /// Keeps references to `devices`, one or more, which must outlive the pool.
     DevicePool(std::span<Device* const> devices, GatherKernel kernel);
 
     [[nodiscard]] std::size_t size() const { return devices_.size(); }
     [[nodiscard]] std::span<const std::unique_ptr<PoolDevice>> devices() const { return devices_; }
     [[nodiscard]] PoolDevice& leader() const { return *devices_.front(); }
-    /// The same without stages, for what only asks what a device is like.
+    /// The devices without their stages, for code that only needs their properties.
     [[nodiscard]] std::vector<const Device*> plain_devices() const;
 
-    /// The shapes of trees that any of the devices goes through.
+    /// The shapes of trees that the devices need, all devices together.
     [[nodiscard]] TreeShapes tree_shapes() const;
-    /// To every device; the trees must have tree_shapes().
+    /// Uploads the scene to every device. The trees must have the shapes of tree_shapes().
     void upload(const Scene& scene, const SceneTrees& trees);
 
-    /// work(leader), again on the next leader where it throws an Error.
+    /// Calls work(leader), and again with the next leader if it throws an Error.
     template <typename Work>
     std::invoke_result_t<Work, PoolDevice&> on_leader(const Work& work) {
         for (;;) {
@@ -57,10 +58,10 @@ class DevicePool {
         }
     }
 
-    /// Drops those whose share says that they failed. `shares` are of devices(), in their order.
+    /// Drops the devices whose share says that they failed. `shares` are in the order of devices().
     void drop_failed(std::span<const BandShare> shares);
 
-    /// The sum of what each had allocated at most, in bytes.
+    /// The sum of the devices' peak allocations, in bytes.
     [[nodiscard]] std::size_t peak_bytes() const;
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gather of the sampler `local`: VPLs under wide bounds, and local lights for what those take away.
+// The gather of the sampler `local`: VPLs with wide clamp radii, and local lights for what those take away.
 #pragma once
 
 #include "host/stages/gatherer.h"
@@ -11,18 +11,19 @@ namespace nearlight::core {
 
 class LocalGather {
   public:
-    /// Begins to compile the kernels.
+    /// Begins to compile the kernels, and does not wait for the compiler.
     explicit LocalGather(Device& device)
         : device_(&device), lights_(device), vpl_light_(device), vpls_(device) {}
 
-    /// For one picture. `vpls` are of all depths, in Morton order.
+    /// Sets the VPLs of a picture, which must be of all depths and in Morton order.
     void set_vpls(const DeviceScene& scene, const VplBuffer& vpls, const LocalLightPlan& plan);
 
-    /// Irradiance of the receivers in the first packet_count packets. False if cancelled.
+    /// Writes the irradiance of the receivers in the first packet_count packets to sums.light. Returns false
+    /// if cancelled.
     bool run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
              std::size_t packet_count, GatherSums<Vpl>& sums, const GatherProgress& progress);
 
-    /// That were made since set_vpls().
+    /// The number of local lights that were made since set_vpls().
     [[nodiscard]] std::size_t light_count() const { return light_count_; }
 
   private:

@@ -10,7 +10,7 @@
 namespace nearlight::core {
 
 uint pass_seed(uint seed, uint pass) {
-    // SplitMix64 [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
+    // This is SplitMix64 [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
     std::uint64_t z = ((std::uint64_t{seed} << 32u) | pass) + 0x9e3779b97f4a7c15ull;
     z = (z ^ (z >> 30u)) * 0xbf58476d1ce4e5b9ull;
     z = (z ^ (z >> 27u)) * 0x94d049bb133111ebull;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several renderings of one view, which differ in their random numbers only: how many, and their mean.
+// Several renderings of one view, which differ only in their random numbers: their number and their mean.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,19 @@
 
 namespace nearlight::core {
 
-/// Of pass 0, 1, … of a picture with that seed: pass 0 has the seed itself, the others mix it with the pass,
-/// so that pictures of neighbouring seeds share none.
+/// The seed of a pass of a picture with the seed `seed`. Pass 0 has `seed` itself; the others mix it with
+/// `pass`, so that pictures of neighbouring seeds share no pass.
 uint pass_seed(uint seed, uint pass);
 
-/// Whether there is to be another pass, and how far all of them are.
+/// Decides whether there is another pass, and says how far all passes are.
 class PassClock {
   public:
-    /// `seconds` were spent already, on getting ready.
+    /// `seconds` is the time that was already spent on getting ready.
     PassClock(const RenderSettings& settings, double seconds);
 
-    /// To be asked after each pass.
+    /// Whether to begin another pass. Must be called once after each pass.
     [[nodiscard]] bool has_another();
-    /// Of all passes, 0 to 1, where the present one has come so far.
+    /// How far all passes are, from 0 to 1, if the present one is as far as `of_pass`, also from 0 to 1.
     [[nodiscard]] double fraction(double of_pass) const;
 
   private:
@@ -36,25 +36,26 @@ class PassClock {
     uint done_ = 0;
 };
 
-/// Keeps the whole picture. Which layers are averaged and which are those of pass 0 is a column of the
-/// table in kernels/shared/film_layers.h.
+/// Averages passes, for which it keeps the whole picture in memory. A column of the table in
+/// kernels/shared/film_layers.h says which layers are averaged and which are those of pass 0.
 class PassAverage {
   public:
     PassAverage(uint width, uint height);
 
-    /// Further rows of the present pass, top to bottom: channels as layer_channels() names them.
+    /// Adds further rows of the present pass, from top to bottom, with the channels of layer_channels().
     void add_rows(std::span<const float> rows);
-    /// The next rows are again the topmost.
+    /// Begins a pass: the next rows are the topmost again.
     void begin_pass() { end_ = 0; }
 
-    /// Sends each row divided by the number of passes that reached it; none of those that no pass reached.
+    /// Sends each row divided by the number of passes that reached it. Rows that no pass reached are not
+    /// sent.
     void send(const std::function<void(std::span<const float> rows)>& sink) const;
 
   private:
     std::size_t row_size_;          ///< floats
-    std::vector<float> sums_;       ///< of the layers that are averaged; the others as they came
-    std::vector<uint> row_passes_;  ///< that reached each row
-    std::size_t end_ = 0;           ///< of the present pass, floats
+    std::vector<float> sums_;       ///< sums of averaged layers; values of pass 0 for the others
+    std::vector<uint> row_passes_;  ///< number of passes that reached each row
+    std::size_t end_ = 0;           ///< number of floats that the present pass has added
 };
 
 }  // namespace nearlight::core

@@ -7,13 +7,15 @@
 namespace nearlight::core {
 namespace {
 
-/// So that the first rows are there soon, and of several devices the last to finish keeps the others waiting
-/// for half a short band on average.
+/// The number of bands per device. With many bands, first rows appear soon, and devices wait for the last one
+/// for only half a short band on average.
 constexpr std::size_t kBandsPerDevice = 30;
-/// Of a batch's receivers, what keeps a device busy; several devices get bands of single tile rows even so.
+/// A band on a single device has at least 1/kMinPart of a batch's receivers, which keeps the device busy.
+/// Several devices may get smaller bands.
 constexpr std::size_t kMinPart = 8;
 
-/// Enough work for a launch to keep the device busy, little enough for memory and for a smooth progress bar.
+/// The number of receivers per batch: enough work to keep the device busy, but little enough for memory and
+/// for a smooth progress bar.
 std::size_t receivers_per_batch(const Device& device) {
     const std::size_t wanted = device.tunables().batch_receivers;
     // The largest buffer of a batch is that of the camera vertices.
@@ -21,7 +23,8 @@ std::size_t receivers_per_batch(const Device& device) {
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
 }
 
-/// Samples of a tile that fill a bundle, or all of them. Batches have multiples of so many.
+/// The number of samples of a tile that fill a bundle, or all samples if they do not. The samples in a batch
+/// are a multiple of it.
 uint samples_per_bundle(uint samples_per_pixel, uint branch_count) {
     return std::min(samples_per_pixel, NEARLIGHT_BUNDLE_PACKETS / branch_count);
 }

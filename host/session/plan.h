@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a picture is cut into bands and batches of samples that fit a device.
+// Divides a picture into bands and batches of samples that fit a device.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace nearlight::core {
 
-/// Bands of whole tile rows from top to bottom, each worked through in batches of samples. The first may be
-/// shorter, because somebody waits for it. No cut changes any bit of the picture.
+/// Bands of whole tile rows from top to bottom, each of which is rendered in batches of samples. The first
+/// band may be shorter, so that first rows appear soon. No bit of the picture depends on the plan.
 struct RenderPlan {
     uint tile_rows_in_first = 1;  ///< at most tile_rows_per_band
     uint tile_rows_per_band = 1;
@@ -26,21 +26,22 @@ struct RenderPlan {
         const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
         return std::min(tile_row_count, 1u) + (others + tile_rows_per_band - 1) / tile_rows_per_band;
     }
-    /// The batches of band `index`, in order.
+    /// The batches of band `index`, in the order to render them.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
-    /// Packets of a batch that Russian roulette may decide about together (BundleLayout): those of a tile,
-    /// whose samples are cut so that its bundles stay whole, or where these do not fill one, those of a row
-    /// of tiles.
+    /// The number of consecutive packets in a batch that Russian roulette may decide about together
+    /// (BundleLayout): those of a tile, whose samples are divided so that bundles stay whole, or, if a tile's
+    /// packets do not fill a bundle, those of a row of tiles.
     [[nodiscard]] uint run_packets(const CameraBand& batch, uint width) const;
-    /// Most packets that any batch has.
+    /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets(uint width) const;
 };
 
-/// Bytes of one receiver in all the buffers of a batch.
+/// The bytes that one receiver takes in all buffers of a batch.
 inline constexpr std::size_t kBytesPerReceiver =
     (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
 
-/// One plan for all of the devices: what fits each, and bands enough for the faster ones to take more.
+/// Makes one plan for all devices. Its batches fit each device, and there are enough bands for faster devices
+/// to take more.
 RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
                      uint branch_count);
 

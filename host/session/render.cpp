@@ -11,7 +11,7 @@
 namespace nearlight::core {
 namespace {
 
-/// What precedes the rows of a picture.
+/// The products of look and sample, which a gather needs.
 struct Prepared {
     View view;
     VplSet vpls;
@@ -31,7 +31,7 @@ RenderReport begin_report(Session& session) {
     return report;
 }
 
-/// Settings that were decided, and VPLs that are gathered.
+/// Adds a pass to the report: the settings that were decided, and the number of VPLs.
 void note_pass(const Prepared& pass, RenderReport& report) {
     if (report.passes++ == 0) {
         report.width = static_cast<int>(pass.view.camera.width);
@@ -68,7 +68,8 @@ void gather(Session& session, const Prepared& pass, const GatherSettings& settin
     add_shares(outcome.shares, report.shares);
 }
 
-/// Later passes keep what the first decided of the view, or they would not be renderings of one thing.
+/// Settings for later passes. They keep what the first pass decided about the view, because the mean would
+/// otherwise mix different views.
 ViewSettings decided(const ViewSettings& settings, const View& view) {
     ViewSettings same = settings;
     same.range = view.close_range.range;

@@ -12,14 +12,14 @@
 
 namespace nearlight::core {
 
-/// Stage ("gathering") and how far the picture is, 0 to 1. Returns false to stop.
+/// Takes the name of the stage ("gathering") and how far the picture is, from 0 to 1. Returns false to stop.
 using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
 
 struct RenderSeconds {
     double build_bvh = 0;
-    double compile = 0;   ///< while anything was compiled or loaded; other work goes on meanwhile
-    double upload = 0;    ///< of scene and trees, whose wide form is made meanwhile
-    double generate = 0;  ///< pilot and VPLs
+    double compile = 0;   ///< time in which programs were compiled or loaded; other work goes on meanwhile
+    double upload = 0;    ///< upload of scene and trees
+    double generate = 0;  ///< pilot view and VPLs
     double gather = 0;    ///< camera pass, direct light, gather, film
     double total = 0;
 };
@@ -27,29 +27,31 @@ struct RenderSeconds {
 struct RenderReport {
     int width = 0;
     int height = 0;
-    float range = 0;         ///< of the close range, m
+    float range = 0;         ///< distance at which the close range ends, m
     float clamp_radius = 0;  ///< m
-    uint max_depth = 0;      ///< as Mitsuba counts
-    uint passes = 0;         ///< that were begun
-    // Of all passes together:
+    uint max_depth = 0;      ///< maximum path length, as Mitsuba counts it
+    uint passes = 0;         ///< number of passes that were begun
+    // The next five count all passes together.
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
-    std::size_t sparse_vpls = 0;   ///< that only lit other VPLs
-    std::size_t candidates = 0;    ///< that VPLs were chosen from; 0: there was no choice
-    std::size_t local_lights = 0;  ///< of all tiles
-    float close_fraction = 0;      ///< of the first pass
+    std::size_t sparse_vpls = 0;   ///< VPLs that only lit other VPLs
+    std::size_t candidates = 0;    ///< candidates that VPLs were chosen from; 0: there was no choice
+    std::size_t local_lights = 0;  ///< local lights of all tiles
+    float close_fraction = 0;      ///< share of close-range VPLs in the first pass
     RenderSeconds seconds;
-    std::vector<BandShare> shares;  ///< of the picture, by device
-    std::size_t device_bytes = 0;   ///< at most at any time, all devices together
-    std::uint64_t image_hash = 0;   ///< of the beauty's bits; equal pictures have equal hashes
-    bool interrupted = false;       ///< the last pass is not whole; rows that no pass reached were not sent
+    std::vector<BandShare> shares;  ///< the part that each device had in the picture
+    std::size_t device_bytes = 0;   ///< peak allocation, all devices together
+    std::uint64_t image_hash = 0;   ///< hash of the beauty's bits; equal pictures have equal hashes
+    bool interrupted = false;       ///< the last pass is incomplete; rows that no pass reached were not sent
 };
 
 /// Called when all settings are decided and before the first row, so that files can be opened with the right
-/// size and metadata. View and VPLs are those of the first pass. Of several passes rows come after the last.
+/// size and metadata. View and VPLs are those of the first pass. If there are several passes, it is called
+/// after the last of them.
 using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
-/// One picture, or the mean of several. Only a session's first report has the seconds of getting ready.
+/// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
+/// getting ready.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress);
 

@@ -14,7 +14,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Bytes of finished bands that may wait for an earlier one.
+/// The maximum bytes of finished bands that wait for an earlier one.
 constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
 
 uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
@@ -63,7 +63,7 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
 
 }  // namespace
 
-/// Kernels compile while the tree is built: one waits for the driver, the other for memory.
+/// Kernels compile while the tree is built: compiling waits for the driver, building for memory.
 Session::Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options)
     : scene_(scene), pool_(devices, options.gather_kernel) {
     const Stopwatch total;
@@ -87,7 +87,7 @@ View Session::look(const ViewSettings& settings, uint seed) {
 
 VplSet Session::sample(const View& view, const SamplingSettings& settings, uint seed) {
     return pool_.on_leader([&](PoolDevice& leader) {
-        // Of a leader that has failed since, the pilot is gone; the same seed gives the same again.
+        // If the leader has failed since, its pilot view is gone; the same seed makes the same view again.
         std::optional<PilotView> again;
         if (!view.pilot.is_on(leader.device())) {
             again = look_at_scene(leader.device(), leader.bands.camera_pass, leader.scene, view.scene_camera,
@@ -126,7 +126,7 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
                                       const IrradianceSettings& settings, uint seed) {
     if (points.size() != normals.size()) {
         throw Error(ErrorKind::invalid_argument, "irradiance at " + std::to_string(points.size()) +
-                                                     " points needs as many normals, not " +
+                                                     " points needs as many normals as points, not " +
                                                      std::to_string(normals.size()));
     }
     return pool_.on_leader([&](PoolDevice& leader) {
@@ -153,7 +153,8 @@ double Session::new_compile_seconds() {
     return all - std::exchange(told_compile_seconds_, all);
 }
 
-// In the order of need. Programs stay with their device when the stages are gone.
+// Programs begin to compile in the order in which they are needed. They stay with their device when the
+// stages are gone.
 void begin_compiling(std::span<Device* const> devices, const SessionOptions& options,
                      const SamplingSettings& settings) {
     const SamplerEntry& sampler = sampler_entry(settings.sampler);

@@ -13,8 +13,8 @@ namespace {
 constexpr uint kDefaultMaxDepth = 8;
 constexpr float kClampRadiusToRange = 0.05f;
 
-/// The distance within which nine tenths of the visible surface lie, with a little room; the scene's extent
-/// where nothing is in view.
+/// The distance within which nine tenths of the visible surface lie, plus a small margin; the scene's extent
+/// if nothing is in view.
 float automatic_range(const PilotView& pilot, float extent) {
     if (pilot.distances.empty()) {
         say_warning("the camera sees no diffuse surface; is it inside an object, or looking away?");

@@ -12,15 +12,16 @@ struct View {
     SceneCamera scene_camera;  ///< at the size to render
     PinholeCamera camera{};
     CloseRange close_range{};
-    PilotView pilot;            ///< on the device that led when the view was chosen
+    PilotView pilot;            ///< in the memory of the device that led when the view was chosen
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
-    uint max_depth = 8;         ///< as Mitsuba counts
-    uint seed = 0;              ///< of the pilot
+    uint max_depth = 8;         ///< maximum path length, as Mitsuba counts it
+    uint seed = 0;              ///< seed of the pilot view
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 
-/// Decides what the settings leave open: size and depth from the scene; the range so that it holds nine
-/// tenths of what the camera sees; the clamp radius as a twentieth of the range.
+/// Decides what the settings leave open: it takes size and depth from the scene, sets the range so that the
+/// close range holds nine tenths of what the camera sees, and sets the clamp radius to a twentieth of the
+/// range.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const ViewSettings& settings, uint seed);
 

@@ -8,10 +8,12 @@
 namespace nearlight::core {
 
 struct BouncePaths {
-    uint sample_count = 1;  ///< paths a receiver
-    uint bounce_count = 1;  ///< most reflections between light and receiver
-    float clamp_radius =
-        0.0f;  ///< m; what lies farther is left out, what is nearer weighs 1 − r²/R²; may be infinite
+    uint sample_count = 1;  ///< paths per receiver
+    uint bounce_count = 1;  ///< maximum number of reflections between light and receiver
+    /// The clamp radius R of the gather whose missing light the paths supply, in metres. Light from a
+    /// distance r below R has the weight 1 − r²/R², and light from beyond R is left out. Infinity keeps all
+    /// light.
+    float clamp_radius = 0.0f;
     uint seed = 0;
 };
 
@@ -19,7 +21,7 @@ class BounceTracer {
   public:
     explicit BounceTracer(Device& device);
 
-    /// Adds to `irradiance`, W/m².
+    /// Adds the indirect light of each receiver to `irradiance`, in W/m².
     void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
              const BouncePaths& paths, Buffer<IrradiancePacket>& irradiance);
 

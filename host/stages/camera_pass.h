@@ -10,22 +10,22 @@ namespace nearlight::core {
 /// Which tile rows and samples of the picture one launch covers.
 struct CameraBand {
     uint first_tile_row = 0;
-    uint tile_row_count = 0;  ///< the last may reach below the picture
+    uint tile_row_count = 0;  ///< the last row may reach below the picture
     uint first_sample = 0;
     uint sample_count = 1;
-    uint samples_per_pixel = 1;  ///< in all; a single one goes through the pixel's centre
-    uint branch_count = 1;       ///< 2 where camera paths may divide
+    uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
+    uint branch_count = 1;       ///< 2 if camera paths may divide, else 1
 };
 
-/// Packets of receivers that a band has: tiles × samples × branches.
+/// The number of receiver packets in a band: tiles × samples × branches.
 std::size_t packet_count(const CameraBand& band, uint image_width);
 
 class CameraPass {
   public:
     explicit CameraPass(Device& device);
 
-    /// Writes packet_count() packets and as many times 64 vertices, in the order that kernels/camera_pass.cl
-    /// states.
+    /// Writes packet_count() packets and 64 vertices for each of them, in the order that
+    /// kernels/camera_pass.cl states.
     void run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);

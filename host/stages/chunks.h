@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How kernels that give each work-item a run of elements split an array (see kernels/lib/chunk.cl).
+// How an array is split for kernels that give each work-item a run of elements (kernels/lib/chunk.cl).
 #pragma once
 
 #include <algorithm>
@@ -12,29 +12,31 @@
 
 namespace nearlight::core {
 
-/// `count` runs of `size` elements each, the last one perhaps shorter, none empty.
+/// An array split into `count` runs of `size` elements. The last run may be shorter, but no run is empty.
 struct Chunks {
     uint size = 0;
     uint count = 0;
 };
 
-/// About one run a worker of the device, but none of fewer than `shortest` elements.
-inline Chunks split_into_chunks(const Device& device, std::size_t element_count, std::size_t shortest) {
+/// Splits an array into about one run per worker of the device; all runs but the last have at least
+/// `min_size` elements.
+inline Chunks split_into_chunks(const Device& device, std::size_t element_count, std::size_t min_size) {
     const std::size_t even = (element_count + device.worker_count() - 1) / device.worker_count();
-    const std::size_t size = std::max(shortest, even);
+    const std::size_t size = std::max(min_size, even);
     return {static_cast<uint>(size), static_cast<uint>((element_count + size - 1) / size)};
 }
-/// With runs that are worth a work-item where an element is little work.
+/// Splits an array whose elements are little work each into runs that are worth a work-item.
 inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {
     return split_into_chunks(device, element_count, device.tunables().shortest_run);
 }
 
-/// Work-group size for such kernels.
+/// The work-group size for kernels that give each work-item a run of elements.
 inline std::size_t chunk_local_size(const Device& device) {
     return device.tunables().run_local_size;
 }
 
-/// Kernels count in 32 bits. Throws Error(ErrorKind::out_of_memory) beyond them.
+/// Converts a count to the 32 bits that kernels use. Throws Error(ErrorKind::out_of_memory) if it is larger;
+/// `what` names the elements.
 inline uint to_kernel_count(std::size_t count, const char* what) {
     if (count > UINT32_MAX) {
         throw Error(ErrorKind::out_of_memory, std::to_string(count) + " " + what +

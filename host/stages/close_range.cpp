@@ -10,7 +10,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Through `origin`, spanned by `a` and `b`, facing the side of `inside`.
+/// Sets a plane through `origin` that `a` and `b` span and that faces the point `inside`.
 void set_plane(float (&plane)[4], Vec3 origin, Vec3 a, Vec3 b, Vec3 inside) {
     Vec3 normal = normalize(cross(normalize(a), normalize(b)));
     if (dot(normal, inside) < 0.0f) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeping the elements whose flag is set, in order. Kernels: compaction.cl.
+// Keeps the elements whose flag is set, in their order. The kernels are in compaction.cl.
 #pragma once
 
 #include "host/cl/buffer.h"
@@ -13,11 +13,12 @@ class Compaction {
   public:
     explicit Compaction(Device& device);
 
-    /// Writes the indices i < count of the flags that are not 0, ascending, to `indices` (room for all of
-    /// them: `count` always suffices) and returns how many there are. Waits for the device.
+    /// Writes the indices i < count of the flags that are not 0 to `indices`, in ascending order, and returns
+    /// how many there are. `indices` must have room for them; `count` elements always suffice. Waits for the
+    /// device.
     std::size_t list_set(const Buffer<uint>& flags, std::size_t count, Buffer<uint>& indices);
 
-    /// gathered[i] = elements[indices[i]], for i < count.
+    /// Sets gathered[i] = elements[indices[i]] for all i < count.
     template <typename T>
     void gather(const Buffer<T>& elements, const Buffer<uint>& indices, std::size_t count,
                 Buffer<T>& gathered) {
@@ -26,7 +27,7 @@ class Compaction {
                              static_cast<uint>(count));
     }
 
-    /// Device memory that list_set() keeps for itself.
+    /// The device memory that list_set() keeps for itself, in bytes.
     [[nodiscard]] std::size_t scratch_bytes(std::size_t count) const;
 
   private:

@@ -8,7 +8,7 @@
 namespace nearlight::core {
 namespace {
 
-/// All images one after the other, and the textures that say where each begins.
+/// The texels of all images one after the other, and the textures that say where each image begins.
 struct TexturePool {
     std::vector<Texture> textures;
     std::vector<uint> texels;
@@ -34,7 +34,8 @@ TexturePool pool_textures(const Scene& scene) {
     return pool;
 }
 
-/// Of the middles of a sample of triangles: good enough for what it steers, the length of light walks.
+/// Averages the albedo over the centroids of a sample of triangles. That is good enough for the length of
+/// light walks, which is all that it steers.
 float estimate_mean_albedo(const Scene& scene) {
     const std::size_t stride = std::max<std::size_t>(1, scene.triangles.size() / 65536);
     double weighted = 0;
@@ -61,7 +62,7 @@ bool divides_camera_paths(const Material& material) {
            material.lobe == NEARLIGHT_LOBE_THIN_DIELECTRIC;
 }
 
-/// All but the trees.
+/// Uploads everything but the trees.
 DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool has_glass) {
     const EmitterTable emitters = build_emitter_table(scene);
     const EnvironmentTable environment = build_environment_table(scene);

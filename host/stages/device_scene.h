@@ -8,8 +8,8 @@
 namespace nearlight::core {
 
 struct DeviceScene {
-    DeviceTree tree;   ///< of opaque surfaces
-    DeviceTree glass;  ///< of what only the camera sees
+    DeviceTree tree;   ///< tree of opaque surfaces
+    DeviceTree glass;  ///< tree of glass, which only the camera sees
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
@@ -22,14 +22,14 @@ struct DeviceScene {
     Buffer<float> column_cdf;
     Buffer<SceneInfo> info;
 
-    // What the host needs to know without asking the device.
+    // The host needs these without asking the device.
     SceneInfo host_info{};
-    bool has_lobes = false;    ///< some material gives camera paths two ways on (a coat or glass)
-    float mean_albedo = 0.5f;  ///< luminance that light transport sees, averaged over area
-    float total_power = 0.0f;  ///< luminance of all emitted flux, W
-    double total_area = 0.0;   ///< of all triangles, m²
+    bool has_lobes = false;    ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;  ///< luminance of light_albedo(), averaged over area
+    float total_power = 0.0f;  ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;   ///< area of all triangles, m²
 
-    /// In the order of SCENE_PARAMETERS.
+    /// Calls visit(buffer) for every buffer, in the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
         visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
@@ -39,10 +39,10 @@ struct DeviceScene {
     }
 };
 
-/// For gathers with `kernel`. The trees must have the shapes that the device wants (tree_shapes()).
+/// Uploads a scene for gathers with `kernel`. The trees must have the shapes that tree_shapes() asks for.
 DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees,
                          GatherKernel kernel = GatherKernel::automatic);
-/// The same with trees that are widened here where the device wants it.
+/// Uploads a scene for gathers with `kernel`, and widens the trees first where the device needs wide ones.
 DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
                          GatherKernel kernel = GatherKernel::automatic);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tree in device memory, in the shapes that kernels go through.
+// A tree in device memory, in the shapes that kernels traverse.
 #pragma once
 
 #include "host/bvh/scene_trees.h"
@@ -8,23 +8,23 @@
 
 namespace nearlight::core {
 
-/// What `automatic` means on the device; the others are what they are.
+/// Replaces `automatic` by the kernel that suits the device, and returns any other kernel unchanged.
 GatherKernel choose_kernel(GatherKernel kernel, const Device& device);
 
-/// Of each shape, buffers are empty where nobody asked for it.
+/// A tree in device memory. The buffers of a shape that was not asked for are empty.
 struct DeviceTree {
-    Buffer<BvhNode>
-        nodes;  ///< binary: for `rays`, and for single rays where they do not go through the other
+    Buffer<BvhNode> nodes;  ///< binary tree: for `rays`, and for single rays unless they use the wide tree
     Buffer<BvhTriangle> triangles;
-    Buffer<WideNode> wide_nodes;   ///< the same tree widened: for `packets`, and for single rays on CPUs
-    Buffer<TriangleBlock> blocks;  ///< of the wide tree
-    Buffer<uint> triangle_ids;     ///< in Scene::triangles, of each slot that a single ray may hit
-    bool has_wide_rays = false;    ///< single rays go through the wide tree (Device::has_wide_rays())
+    Buffer<WideNode> wide_nodes;   ///< wide tree: for `packets`, and for single rays on CPUs
+    Buffer<TriangleBlock> blocks;  ///< triangles of the wide tree
+    Buffer<uint> triangle_ids;     ///< index in Scene::triangles for each slot that a single ray may hit
+    bool has_wide_rays = false;    ///< single rays use the wide tree (Device::has_wide_rays())
 
     [[nodiscard]] bool is_binary() const { return nodes.count() > 0; }
     [[nodiscard]] bool is_wide() const { return wide_nodes.count() > 0; }
 
-    /// Nodes and triangles for single rays, as kernels/lib/ray_tree.cl takes them.
+    /// Calls visit(buffer) for the nodes and triangles for single rays, in the order that
+    /// kernels/lib/ray_tree.cl takes them.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
         if (has_wide_rays) {
@@ -35,18 +35,19 @@ struct DeviceTree {
     }
 };
 
-/// What a device wants of a tree for single rays, and for gathers with `kernel` too.
+/// The shapes of a tree that a device needs for single rays.
 TreeShapes ray_tree_shapes(const Device& device);
+/// The shapes of a tree that a device needs for single rays and for gathers with `kernel`.
 TreeShapes tree_shapes(const Device& device, GatherKernel kernel);
 
-/// In those shapes, which the tree must have.
+/// Uploads the given shapes of a tree, which must have them.
 DeviceTree upload(Device& device, const ShapedBvh& tree, const TreeShapes& shapes);
 
-/// For single rays alone.
+/// Uploads a tree for single rays alone.
 DeviceTree upload_ray_tree(Device& device, const Bvh& bvh);
-/// For single rays and for gathers with `kernel`.
+/// Uploads a tree for single rays and for gathers with `kernel`.
 DeviceTree upload_tree(Device& device, const Bvh& bvh, GatherKernel kernel = GatherKernel::automatic);
-/// For those and for gathers with either kernel.
+/// Uploads a tree for single rays and for gathers with either kernel.
 DeviceTree upload_both_trees(Device& device, const Bvh& bvh);
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance of receivers from the lights themselves.
+// The irradiance that receivers get straight from the lights.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -11,8 +11,8 @@ class DirectLight {
   public:
     explicit DirectLight(Device& device);
 
-    /// `sample_count` samples a receiver for area and environment lights (at least 1); point and spot lights
-    /// need none.
+    /// Writes the direct light of each receiver to `irradiance`, in W/m². `sample_count`, at least 1, is the
+    /// number of samples per receiver for area and environment lights; point and spot lights need no samples.
     void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
              uint sample_count, uint seed, Buffer<IrradiancePacket>& irradiance);
 

@@ -12,12 +12,13 @@ class Film {
   public:
     explicit Film(Device& device);
 
-    /// Adds one batch of samples; `sums` holds NEARLIGHT_FILM_CHANNELS floats for each of width × row_count
-    /// pixels.
+    /// Adds one batch of samples to `sums`, which holds NEARLIGHT_FILM_CHANNELS floats for each of width ×
+    /// row_count pixels.
     void add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
              const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect,
              const CameraBand& band, uint width, uint row_count, Buffer<float>& sums);
-    /// NEARLIGHT_LAYER_CHANNELS floats a pixel, in the order of layer_channels().
+    /// Turns the sums of pixels into `layers`: NEARLIGHT_LAYER_CHANNELS floats per pixel, in the order of
+    /// layer_channels().
     void resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,
                  Buffer<float>& layers);
 

@@ -11,8 +11,8 @@
 namespace nearlight::core {
 namespace {
 
-/// VPLs that are summed by themselves before they are added to the irradiance, if there are no groups;
-/// launches end at multiples of it.
+/// The number of VPLs that are summed by themselves before their sum is added to the irradiance, if there are
+/// no groups. Launches end at multiples of it.
 constexpr std::size_t kChunk = 256;
 
 template <typename Source>
@@ -22,7 +22,7 @@ std::size_t chunk_of(const GatherInput<Source>& input) {
 
 constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 
-/// Pairs of a launch at most, however fast the device is.
+/// The maximum number of pairs in a launch, however fast the device is.
 constexpr double kMaxLaunchPairs = 0x1p40;
 
 GatherConfig resolved(GatherConfig config, const Device& device) {
@@ -42,7 +42,7 @@ GatherConfig resolved(GatherConfig config, const Device& device) {
 
 }  // namespace
 
-/// One launch: bundles [first_bundle, end_bundle) against VPLs [first_vpl, end_vpl).
+/// The work of one launch: bundles [first_bundle, end_bundle) with VPLs [first_vpl, end_vpl).
 struct Gatherer::Part {
     std::size_t first_bundle = 0;
     std::size_t end_bundle = 0;
@@ -62,7 +62,7 @@ struct Gatherer::Part {
 struct Gatherer::Course {
     const GatherProgress& progress;
     std::uint64_t total;  ///< pairs
-    double budget;        ///< pairs of the next launch
+    double budget;        ///< maximum pairs in the next launch
     std::uint64_t done = 0;
 };
 
@@ -99,7 +99,8 @@ Kernel Gatherer::make_kernel(bool lists, bool recording) const {
     return {Program(*device_, "gather_packets.cl", defines), "gather_packets"};
 }
 
-/// The part after `done`: the same bundles against further VPLs, or, when those are through, further bundles.
+/// Returns the part after `done`: the same bundles with further VPLs, or further bundles when all VPLs are
+/// done.
 template <typename Source>
 Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part& done, std::size_t end_bundle,
                                    std::uint64_t pair_budget) const {
@@ -120,7 +121,7 @@ Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part&
     return part;
 }
 
-/// Without lists all bundles ask about all VPLs.
+/// Launches the kernel for one part. If `lists` is null, all bundles ask about all VPLs.
 template <typename Source, typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Part& part,
                       const VplLists* lists, GatherSums<Source>& sums, const More&... more) {
@@ -164,7 +165,7 @@ void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, con
     }
 }
 
-/// Bundles [first_bundle, end_bundle), launch by launch. False if cancelled.
+/// Gathers for bundles [first_bundle, end_bundle), launch by launch. Returns false if cancelled.
 template <typename Source>
 bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, std::size_t first_bundle,
                               std::size_t end_bundle, const VplLists* lists, GatherSums<Source>& sums,
@@ -178,7 +179,7 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, 
         const Stopwatch watch;
         launch(kernel, input, part, lists, sums);
         device_->finish();
-        // At most four times as much, because neighbouring parts may differ in cost.
+        // The budget grows at most fourfold per launch, because neighbouring parts may differ in cost.
         const std::uint64_t pairs = part.pairs(input.bundles());
         const double fitting =
             static_cast<double>(pairs) * config_.launch_seconds / std::max(1e-6, watch.seconds());
@@ -191,8 +192,8 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, 
     return true;
 }
 
-/// Calls work(kernel, first_bundle, end_bundle, lists or null) for all bundles in turn, in runs as long as
-/// the selection makes lists for. False as soon as `work` is.
+/// Calls work(kernel, first_bundle, end_bundle, lists or null) for all bundles in turn, in runs of as many
+/// bundles as the selection makes lists for. Returns false as soon as `work` does.
 template <typename Source, typename Work>
 bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, const Work& work) {
     if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
@@ -224,7 +225,8 @@ bool Gatherer::gather(const GatherInput<Source>& input, GatherSums<Source>& sums
         input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const VplLists* lists) {
             return gather_bundles(kernel, input, first, end, lists, sums, course);
         });
-    // Gathers may differ in cost more than the parts of one.
+    // The next gather begins with a smaller launch, because gathers may differ in cost more than the parts of
+    // one gather do.
     launch_pairs_ = std::max(course.budget / 4.0, std::min(launch_pairs_, course.budget));
     return whole;
 }

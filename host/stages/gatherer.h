@@ -20,16 +20,16 @@ namespace nearlight::core {
 
 struct GatherConfig {
     GatherKernel kernel = GatherKernel::automatic;
-    /// Of `packets`: 16, 32, 64, 128 or 256 receivers a tree traversal. The result does not depend on it. 0:
-    /// what suits the device (Tunables).
+    /// The width of a beam of the kernel `packets`: 16, 32, 64, 128 or 256 receivers per tree traversal; 0
+    /// takes the width of the device's Tunables. The result does not depend on it.
     uint beam_width = 0;
-    /// The first launch takes at most this many (receiver, VPL) pairs; those that follow, also of later
-    /// gathers, are sized by the time it took. The result does not depend on it.
+    /// The maximum number of (receiver, VPL) pairs in the first launch. Later launches, those of later
+    /// gathers included, are sized by the time that earlier ones took. The result does not depend on it.
     std::uint64_t first_launch_pairs = std::uint64_t{1} << 20u;
-    double launch_seconds = 0.0;  ///< how long a launch should take; 0: what suits the device
+    double launch_seconds = 0.0;  ///< how long a launch should take; 0: the time in the device's Tunables
 };
 
-/// What arrives at a packet of receivers: irradiance from VPLs, importance from importons.
+/// The type of what arrives at a packet of receivers: irradiance from VPLs, importance from importons.
 template <typename Source>
 struct GatheredFrom;
 template <>
@@ -41,7 +41,7 @@ struct GatheredFrom<Importon> {
     using Packet = ImportancePacket;
 };
 
-/// What is gathered. Source is Vpl or Importon. Counts may be smaller than the buffers'.
+/// What a gather works on. Source is Vpl or Importon. Counts may be smaller than those of the buffers.
 template <typename Source>
 struct GatherInput {
     const DeviceTree& tree;  ///< uploaded for the gatherer's kernel
@@ -50,47 +50,49 @@ struct GatherInput {
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    /// Which VPLs each bundle asks about; null: all of them. Excludes groups.
+    /// The VPLs that each bundle asks about; null means all of them. Cannot be combined with groups.
     const VplSelection* selection = nullptr;
-    /// Other than 0: sums by groups of so many VPLs that follow one another, in place of one sum.
+    /// The number of consecutive VPLs in each group that is summed by itself; 0 makes one sum over all VPLs.
     uint group_size = 0;
-    /// Of each receiver (64 · packet + lane); pairs whose light, squared and without visibility, R, G and B
-    /// together, would be less count for nothing. For estimates. Null: all count.
+    /// A threshold for each receiver (64 · packet + lane), for use in estimates. A pair contributes nothing
+    /// if the squares of its unoccluded R, G and B add up to less than the receiver's threshold. Null means
+    /// that every pair contributes.
     const Buffer<float>* thresholds = nullptr;
 
     [[nodiscard]] std::size_t group_count() const {
         return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
     }
-    /// What goes through the tree together. Without a selection that does not matter to the result.
+    /// The packets that are gathered together. Without a selection, the result does not depend on it.
     [[nodiscard]] BundleLayout bundles() const {
         const auto count = static_cast<uint>(packet_count);
         return selection != nullptr ? selection->bundles : BundleLayout{count, std::max(count, 1u)};
     }
 };
 
-/// What a gather of VPLs or importons brings, in packets of 64 receivers.
+/// The result of a gather of VPLs or importons, in packets of 64 receivers.
 template <typename Source>
 struct GatherSums {
     using Packet = typename GatheredFrom<Source>::Packet;
 
-    /// For a gather without groups, or with `group_count` of them.
+    /// Allocates the sums of a gather with `group_count` groups; 0 means without groups.
     GatherSums(Device& device, std::size_t packet_count, std::size_t group_count = 0)
         : light(device, group_count == 0 ? packet_count : 0),
           squares(device, group_count == 0 ? 0 : packet_count),
           groups(device, group_count * packet_count) {}
 
     Buffer<Packet> light;    ///< without groups: the sum over all VPLs, in W/m² for light
-    Buffer<Packet> squares;  ///< with groups: the sum over all VPLs of each one's square, channel by channel
-    Buffer<Packet> groups;   ///< with groups: the sum over the VPLs of each, packet_count packets a group
+    Buffer<Packet> squares;  ///< with groups: the sum of squares over all VPLs, channel by channel
+    Buffer<Packet> groups;   ///< with groups: packet_count packets per group, the sum over its VPLs
 };
 
-/// Called between launches with the number of (receiver, VPL) pairs done so far and of all; false cancels.
+/// Called between launches with the number of (receiver, VPL) pairs that are done and their total number.
+/// Returns false to cancel.
 using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
 
 /// What became of one (receiver, VPL) pair.
 enum class GatherPair : std::uint8_t {
-    /// No ray: a cosine is not positive (an absent receiver's is 0), something is not finite, the VPL is not
-    /// in the bundle's list, or its light is less than the threshold.
+    /// No ray was traced: a cosine is not positive (that of an absent receiver is 0), a value is not finite,
+    /// the VPL is not in the bundle's list, or its light is below the threshold.
     culled = 0,
     visible = 1,
     occluded = 2,
@@ -98,24 +100,24 @@ enum class GatherPair : std::uint8_t {
 
 class Gatherer {
   public:
-    /// Begins to compile the kernel; the first gather throws what went wrong (see Program). Throws
-    /// Error(ErrorKind::invalid_argument) for a packet width that there is not.
+    /// Begins to compile the kernel; if that fails, the first gather throws the error (see Program). Throws
+    /// Error(ErrorKind::invalid_argument) for a width that the kernel does not have.
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
     /// light[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0, vpl_count),
-    /// for each packet p of [0, packet_count). Sums are formed in a fixed order: the same bits for any
-    /// division into launches and any number of threads. Pairs with NaN or infinity in them contribute
-    /// nothing. Returns when done; false if `progress` cancelled, and then only part of the VPLs is summed.
-    /// Throws Error(ErrorKind::invalid_argument) for groups with a selection.
+    /// for each packet p of [0, packet_count). Sums are formed in a fixed order, so their bits depend neither
+    /// on the division into launches nor on the number of threads. Pairs that contain NaN or infinity
+    /// contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums then cover
+    /// only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with a selection.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});
 
-    /// The same, and what became of each pair: entry (packet·vpl_count + vpl)·64 + lane. For tests and
-    /// benchmarks; a byte a pair.
+    /// Gathers as gather() does and returns what became of each pair, as entry (packet·vpl_count + vpl)·64 +
+    /// lane. It takes a byte per pair and is meant for tests and benchmarks.
     std::vector<GatherPair> gather_recorded(const GatherInput<Vpl>& input, GatherSums<Vpl>& sums);
 
-    /// For which the tree must be uploaded; never `automatic`.
+    /// The kernel that gathers, for which the tree must be uploaded; never `automatic`.
     [[nodiscard]] GatherKernel kernel() const { return config_.kernel; }
 
   private:
@@ -141,12 +143,12 @@ class Gatherer {
 
     Device* device_;
     GatherConfig config_;
-    double launch_pairs_;          ///< of the next gather's first launch
-    Buffer<GatherParams> params_;  ///< of a launch
-    Buffer<uint> next_beam_;       ///< the queue of a launch of gather_packets: one number
+    double launch_pairs_;          ///< pairs in the first launch of the next gather
+    Buffer<GatherParams> params_;  ///< parameters of a launch
+    Buffer<uint> next_beam_;       ///< the queue of one launch of gather_packets: a single counter
     Buffer<float> no_thresholds_;
-    // Made when first asked for, but for the plain kernel. Those with lists come last, of both kinds the
-    // recording one second.
+    // All kernels but the plain one are made when they are first needed. Their order is: plain, recording,
+    // with lists, recording with lists.
     std::array<std::optional<Kernel>, 4> kernels_;
 };
 

@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-/// How far apart opposite normals are, as a part of the extent of all positions.
+/// The distance between opposite normals, as a part of the extent of all positions.
 constexpr float kNormalDistance = 0.5f;
 
 using Key = std::array<float, 6>;

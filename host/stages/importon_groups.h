@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of the picture: importons that are near one another and face alike.
+// Parts of the picture: groups of importons that are close together and face in similar directions.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace nearlight::core {
 
-/// Splits them into `wanted` groups of nearly equal size (fewer if there are fewer importons; none is empty),
-/// again and again at the median of what spreads most, position or normal.
+/// Splits importons into `wanted` groups of nearly equal size, or into fewer if there are fewer importons; no
+/// group is empty. It repeatedly halves a group at the median of the coordinate, of position or normal, that
+/// spreads most.
 std::vector<std::vector<Importon>> group_importons(std::vector<Importon> importons, std::size_t wanted);
 
 }  // namespace nearlight::core

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs that stages share on CPUs. A stage names its own where it makes its Program.
+// The programs that stages share on CPUs. Each stage names one of them where it makes its Program.
 #pragma once
 
 #include "host/cl/program.h"
 
 namespace nearlight::core {
 
-/// What makes a picture from receivers.
+/// The stages that make receivers and turn them into a picture.
 inline constexpr JointProgram kViewProgram{"joint/view.cl"};
-/// Walks through the scene.
+/// The stages that trace walks through the scene.
 inline constexpr JointProgram kWalksProgram{"joint/walks.cl"};
 /// The small stages that every sampler draws on.
 inline constexpr JointProgram kVplsProgram{"joint/vpls.cl"};

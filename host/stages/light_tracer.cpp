@@ -11,8 +11,8 @@ namespace {
 
 constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
-/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds keep deep light from costing
-/// as much as all the rest (bright rooms), or from being carried by hardly any walk (dark ones).
+/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds on ρ̄ keep deep light from
+/// costing as much as all other light in bright rooms, and from having hardly any walks in dark rooms.
 std::vector<float> walks_at_each_depth(const LightWalks& walks) {
     const float survival = std::clamp(walks.mean_albedo, 0.2f, 0.9f);
     std::vector<float> launched;

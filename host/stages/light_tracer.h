@@ -11,37 +11,38 @@
 
 namespace nearlight::core {
 
-/// Which deposits are kept of those in the close range; the values are kernels/light_tracer.cl's.
+/// Which deposits in the close range are kept. The values must be those in kernels/light_tracer.cl.
 enum class KeepDeposits : uint { all = 0, indirect_inside = 1, outside = 2 };
 
-/// The part of the scene that close-range VPLs answer for.
+/// The part of the scene whose light close-range VPLs carry.
 struct CloseRegion {
     Buffer<CloseRange> range;
-    Buffer<uint> triangles;        ///< 1 for each scene triangle that was selected
-    bool whole_triangles = false;  ///< true: a selected triangle belongs to it whole (policy `paper`)
+    Buffer<uint> triangles;        ///< one per scene triangle: 1 if it was selected, else 0
+    bool whole_triangles = false;  ///< whether selected triangles lie in it as a whole (policy `paper`)
 };
 
-/// How walks are launched. Any value of `mean_albedo` is unbiased.
+/// How walks are launched. The result is unbiased for any value of `mean_albedo`.
 struct LightWalks {
     uint walk_count = 0;
-    uint bounce_count = 1;     ///< most VPLs a walk deposits
+    uint bounce_count = 1;     ///< maximum number of VPLs that a walk deposits
     float mean_albedo = 0.5f;  ///< sets how many walks go on to each depth
     uint seed = 0;
 };
 
-/// Takes deposits while they are on the device: the first `count` ≥ 1 of `vpls`, which is used again
-/// afterwards.
+/// Takes deposits while they are on the device: the first `count` ≥ 1 elements of `vpls`, which the next
+/// batch overwrites.
 using DepositVisitor = std::function<void(const Buffer<Vpl>& vpls, std::size_t count)>;
 
 class LightTracer {
   public:
     explicit LightTracer(Device& device);
 
-    /// All deposits to keep, in the order of walks and depths. Works in batches, so that device memory stays
-    /// small.
+    /// Returns all deposits that `keep` keeps, in the order of walks and depths. Works in batches to use
+    /// little device memory.
     std::vector<Vpl> run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
                          const LightWalks& walks);
-    /// The same deposits, batch by batch, for what need not be held all at once.
+    /// Passes the deposits that `keep` keeps to `visit`, batch by batch, for work that does not need all of
+    /// them at once.
     void run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep, const LightWalks& walks,
              const DepositVisitor& visit);
 

@@ -4,7 +4,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Of the whole scene's area: a few centimetres square in a hall. Smaller triangles get a single point.
+/// The area per test point, as a part of the scene's area: a square of a few centimetres in a hall. Smaller
+/// triangles get a single point.
 constexpr double kAreaPerPoint = 1e-6;
 
 }  // namespace

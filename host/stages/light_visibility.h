@@ -11,7 +11,8 @@ class LightVisibility {
   public:
     explicit LightVisibility(Device& device);
 
-    /// Sets selected[id] = 1 for those of the first `id_count` triangle ids that any light seems to reach.
+    /// Sets selected[id] = 1 for each of the first `id_count` triangle ids where some light reaches a test
+    /// point.
     void run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed,
              Buffer<uint>& selected);
 

@@ -8,7 +8,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Slots that are worked on at a time: enough to keep the device busy, a few dozen MiB at most.
+/// The number of slots that are worked on at a time. It keeps the device busy and takes at most a few dozen
+/// MiB.
 std::size_t slots_at_a_time(const Device& device) {
     const std::size_t wanted = device.tunables().batch_receivers / 2;
     return std::min(wanted, device.entry().max_allocation_bytes / (2 * sizeof(Vpl)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights of each packet of receivers, which supply what VPLs lose to a wide clamp. Kernels: local_lights.cl.
+// Local lights of each packet of receivers, which supply what VPLs lose to a wide clamp radius. The kernels
+// are in local_lights.cl.
 #pragma once
 
 #include <limits>
@@ -12,23 +13,23 @@
 
 namespace nearlight::core {
 
-/// What local lights are to supply, and how. VPLs at y are gathered with the radius R_g(y) = widest_radius /
-/// 2^level, level the first of 0 to 3 for which that is at most radius_at_unit_light / √E(y), and not below
-/// the clamp radius; E is an estimate of the direct light (W/m², luminance). Local lights supply the rest,
-/// down to the clamp radius.
+/// What local lights are to supply, and how. A VPL at y is gathered with the radius R_g(y) = widest_radius /
+/// 2^level, but never below the clamp radius. The level is the first of 0 to 3 for which the radius is at
+/// most radius_at_unit_light / √E(y), where E estimates the direct light (luminance, W/m²). Local lights
+/// supply the rest, down to the clamp radius.
 struct LocalLightPlan {
     float clamp_radius = 0.0f;   ///< m
     float widest_radius = 0.0f;  ///< m, at least clamp_radius; local lights lie within it
-    float radius_at_unit_light =
-        std::numeric_limits<float>::infinity();  ///< m·√(W/m²); infinite: all the widest
-    uint rays_per_receiver = 1;                  ///< that look for lights
-    uint connections = 1;                        ///< from each light to VPLs, chosen evenly among them
-    uint direct_samples = 1;                     ///< towards area and environment lights, from each light
-    uint bounce_count = 1;                       ///< most steps that light takes to a local light
+    /// Narrows the radius of well-lit VPLs, in m·√(W/m²); infinity makes every radius widest_radius.
+    float radius_at_unit_light = std::numeric_limits<float>::infinity();
+    uint rays_per_receiver = 1;  ///< short rays that find local lights
+    uint connections = 1;        ///< from each local light to VPLs, chosen with equal probability
+    uint direct_samples = 1;     ///< towards area and environment lights, from each local light
+    uint bounce_count = 1;       ///< maximum number of steps that light takes to a local light
     uint seed = 0;
 };
 
-/// VPLs of all depths, in an order in which neighbours are alike, and the radius that belongs to each.
+/// VPLs of all depths, in an order in which neighbours are alike, and the radius that each is gathered with.
 struct LocalVpls {
     explicit LocalVpls(Device& device) : radii(device, 0), vpls(device, 0) {}
 
@@ -40,10 +41,11 @@ struct LocalVpls {
     std::size_t count = 0;
     Buffer<float> radii;  ///< m
     Buffer<Vpl> vpls;
-    std::vector<Group> groups;  ///< the same VPLs by radius, for as many gathers; the widest radius first
+    std::vector<Group> groups;  ///< the same VPLs by radius, the widest first; each takes one gather
 };
 
-/// rays_per_receiver · 64 slots a packet; kernels/local_lights.cl says which is whose.
+/// Slots for local lights: rays_per_receiver · 64 per packet, in the order that kernels/local_lights.cl
+/// states.
 struct LocalLightSlots {
     LocalLightSlots(Device& device, std::size_t slot_count)
         : lights(device, slot_count),
@@ -53,28 +55,28 @@ struct LocalLightSlots {
           seen_by(device, slot_count) {}
 
     Buffer<Vpl> lights;             ///< power is exitance (W/m²) over the density of lights (1/m²): flux, W
-    Buffer<float> radii;            ///< R_g of a light, m
+    Buffer<float> radii;            ///< R_g of each light, m
     Buffer<uint> flags;             ///< 1 where the slot holds a light
-    Buffer<uint> indices;           ///< of those slots, ascending
-    Buffer<std::uint64_t> seen_by;  ///< of a light: bit i stands for receiver i of the packet
+    Buffer<uint> indices;           ///< slots that hold a light, ascending
+    Buffer<std::uint64_t> seen_by;  ///< for each light: bit i is 1 if receiver i of the packet sees it
 };
 
 class LocalLights {
   public:
     explicit LocalLights(Device& device);
 
-    /// Decides on the radius of each VPL.
+    /// Chooses the radius of each VPL and groups the VPLs by it.
     LocalVpls group(const DeviceScene& scene, std::span<const Vpl> vpls, const LocalLightPlan& plan);
 
-    /// Adds to the irradiance of each receiver what the geometry term bounded at the clamp radius has and
-    /// that bounded at R_g has not, as an unbiased estimate. `vpls` are those of the gather. Returns how many
-    /// local lights there were.
+    /// Adds an unbiased estimate of the missing light to the irradiance of each receiver: the light with the
+    /// geometry term bounded at the clamp radius, less the light with the term bounded at R_g. `vpls` are the
+    /// VPLs of the gather. Returns the number of local lights.
     std::size_t add(const DeviceScene& scene, const LocalVpls& vpls, const Buffer<ReceiverPacket>& receivers,
                     std::size_t packet_count, const LocalLightPlan& plan,
                     Buffer<IrradiancePacket>& irradiance);
 
-    /// Its first part: the lights of the packets [first_packet, first_packet + packet_count). Returns their
-    /// number.
+    /// Makes the local lights of the packets [first_packet, first_packet + packet_count), which is the first
+    /// part of add(). Returns their number.
     std::size_t make(const DeviceScene& scene, const LocalVpls& vpls, const Buffer<ReceiverPacket>& receivers,
                      std::size_t first_packet, std::size_t packet_count, const LocalLightPlan& plan,
                      LocalLightSlots& slots);

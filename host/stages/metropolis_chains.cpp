@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace nearlight::core {
-/// Depth and choice of light, position, direction, and one pair for each bounce but the last.
+/// The pairs of numbers choose depth and light, position, direction, and each bounce but the last.
 PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_count)
     : count(static_cast<uint>(state_count)),
       pair_count(bounce_count + 2),
@@ -15,7 +15,7 @@ PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_coun
       targets(device, state_count) {}
 
 Buffer<float> make_depth_cdf(Device& device, uint bounce_count, float mean_albedo) {
-    // Bounded, as in LightTracer: neither deep light nor the absence of it should cost all the samples.
+    // The bounds are those of LightTracer: neither deep light nor shallow light should take all the samples.
     const float survival = std::clamp(mean_albedo, 0.2f, 0.9f);
     std::vector<float> cdf;
     double sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Markov chains over light walks, all in step with each other.
+// Markov chains over light walks, which all take their steps together.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -11,41 +11,44 @@
 
 namespace nearlight::core {
 
-/// States of chains, or seeds of them: points of the unit cube and the VPLs they stand for.
+/// States of chains or their seeds: points of the unit cube, and the VPLs that they stand for.
 struct PathStates {
     PathStates(Device& device, std::size_t state_count, uint bounce_count);
 
     uint count;
-    uint pair_count;        ///< of numbers a state
+    uint pair_count;        ///< pairs of numbers per state
     Buffer<float> numbers;  ///< in [0, 1), laid out as kernels/metropolis_chains.cl says
-    Buffer<Vpl> vpls;       ///< their powers are estimates of all light, each by itself
+    Buffer<Vpl> vpls;       ///< the power of each VPL by itself is an estimate of all light
     Buffer<float> targets;  ///< the density that chains follow, not normalised
 };
 
-/// What chains move in and follow. It must not change while they run, nor depend on their seeds.
+/// The space that chains move in and the density that they follow. It must not change while they run, and it
+/// must not depend on their seeds.
 struct PathSpace {
     const DeviceScene& scene;
     const PilotView& view;
     float clamp_radius = 0.0f;
-    float blind_target = 1.0f;  ///< for each watt (luminance) of a VPL, besides what it brings to the camera
+    float blind_target = 1.0f;  ///< added to the target for each watt (luminance) of a VPL
     uint seed = 0;
     uint bounce_count = 1;
-    Buffer<float> depth_cdf;  ///< bounce_count entries, the last is 1; every depth has a positive probability
+    Buffer<float> depth_cdf;  ///< bounce_count values, the last 1; every depth has a positive probability
 };
 
-/// Depths with probabilities in proportion to mean_albedo^depth.
+/// Cumulative probabilities of the depths 1 to bounce_count, in proportion to mean_albedo^depth.
 Buffer<float> make_depth_cdf(Device& device, uint bounce_count, float mean_albedo);
 
 class MetropolisChains {
   public:
-    /// `vpl_contribution` must outlive it.
+    /// Keeps a reference to `vpl_contribution`, which must outlive the object.
     MetropolisChains(Device& device, VplContribution& vpl_contribution);
 
-    /// Independent states, given by their indices (states.count of them) in a randomised sequence.
+    /// Makes independent states from the states.count elements of `indices`, which are places in a randomised
+    /// sequence.
     void seed(const PathSpace& space, const Buffer<uint>& indices, PathStates& states);
-    /// One step of each chain: `proposed` is scratch of the same size. Steps of a run have different numbers.
+    /// Takes one step of each chain. `proposed` is scratch of the same size as `chains`. Each step of a run
+    /// must have its own number `step`.
     void advance(const PathSpace& space, uint step, PathStates& chains, PathStates& proposed);
-    /// kept[first + i] = VPL of chain i, its power multiplied by scale / target.
+    /// Sets kept[first + i] to the VPL of chain i, with its power multiplied by scale / target.
     void keep(const PathStates& chains, float scale, Buffer<Vpl>& kept, std::size_t first);
 
   private:

@@ -13,7 +13,7 @@ constexpr uint kKeyBits = 32;
 static_assert(kKeyBits / kDigitBits % 2 == 0, "an even number of passes ends in the buffers it began with");
 static_assert(sizeof(Aabb) == 6 * sizeof(float));
 
-/// Runs long enough that their 256 counters are worth having.
+/// Splits pairs into runs that are long enough to be worth their 256 counters.
 Chunks split_for_sort(const Device& device, std::size_t count) {
     return split_into_chunks(device, count, device.tunables().shortest_sort_run);
 }

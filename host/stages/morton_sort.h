@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Order along the Morton curve, and the radix sort behind it. Kernels: morton_sort.cl.
+// Order along the Morton curve, and the radix sort behind it. The kernels are in morton_sort.cl.
 #pragma once
 
 #include "host/base/math.h"
@@ -10,13 +10,15 @@
 
 namespace nearlight::core {
 
-/// Elements are structs that begin with their position (Vec3, Vpl, SurfaceSample, …).
+/// Sorts elements along the Morton curve. Elements are structs that begin with a position (Vec3, Vpl,
+/// SurfaceSample, …).
 class MortonSort {
   public:
     explicit MortonSort(Device& device);
 
-    /// Indices of the elements along the Morton curve through their bounds; of equal codes the lower index
-    /// first. `order` has room for `count`. Waits for the device.
+    /// Writes the indices of the elements to `order`, along the Morton curve through their bounding box.
+    /// Among equal codes, the lower index comes first. `order` must have room for `count` elements. Waits for
+    /// the device.
     template <typename T>
     void order(const Buffer<T>& elements, std::size_t count, Buffer<uint>& order) {
         if (codes_.count() < count) {
@@ -26,7 +28,7 @@ class MortonSort {
         sort(codes_, order, count);
     }
 
-    /// Box of the positions that are finite; empty where there is none. Waits for the device.
+    /// The bounding box of the finite positions; it is empty if there are none. Waits for the device.
     template <typename T>
     Aabb bounds(const Buffer<T>& elements, std::size_t count) {
         const BoundsRun run = begin_bounds(count);
@@ -34,8 +36,8 @@ class MortonSort {
                        static_cast<uint>(count), run.chunk_size, run.chunk_count);
         return finish_bounds(run.chunk_count);
     }
-    /// 30-bit codes of the positions, in cubic cells of which 1024 span the longest side of the box, and
-    /// values[i] = i. Positions outside count as the nearest cell.
+    /// Writes the 30-bit Morton codes of the positions, and values[i] = i. The cells are cubes, and 1024 of
+    /// them span the longest side of the box. A position outside the box gets the code of the nearest cell.
     template <typename T>
     void codes(const Buffer<T>& elements, std::size_t count, const Aabb& box, Buffer<uint>& codes,
                Buffer<uint>& values) {
@@ -44,10 +46,10 @@ class MortonSort {
                                    box.min.z, longest > 0.0f ? kCells / longest : 0.0f,
                                    static_cast<uint>(count));
     }
-    /// Sorts the first `count` pairs by key, ascending, pairs of equal keys in the order they were in.
+    /// Sorts the first `count` pairs by key, in ascending order. Pairs of equal keys keep their order.
     void sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count);
 
-    /// Device memory that sort() keeps for itself.
+    /// The device memory that sort() keeps for itself, in bytes.
     [[nodiscard]] std::size_t sort_scratch_bytes(std::size_t count) const;
 
   private:
@@ -72,7 +74,7 @@ class MortonSort {
     Kernel count_;
     Kernel scatter_;
     PrefixScan<uint> scan_;
-    Buffer<Aabb> boxes_;  ///< of the runs
+    Buffer<Aabb> boxes_;  ///< bounding boxes of the runs
     Buffer<uint> codes_;
     Buffer<uint> other_keys_;
     Buffer<uint> other_values_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Close-range VPLs from samples placed on surfaces.
+// Makes close-range VPLs of points that were placed on surfaces.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -12,8 +12,9 @@ class PatchVpls {
   public:
     explicit PatchVpls(Device& device);
 
-    /// Both sides of each sample as VPLs in 2 · sample_count slots: front, back, front, …; flags tell which
-    /// slots hold one. Power is albedo · area_per_sample, to be multiplied by the irradiance.
+    /// Writes the two sides of each sample as VPLs to 2 · sample_count slots: front, back, front, …. The flag
+    /// of a slot is 1 if the slot holds a VPL, else 0. The power is albedo · area_per_sample (m²) and still
+    /// has to be multiplied by the irradiance.
     void run(const DeviceScene& scene, const Buffer<SurfaceSample>& samples, std::size_t sample_count,
              const CloseRegion& region, float area_per_sample, Buffer<Vpl>& vpls, Buffer<uint>& flags);
 

@@ -13,7 +13,8 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kPixelCount = 1024;
-/// They only steer a choice, and are asked by many candidates (bench/log/generation.md).
+/// Few importons suffice, because they only steer a choice. Many candidates gather from them, so each costs
+/// time (bench/log/generation.md).
 constexpr std::size_t kFewSquaredImportons = 32;
 constexpr std::size_t kGroupedImportons = 1024;
 constexpr std::size_t kImportonGroups = 64;
@@ -33,7 +34,7 @@ std::vector<float> receiver_distances(const std::vector<ReceiverPacket>& packets
     return distances;
 }
 
-/// `wanted` of them, evenly spread.
+/// Picks `wanted` importons at even distances in the array.
 std::vector<Importon> some_of(std::span<const Importon> importons, std::size_t wanted) {
     const std::size_t count = std::min(importons.size(), wanted);
     std::vector<Importon> some;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small picture's worth of receivers, by which settings are chosen that nobody gave.
+// A pilot view: the receivers of a small picture, which decide the settings that the user left open.
 #pragma once
 
 #include <span>
@@ -10,49 +10,50 @@
 
 namespace nearlight::core {
 
-/// What is asked of importons; kernels/vpl_contribution.cl has the formulas.
+/// The measure of what a VPL brings to importons. kernels/vpl_contribution.cl has the formulas.
 enum class ContributionNorm {
-    mean,               ///< what a VPL brings: luminance
-    rough_mean_square,  ///< what it would add to the error of the picture if chosen by chance; few importons
+    mean,               ///< the luminance that a VPL brings
+    rough_mean_square,  ///< what a VPL drawn by chance would add to the picture's error, by few importons
 };
 
-/// For rough mean squares, responses are squares, and the importons are marked for squared geometry terms.
+/// Importons on a device. Those for ContributionNorm::rough_mean_square have squared responses and are marked
+/// for squared geometry terms.
 struct Importons {
     Buffer<Importon> importons;
     std::size_t count = 0;
 };
 
-/// Importons by parts of the picture: groups of `group_size` that follow one another. Where a group has
-/// fewer, it is filled up with some that nothing reaches.
+/// Importons by parts of the picture: consecutive groups of `group_size`. A smaller group is padded with
+/// importons that nothing reaches.
 struct ImportonGroups {
     Buffer<Importon> importons;
-    std::size_t importon_count = 0;  ///< without those that fill up
+    std::size_t importon_count = 0;  ///< without the padding
     uint group_size = 0;
     uint group_count = 0;
 };
 
 struct PilotView {
-    const Device* device = nullptr;  ///< that all buffers are on
+    const Device* device = nullptr;  ///< the device that all buffers are on
     Buffer<ReceiverPacket> receivers;
     Buffer<CameraVertex> vertices;
     uint packet_count = 0;
     Importons importons;
-    Importons few_squared_importons;  ///< few of them, evenly spread
-    ImportonGroups importon_groups;   ///< some of them
-    std::vector<float> distances;  ///< of the receivers from the camera, ascending, m; empty: nothing in view
+    Importons few_squared_importons;  ///< few of the importons, evenly spread, for rough mean squares
+    ImportonGroups importon_groups;   ///< some of the importons, by parts of the picture
+    std::vector<float> distances;     ///< between camera and receivers, ascending, m; empty: nothing in view
 
     [[nodiscard]] bool is_on(const Device& other) const { return device == &other; }
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;
 };
 
-/// What the camera sees of light, one importon for each receiver that reflects any of it.
+/// Makes one importon for each receiver that reflects light to the camera.
 std::vector<Importon> make_importons(const std::vector<ReceiverPacket>& packets,
                                      const std::vector<CameraVertex>& vertices);
 
-/// Uploads them, the squares of some, and groups.
+/// Uploads the importons to the view, along with its few squared importons and its groups.
 void set_importons(Device& device, PilotView& view, std::span<const Importon> importons);
 
-/// About a thousand receivers, evenly spread over the view.
+/// Makes a pilot view of about a thousand receivers, which are evenly spread over the picture.
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
                         const SceneCamera& camera, uint seed);
 

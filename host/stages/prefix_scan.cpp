@@ -55,13 +55,13 @@ void PrefixScan<T>::scan_level(const Buffer<T>& input, Buffer<T>& output, uint c
                             chunks.count, uint{inclusive});
     };
     if (chunks.count == 1) {
-        scan_from(total_);  // not read
+        scan_from(total_);  // a single run reads no offsets
         return;
     }
     if (chunk_sums_.size() <= level) {
         chunk_sums_.resize(level + 1);
     }
-    // Taken out of the vector, which the deeper level may grow.
+    // The sums are moved out of the vector because the deeper level may make it grow.
     Buffer<T> sums = std::move(chunk_sums_[level]);
     if (sums.count() < chunks.count) {
         sums = Buffer<T>(*device_, chunks.count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prefix sums of integers on the device; the same result on every device. Kernels: prefix_scan.cl.
+// Prefix sums of integers, with the same result on every device. The kernels are in prefix_scan.cl.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,26 @@
 
 namespace nearlight::core {
 
-/// T is uint or std::uint64_t. Sums wrap around as unsigned integers do; the caller sees to it that they fit.
+/// Prefix sums of T, which is uint or std::uint64_t. Sums wrap around as unsigned integers do; the caller
+/// makes sure that they fit.
 template <typename T>
 class PrefixScan {
   public:
     explicit PrefixScan(Device& device);
 
-    /// output[i] = input[0] + … + input[i − 1], for i < count. Both hold at least `count` elements; they may
-    /// be one buffer.
+    /// Sets output[i] = input[0] + … + input[i − 1] for all i < count. Both buffers hold at least `count`
+    /// elements, and they may be the same buffer.
     void exclusive(const Buffer<T>& input, Buffer<T>& output, std::size_t count) {
         scan(input, output, count, false);
     }
-    /// output[i] = input[0] + … + input[i].
+    /// Sets output[i] = input[0] + … + input[i] for all i < count. They may be one buffer.
     void inclusive(const Buffer<T>& input, Buffer<T>& output, std::size_t count) {
         scan(input, output, count, true);
     }
-    /// One element: the sum of all inputs of the latest scan.
+    /// A buffer of one element: the sum of all inputs of the latest scan.
     [[nodiscard]] const Buffer<T>& total() const { return total_; }
 
-    /// Device memory that a scan of `count` elements keeps for itself.
+    /// The device memory that a scan of `count` elements keeps for itself, in bytes.
     [[nodiscard]] std::size_t scratch_bytes(std::size_t count) const;
 
   private:
@@ -41,7 +42,7 @@ class PrefixScan {
     Kernel reduce_;
     Kernel scan_chunks_;
     Buffer<T> total_;
-    std::vector<Buffer<T>> chunk_sums_;  ///< by level
+    std::vector<Buffer<T>> chunk_sums_;  ///< one buffer per level
 };
 
 extern template class PrefixScan<uint>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays cast on the device, for comparing its traversal with others. Kernels: ray_caster.cl.
+// Casts rays on the device, to compare its traversal with others. The kernels are in ray_caster.cl.
 #pragma once
 
 #include <span>
@@ -16,11 +16,13 @@ class RayCaster {
   public:
     explicit RayCaster(Device& device);
 
-    /// Enqueues: for each ray the closest hit.
+    /// Writes the closest hit of each ray to `hits`. Does not wait for the device.
     void cast(const DeviceTree& tree, const Buffer<RayQuery>& rays, Buffer<RayHit>& hits);
-    /// For each ray the closest hit (triangle ~0u: none). Uploads the tree anew; waits for the device.
+    /// Returns the closest hit of each ray; the triangle is ~0u if the ray hits nothing. Uploads the tree and
+    /// waits for the device.
     std::vector<BvhHit> closest_hits(const Bvh& bvh, std::span<const RayQuery> rays);
-    /// For each ray 1 if it hits anything, else 0.
+    /// Returns 1 for each ray that hits anything, 0 for the others. Uploads the tree and waits for the
+    /// device.
     std::vector<uint> any_hits(const Bvh& bvh, std::span<const RayQuery> rays);
 
   private:

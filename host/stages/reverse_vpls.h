@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VPLs where rays from points that the camera sees land. Kernel: reverse_vpls.cl.
+// Reverse VPLs, which lie where rays from points that the camera sees land. The kernel is in reverse_vpls.cl.
 #pragma once
 
 #include <span>
@@ -12,27 +12,27 @@
 
 namespace nearlight::core {
 
-/// Where reverse VPLs are made from.
+/// The points that send the rays of reverse VPLs.
 struct CameraPoints {
-    Buffer<Importon> points;  ///< of response rays_per_point, so that a gather sums their density
+    Buffer<Importon> points;  ///< with the response rays_per_point, so that a gather sums the density of VPLs
     uint count = 0;
     uint rays_per_point = 1;
 };
 
-/// The surfaces' points that `importons` stand on, each to send so many rays.
+/// Makes camera points of `importons`. Each point is to send `rays_per_point` rays.
 CameraPoints make_camera_points(Device& device, std::span<const Importon> importons, uint rays_per_point);
 
 class ReverseVpls {
   public:
-    /// Gathers with `gatherer`, which must outlive it.
+    /// Keeps a reference to `gatherer`, which must outlive the object.
     ReverseVpls(Device& device, Gatherer& gatherer);
 
-    /// A VPL where each ray lands on a surface that reflects; its power is the albedo there, for an
+    /// Makes a VPL wherever a ray lands on a surface that reflects. Its power is the albedo there, for an
     /// irradiance and a density of 1.
     std::vector<Vpl> trace(const DeviceScene& scene, const CameraPoints& points, uint seed);
 
-    /// How many of those VPLs there are a square metre around each receiver, in expectation: all three
-    /// channels of density.light. Exact for these very points, whatever rays they sent.
+    /// Writes the expected number of reverse VPLs per square metre around each receiver to all three channels
+    /// of density.light. It is exact for these camera points and does not depend on the rays that they sent.
     void measure_density(const DeviceScene& scene, const CameraPoints& points,
                          const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                          GatherSums<Importon>& density);

@@ -6,11 +6,11 @@
 namespace nearlight::core {
 namespace {
 
-/// Of bounds, indices and weights together.
+/// The memory for bounds, indices and weights together.
 constexpr std::size_t kListBytes = std::size_t{96} << 20u;
 constexpr std::size_t kEntryBytes = 2 * sizeof(float) + sizeof(uint);
 
-/// Bundles whose lists fit into memory together; at least 1.
+/// The number of bundles whose lists fit into kListBytes together; at least 1.
 std::size_t max_bundles(std::size_t vpl_count) {
     return std::max<std::size_t>(1, kListBytes / (kEntryBytes * std::max<std::size_t>(1, vpl_count)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Russian roulette over the VPLs of a gather: few rays for what could bring little light. Kernels:
-// roulette.cl.
+// Russian roulette over the VPLs of a gather, which traces few rays to VPLs that could bring little light.
+// The kernels are in roulette.cl.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -14,9 +14,9 @@ struct RouletteTask {
     const Buffer<ReceiverPacket>& receivers;
     BundleLayout bundles;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    /// A bundle always asks about a VPL that could bring its receivers (root mean square, as if nothing were
-    /// in the way) at least `threshold` times the mean over all VPLs; about others with a probability in
-    /// proportion to what they could bring. Above 0.
+    /// A bundle always asks about a VPL that could bring its receivers at least `threshold` times the mean
+    /// over all VPLs, and about other VPLs with a probability in proportion to what they could bring. That is
+    /// the root mean square of unoccluded light. Must be above 0.
     float threshold = 1.0f;
     uint seed = 0;
 };
@@ -25,8 +25,8 @@ class Roulette {
   public:
     explicit Roulette(Device& device);
 
-    /// The lists that the task's bundles get by chance; each VPL in a list weighs 1/p. Refers to the roulette
-    /// and the task's buffers.
+    /// Makes the lists of VPLs that the task's bundles draw; each VPL in a list has the weight 1/p. The
+    /// selection refers to the roulette and to the task's buffers.
     [[nodiscard]] VplSelection select(const RouletteTask& task);
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles reach into the close range. Kernels: triangle_classifier.cl.
+// Finds the triangles that reach into the close range. The kernels are in triangle_classifier.cl.
 #pragma once
 
 #include "host/cl/buffer.h"
@@ -12,14 +12,15 @@ class TriangleClassifier {
   public:
     explicit TriangleClassifier(Device& device);
 
-    /// For each triangle: flag 1 if some point of it is in the close range (glass and triangles without area
-    /// never are), and the area of all of it, m². `range` holds one element. The outputs have one element a
-    /// triangle.
+    /// Writes a flag and the whole area (m²) of each triangle. The flag is 1 if some point of the triangle is
+    /// in the close range; it is 0 for glass and for triangles without area. `range` holds one element, and
+    /// the outputs hold one element per triangle.
     void classify(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
                   const Buffer<Material>& materials, const Buffer<CloseRange>& range,
                   std::size_t triangle_count, Buffer<uint>& flags, Buffer<float>& areas);
 
-    /// centroids[i] of triangle ids[i], i < count: what the triangles are put in Morton order by.
+    /// Sets centroids[i] to the centroid of triangle ids[i] for all i < count. Triangles are put in Morton
+    /// order by their centroids.
     void centroids(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles, const Buffer<uint>& ids,
                    std::size_t count, Buffer<Vec3>& centroids);
 

@@ -10,14 +10,14 @@
 
 namespace nearlight::core {
 
-/// VPLs on one device, fetched by who must see them on the host.
+/// VPLs in the memory of one device. They can be downloaded where the host needs them.
 class VplBuffer {
   public:
     VplBuffer() = default;
-    /// The first `count` of `buffer`, which is on `device`.
+    /// Takes the first `count` VPLs of `buffer`, which is on `device`.
     VplBuffer(Device& device, Buffer<Vpl> buffer, std::size_t count)
         : device_(&device), buffer_(std::move(buffer)), count_(count) {}
-    /// Uploads them.
+    /// Uploads `vpls` to `device`.
     VplBuffer(Device& device, std::span<const Vpl> vpls)
         : VplBuffer(device, Buffer<Vpl>(device, vpls), vpls.size()) {}
 
@@ -33,9 +33,10 @@ class VplBuffer {
         return vpls;
     }
 
-    /// Downloads them once, so that copies can be made after the device has failed, and by several threads.
+    /// Keeps a copy of the VPLs on the host, so that copy_to() works after the device has failed and from
+    /// several threads.
     void keep_on_host() { on_host_ = download(); }
-    /// The same VPLs on `device`.
+    /// Uploads the same VPLs to `device`.
     [[nodiscard]] VplBuffer copy_to(Device& device) const {
         return on_host_.size() == count_ ? VplBuffer(device, on_host_) : VplBuffer(device, download());
     }
@@ -44,7 +45,7 @@ class VplBuffer {
     Device* device_ = nullptr;
     Buffer<Vpl> buffer_;
     std::size_t count_ = 0;
-    std::vector<Vpl> on_host_;  ///< all of them, or none
+    std::vector<Vpl> on_host_;  ///< all VPLs, or none before keep_on_host()
 };
 
 }  // namespace nearlight::core

@@ -66,7 +66,7 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
                       importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.squares, 1u,
                                    errors);
-    // So that squares of sums over a group compare with sums of squares.
+    // The scale makes squares of sums over a group comparable with sums of squares.
     const float scale = std::sqrt(static_cast<float>(groups.group_count) /
                                   static_cast<float>(std::max<std::size_t>(groups.importon_count, 1)));
     vpl_group_contribution_.launch_items(vpl_count * groups.group_count, vpls, static_cast<uint>(vpl_count),

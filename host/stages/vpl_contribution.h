@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much each VPL brings to the camera, over a sample of receivers.
+// Estimates how much each VPL brings to the camera, from a sample of receivers.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -12,27 +12,28 @@ namespace nearlight::core {
 
 /// What VPLs bring to the parts of a picture.
 struct GroupContribution {
-    std::vector<float> errors;  ///< of each: what it would add to the picture's error if chosen by chance
-    /// What each VPL brings to each part, R, G and B: 3 · groups numbers a VPL. The root of the sum of their
-    /// squares is the error, but for what differs within a group.
+    std::vector<float> errors;  ///< for each VPL: what it would add to the picture's error if drawn by chance
+    /// The R, G and B that each VPL brings to each part: 3 · groups numbers per VPL. The root of the sum of
+    /// their squares is the VPL's error, apart from differences within a group.
     std::vector<float> rows;
 };
 
 class VplContribution {
   public:
-    /// Of the mean square; below it an importon of a group is not asked. A little less than 1, or of
-    /// importons that are all alike rounding would choose some.
+    /// An importon of a group is skipped if its squared importance is below this part of the mean square. The
+    /// part is a little less than 1, because otherwise rounding would skip some of several equal importons.
     static constexpr float kNegligiblePart = 0.9f;
 
-    /// Gathers with `gatherer`, which must outlive it.
+    /// Keeps a reference to `gatherer`, which must outlive the object.
     VplContribution(Device& device, Gatherer& gatherer);
 
-    /// One number for each of the first `vpl_count` VPLs, over all importons of the view.
+    /// Writes one number for each of the first `vpl_count` VPLs: its contribution to the importons of the
+    /// view, in the given norm.
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
              float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
-    /// By the importons of the groups. For each VPL those count for nothing whose importance, squared, would
-    /// be below kNegligiblePart of the mean of all if nothing were in the way.
+    /// Estimates contributions by the importons of the view's groups. For each VPL, an importon is skipped if
+    /// its squared unoccluded importance is below kNegligiblePart of the mean over all importons.
     GroupContribution by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                                const PilotView& view, float clamp_radius);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VPLs as receivers of light, and what they reflect of it.
+// VPLs as receivers of light, and the light that they reflect.
 #pragma once
 
 #include "host/base/receivers.h"
@@ -12,11 +12,12 @@ class VplLight {
   public:
     explicit VplLight(Device& device);
 
-    /// VPL i as lane i % 64 of packet i / 64, receiver_packet_count(vpl_count) packets.
+    /// Writes VPL i as the receiver in lane i % 64 of packet i / 64. There are
+    /// receiver_packet_count(vpl_count) packets.
     void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers);
     /// Multiplies the power of each VPL by the irradiance of its lane.
     void apply(const Buffer<IrradiancePacket>& irradiance, std::size_t vpl_count, Buffer<Vpl>& vpls);
-    /// irradiance += more
+    /// Adds `more` to `irradiance`, receiver by receiver.
     void add(const Buffer<IrradiancePacket>& more, std::size_t packet_count,
              Buffer<IrradiancePacket>& irradiance);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VPLs in an order in which neighbours are neighbours in space, so that the gather finds its nodes in the
+// Orders VPLs so that neighbours in the array are neighbours in space, and a gather finds tree nodes in the
 // cache.
 #pragma once
 
@@ -18,7 +18,7 @@ class VplOrder {
   public:
     explicit VplOrder(Device& device) : device_(&device), morton_sort_(device), compaction_(device) {}
 
-    /// Along the Morton curve through their bounds.
+    /// Uploads VPLs in their order along the Morton curve through their bounding box.
     VplBuffer sort(std::span<const Vpl> vpls) {
         const Buffer<Vpl> unsorted(*device_, vpls);
         Buffer<uint> order(*device_, vpls.size());
@@ -28,7 +28,8 @@ class VplOrder {
         return {*device_, std::move(sorted), vpls.size()};
     }
 
-    /// The indices in that order. Only positions are on the device meanwhile, so many more of them fit.
+    /// Returns the indices of VPLs in their order along the Morton curve. Only the positions are on the
+    /// device meanwhile, so that many more VPLs fit.
     std::vector<uint> order(std::span<const Vpl> vpls) {
         if (vpls.empty()) {
             return {};
@@ -41,7 +42,7 @@ class VplOrder {
         return indices.download();
     }
 
-    /// The same order on the host.
+    /// Returns VPLs in their order along the Morton curve, on the host.
     std::vector<Vpl> sorted(std::span<const Vpl> vpls) {
         std::vector<Vpl> result;
         result.reserve(vpls.size());

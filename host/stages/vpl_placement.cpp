@@ -10,7 +10,7 @@
 namespace nearlight::core {
 
 float area_units_per_square_metre(double total_area) {
-    // total_area · 2^exponent lies in [2^61, 2^62); what rounding adds fits in the two bits above.
+    // total_area · 2^exponent lies in [2^61, 2^62); the two bits above have room for what rounding adds.
     const int exponent = total_area > 0.0 ? 61 - std::ilogb(total_area) : 0;
     return static_cast<float>(std::ldexp(1.0, std::clamp(exponent, -100, 100)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which VPLs of a set each bundle of receivers asks about, where it is not all of them. Russian roulette
+// The VPLs of a set that each bundle of receivers asks about, where these are not all VPLs. Russian roulette
 // makes such selections (roulette.h); the gather only reads them.
 #pragma once
 
@@ -11,8 +11,9 @@
 
 namespace nearlight::core {
 
-/// The lists of bundles [first_bundle, end). Entry k of a bundle, k < lengths[bundle − first_bundle], is at
-/// (bundle − first_bundle)·stride + k of `vpls` (an index, ascending) and of `weights` (what the VPL counts).
+/// The lists of consecutive bundles, from first_bundle on. Entry k of a bundle, k < lengths[bundle −
+/// first_bundle], is element (bundle − first_bundle)·stride + k of `vpls`, which holds ascending indices, and
+/// of `weights`, the factor for the VPL's light.
 struct VplLists {
     Buffer<uint> vpls;
     Buffer<float> weights;
@@ -22,9 +23,10 @@ struct VplLists {
 };
 
 struct VplSelection {
-    BundleLayout bundles;         ///< of the receivers that ask
-    std::size_t max_bundles = 1;  ///< whose lists are made at a time
-    /// The lists of bundles [first_bundle, end_bundle), at most max_bundles; valid until the next call.
+    BundleLayout bundles;         ///< the division of the receivers into bundles
+    std::size_t max_bundles = 1;  ///< maximum number of bundles in a call of `lists`
+    /// Returns the lists of bundles [first_bundle, end_bundle), at most max_bundles of them. They are valid
+    /// until the next call.
     std::function<const VplLists&(std::size_t first_bundle, std::size_t end_bundle)> lists;
 };
 

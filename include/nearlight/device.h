@@ -16,7 +16,7 @@ enum class DeviceKind { cpu, gpu, other };
 
 /// Facts about a device, as its driver gives them.
 struct DeviceInfo {
-    int index = 0;  ///< counts the devices of all drivers; Devices::choose() takes it
+    int index = 0;  ///< its number among the devices of all drivers, for Devices::choose()
     std::string name;
     std::string platform;
     std::string version;  ///< the version of OpenCL
@@ -24,22 +24,22 @@ struct DeviceInfo {
     DeviceKind kind = DeviceKind::other;
     unsigned compute_units = 0;
     std::size_t memory_bytes = 0;
-    std::string part;              ///< of a device that was split, as in "part 0 of 2"; else empty
-    std::string unusable_because;  ///< empty where the device can be used
+    std::string part;              ///< which part of a split device, as in "part 0 of 2"; else empty
+    std::string unusable_because;  ///< reason, as the end of a sentence; empty if the device can be used
 };
 
-/// All devices of all drivers, those that cannot be used included; empty where there are none. Never throws
-/// for what drivers do wrong. The first call of a process, here or of Devices::choose(), loads the drivers,
-/// which takes up to a second, and sets POCL_WORK_GROUP_SPECIALIZATION in the environment unless it is set:
-/// no other thread may read or write the environment meanwhile.
+/// All devices of all drivers, unusable ones included; empty if there are none. Does not throw if a driver
+/// fails. A process's first call of this function or of Devices::choose() loads the drivers, which takes up
+/// to a second, and sets POCL_WORK_GROUP_SPECIALIZATION in the environment unless it is set. No other thread
+/// may read or write the environment meanwhile.
 NEARLIGHT_API std::vector<DeviceInfo> list_devices();
 
-/// What devices use besides their drivers.
+/// Where devices take kernels from and where they keep compiled ones.
 struct DeviceOptions {
     /// Kernels are read from this folder. If it is empty, those that are built into the library are used.
     std::filesystem::path kernel_dir{};
-    /// Compiled kernels and trees are kept in this folder, which is made if need be. If it is empty, they are
-    /// kept in the folder that NEARLIGHT_CACHE_DIR names in the environment, else in
+    /// Compiled kernels and trees are kept in this folder, which is created if it does not exist. If it is
+    /// empty, they are kept in the folder that NEARLIGHT_CACHE_DIR names in the environment, else in
     /// $XDG_CACHE_HOME/nearlight, else in ~/.cache/nearlight. If it is "none", nothing is kept.
     std::filesystem::path cache_dir{};
 };
@@ -49,18 +49,17 @@ struct DeviceOptions {
 /// time; to work in several threads, choose devices for each, or parts of one device ("0/2.0" and "0/2.1").
 class NEARLIGHT_API Devices {
   public:
-    /// Opens the devices that `choice` names. It is a list with commas between its items, each one of these:
+    /// Opens the devices that `choice` names. It is a list of items with commas between them:
     ///  - "auto" takes what NEARLIGHT_DEVICE in the environment names, else the first GPU, else the first
     ///    device; it must be the only item.
     ///  - "cpu", "gpu", an index, or a part of a name in any case takes the first device that matches.
     ///  - "all" takes every usable device.
     ///  - "X/N" splits each device of the item X into N equal parts, which are devices of their own.
-    ///  - "X/N.K" takes the part K of these, counted from 0.
-    /// Throws Error: ErrorKind::no_device where an item matches no device (the message lists those that there
-    /// are), or where a device does not start.
+    ///  - "X/N.K" takes the part K of these, counted from 0. Throws Error: ErrorKind::no_device if an item
+    ///    matches no device (the message lists the devices), or if a device does not start.
     static Devices choose(const std::string& choice = "auto", const DeviceOptions& options = {});
 
-    /// What the devices are, one or more, in the order of the choice.
+    /// Facts about the devices, one or more, in the order of the choice.
     [[nodiscard]] const std::vector<DeviceInfo>& infos() const;
 
   private:

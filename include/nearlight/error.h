@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What nearlight throws.
+// The exception that nearlight throws.
 #pragma once
 
 #include <stdexcept>
@@ -24,12 +24,12 @@ enum class ErrorKind {
 /// failed, on what (file and line, device, kernel), and what to do.
 class NEARLIGHT_API Error : public std::runtime_error {
   public:
-    /// `setting` names something that outlives the error, such as a string literal.
+    /// The characters of `setting` must outlive the error, as those of a string literal do.
     Error(ErrorKind kind, const std::string& message, std::string_view setting = {})
         : std::runtime_error(message), kind_(kind), setting_(setting) {}
     [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
     /// The setting to change, as the library spells it ("kernel_dir", "strict"), so that a program can name
-    /// its own option or button for it; empty where no single setting is to blame.
+    /// its own option or button for it; empty if no single setting is to blame.
     [[nodiscard]] std::string_view setting() const noexcept { return setting_; }
 
   private:

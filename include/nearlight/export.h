@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shared library shows.
+// The macro for declarations that the shared library exports.
 #pragma once
 
 #if defined(__GNUC__)

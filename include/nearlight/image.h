@@ -20,8 +20,8 @@ struct Image {
     std::vector<std::string> channels{};
     std::vector<float> values{};  ///< width · height · channels.size()
 
-    /// The value of a channel at column x, counted from the left, and row y, counted from the top. There is
-    /// no check that the three are in range.
+    /// The value of a channel at column x, counted from the left, and row y, counted from the top. Does not
+    /// check that the arguments are in range.
     [[nodiscard]] float& at(int x, int y, std::size_t channel) { return values[index(x, y, channel)]; }
     [[nodiscard]] float at(int x, int y, std::size_t channel) const { return values[index(x, y, channel)]; }
 
@@ -35,7 +35,7 @@ struct Image {
 
 /// How to write a picture.
 struct WriteOptions {
-    /// For PNG files, in stops: one more doubles the brightness before the sRGB curve.
+    /// The exposure of PNG files in stops: one stop more doubles the brightness before the sRGB curve.
     float exposure = 0.0f;
 };
 
@@ -43,20 +43,20 @@ struct WriteOptions {
 NEARLIGHT_API std::vector<std::string> layer_names(const Image& image);
 
 /// A copy of one layer with the layer's name removed from its channels: layer(image, "indirect") has the
-/// channels R, G and B. Throws Error: ErrorKind::invalid_argument where there is no such layer.
+/// channels R, G and B. Throws Error: ErrorKind::invalid_argument if there is no such layer.
 NEARLIGHT_API Image layer(const Image& image, std::string_view name);
 
 /// Writes a picture by its extension: .exr keeps all channels as 32-bit floats; .png takes R, G and B,
-/// applies the exposure and the sRGB curve, and rounds to 8 bits. An old file is replaced only when the new
-/// one is whole. Throws Error: ErrorKind::invalid_argument for another extension; ErrorKind::file where the
-/// file cannot be written, or for PNG where R, G or B is missing; ErrorKind::failure where the library's
-/// image module is missing. May be called from several threads for different files.
+/// applies the exposure and the sRGB curve, and rounds to 8 bits. An existing file is replaced only when the
+/// new one is complete. Throws Error: ErrorKind::invalid_argument for another extension; ErrorKind::file if
+/// the file cannot be written, or for PNG if R, G or B is missing; ErrorKind::failure if the library's image
+/// module is missing. May be called from several threads for different files.
 NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& image,
                                const WriteOptions& options = {});
 
 /// Reads EXR, PNG, JPEG and whatever else OpenImageIO knows. Values are those of the file: integers are
-/// scaled to [0, 1], and an sRGB curve stays. Throws Error: ErrorKind::file naming the file and the reason,
-/// ErrorKind::failure where the library's image module is missing. May be called from several threads.
+/// scaled to [0, 1], and an sRGB curve is not removed. Throws Error: ErrorKind::file with the file and the
+/// reason, ErrorKind::failure if the library's image module is missing. May be called from several threads.
 NEARLIGHT_API Image read_image(const std::filesystem::path& file);
 
 }  // namespace nearlight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All of nearlight: a scene goes to the devices of a session, which looks at it, places virtual point lights
-// and gathers their light in pixels or at points. docs/api.md walks through it.
+// All of nearlight: a session puts a scene on devices, looks at it, places virtual point lights and gathers
+// their light in pixels or at points. docs/api.md walks through it.
 #pragma once
 
 #include "nearlight/device.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene on devices, and the three steps of a picture: look, sample and gather. The product of each step can
-// be had by itself.
+// A scene on devices, and the three steps of a picture: look, sample and gather. Each step returns its
+// product.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@ namespace nearlight {
 /// A virtual point light (VPL): sends the flux `power` into the hemisphere of `normal`, with the radiant
 /// intensity power/π · cosθ in W/sr.
 struct VirtualPointLight {
-    Vec3 position;  ///< in metres, a tiny distance off its surface
+    Vec3 position;  ///< in metres, a tiny distance above its surface
     Vec3 normal;    ///< unit vector
-    Vec3 power;     ///< W of red, green and blue, after reflection at the surface
+    Vec3 power;     ///< in W of red, green and blue, after reflection at the surface
     std::uint32_t
         depth;   ///< 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths
     bool close;  ///< lies in the close range
 };
 
-/// What to look at, with every setting decided by Session::look(). Copies share one View. Accessors may be
+/// A view of a scene whose settings Session::look() has decided. Copies share one state. Accessors may be
 /// called from any thread.
 class NEARLIGHT_API View {
   public:
@@ -59,10 +59,10 @@ class NEARLIGHT_API VplSet {
   public:
     /// How many VPLs there are.
     [[nodiscard]] std::size_t size() const;
-    /// How many of them were placed on surfaces of the close range. Light walks left the others.
+    /// How many of the VPLs were placed on surfaces of the close range. Light walks left the others.
     [[nodiscard]] std::size_t close_count() const;
-    /// Copies them to the host: size() lights, neighbours in space near each other in the order. For the
-    /// thread that uses the session. Throws Error: ErrorKind::failure where the device fails.
+    /// Copies the VPLs to the host: size() lights in an order in which neighbours in space are close to each
+    /// other. For the thread that uses the session. Throws Error: ErrorKind::failure if the device fails.
     [[nodiscard]] std::vector<VirtualPointLight> lights() const;
 
   private:
@@ -74,19 +74,20 @@ class NEARLIGHT_API VplSet {
 
 /// A finished picture.
 struct Picture {
-    /// The channels of picture_channels(); rows that were not reached are 0.
+    /// The pixels, with the channels of picture_channels(). Rows that were not reached are 0.
     Image image{};
-    std::uint32_t passes = 1;   ///< it is the mean of so many
-    std::size_t vpl_count = 0;  ///< of all passes together
+    std::uint32_t passes = 1;   ///< number of passes that it is the mean of
+    std::size_t vpl_count = 0;  ///< number of VPLs in all passes together
     bool interrupted = false;   ///< the callback stopped it before the end
 };
 
-/// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. Called several times a second
-/// in the thread that asked for the work; must not throw.
+/// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. It is called several times a
+/// second in the thread that asked for the work, and must not throw.
 using Progress = std::function<bool(double fraction)>;
 
 /// Takes the next finished rows, from top to bottom: a multiple of width · picture_channels().size() floats.
-/// The span is valid during the call only. Called in the thread that asked for the work; must not throw.
+/// The span is valid during the call only. It is called in the thread that asked for the work, and must not
+/// throw.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
 /// The names of the channels of every picture, in order. R, G and B are the radiance in W/(m² sr) that the
@@ -97,14 +98,14 @@ NEARLIGHT_API std::vector<std::string> picture_channels();
 
 /// A scene on devices, ready from construction on for any number of views, sets of VPLs and pictures. Equal
 /// seeds and settings give equal bits on devices of one type, however many there are. A device that fails is
-/// left out from then on, with a message (message.h), and the others do its part; when none is left its error
-/// is thrown.
+/// left out from then on, with a message (message.h), and the others do its part; when no device is left, its
+/// error is thrown.
 ///
-/// A session, what it makes and other sessions on the same devices are for one thread at a time. All
-/// functions throw Error: ErrorKind::invalid_argument for a setting out of range (setting() names it) and for
-/// a View or VplSet of another session, ErrorKind::kernel_build, ErrorKind::out_of_memory, and
-/// ErrorKind::failure for whatever else a device does wrong. After ErrorKind::invalid_argument and
-/// ErrorKind::out_of_memory the session can be used as before.
+/// A session, its products and other sessions on the same devices are for one thread at a time. All functions
+/// throw Error: ErrorKind::invalid_argument for a setting out of range (setting() names it) and for a View or
+/// VplSet of another session, ErrorKind::kernel_build, ErrorKind::out_of_memory, and ErrorKind::failure for
+/// any other failure of a device. After ErrorKind::invalid_argument and ErrorKind::out_of_memory the session
+/// can be used as before.
 class NEARLIGHT_API Session {
   public:
     /// Builds the tree of the scene or takes it from the cache, uploads everything, and begins to compile
@@ -117,29 +118,30 @@ class NEARLIGHT_API Session {
     /// Decides what the settings leave open, by a pilot view of about 1000 receivers.
     View look(const ViewSettings& settings = {}, std::uint32_t seed = 0);
 
-    /// Places VPLs for that view, about settings.vpl_count of them.
+    /// Places about settings.vpl_count VPLs for the view.
     VplSet sample(const View& view, const SamplingSettings& settings = {}, std::uint32_t seed = 0);
 
     /// Renders the view with these VPLs, which may have been made for another view of the session. The image
-    /// takes a float for each channel of a pixel, about 80 bytes.
+    /// takes about 80 bytes per pixel, a float for each channel.
     Picture gather(const View& view, const VplSet& vpls, const GatherSettings& settings = {},
                    std::uint32_t seed = 0, const Progress& progress = {});
 
-    /// Does the same for pictures that need not be in memory as a whole: `rows` takes them in pieces. Returns
-    /// false if `progress` stopped it; rows are then missing at the bottom.
+    /// Renders as gather() does, but passes the picture to `rows` in pieces, so that it need not be in memory
+    /// as a whole. Returns false if `progress` stopped it; rows are then missing at the bottom.
     bool gather_rows(const View& view, const VplSet& vpls, const GatherSettings& settings, std::uint32_t seed,
                      const RowSink& rows, const Progress& progress = {});
 
     /// The irradiance (W/m² of red, green and blue) at each of the points, on the side of its normal.
-    /// `points` are in metres, `normals` have length 1, and there are as many of one as of the other. The sum
-    /// of direct light, the light of `vpls`, and the light that their view's clamp radius takes away is in
-    /// expectation all light up to that view's depth, if the sampler is unbiased. A point on a surface counts
-    /// as a tiny part of the scene's size off it, along the normal.
+    /// `points` are in metres, `normals` have length 1, and there must be as many normals as points. The
+    /// result is the sum of direct light, the light of `vpls`, and the light that their view's clamp radius
+    /// takes away. If the sampler is unbiased, its expectation is all light up to that view's depth. Points
+    /// are moved along their normals by a tiny part of the scene's size, so they may lie on surfaces.
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const VplSet& vpls, const IrradianceSettings& settings = {},
                                  std::uint32_t seed = 0);
 
-    /// Makes a picture in one call: it looks, samples and gathers, and may average several such passes.
+    /// Makes a picture in one call: looks, samples and gathers, and averages several such passes if
+    /// `settings` asks for them.
     Picture render(const RenderSettings& settings = {}, const Progress& progress = {});
 
   private:

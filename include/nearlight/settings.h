@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be asked of a view, of a set of virtual point lights, and of a gather.
+// The settings of a view, of a set of virtual point lights, of a gather and of a session.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@ namespace nearlight {
 
 /// How virtual point lights (VPLs) are chosen.
 enum class SamplerKind {
-    close_range,        ///< the paper's: patches close to the camera, sparse light walks elsewhere
+    close_range,        ///< the paper's method: patches close to the camera, sparse light walks elsewhere
     instant_radiosity,  ///< [Keller 1997] quasi-random light walks over the whole scene
-    rejection,          ///< [Georgiev & Slusallek 2010] of many walks, those that the camera needs
+    rejection,          ///< [Georgiev & Slusallek 2010] many light walks; VPLs that bring little are rejected
     metropolis,         ///< [Segovia et al. 2007] Markov chains of light paths towards what the camera needs
     bidirectional,      ///< [Segovia et al. 2006] light walks, and rays from what the camera sees
-    local,              ///< [Davidovič et al. 2010] light walks under a wide clamp, and lights of each tile
+    local,              ///< [Davidovič et al. 2010] light walks with a wide clamp, and local lights per tile
 };
 
-/// What becomes of sparse deposits in the close range, for SamplerKind::close_range; docs/method.md has the
-/// reasons.
+/// The rule for deposits of light walks in the close range, for SamplerKind::close_range; docs/method.md
+/// explains it.
 enum class Policy {
     complete,   ///< patches carry light of all depths, so no deposits are needed there: unbiased
-    paper,      ///< deposits are dropped, whatever their depth: loses light of several bounces
+    paper,      ///< deposits of all depths are dropped: loses light of several bounces
     partition,  ///< deposits of depth 2 and more are kept: unbiased
 };
 
-/// Which kernel gathers. Both compute the same sum; visibility may differ for rays that meet an edge of a
+/// Which kernel gathers. Both compute the same sum; visibility may differ for rays that pass an edge of a
 /// triangle within rounding.
 enum class GatherKernel {
     automatic,  ///< packets on CPUs, rays elsewhere
@@ -35,48 +35,50 @@ enum class GatherKernel {
 
 /// How much time the bounding volume hierarchy is worth.
 enum class BvhQuality {
-    fast,     ///< every triangle stands in one leaf
-    quality,  ///< a triangle may be cut and stand in several: fewer steps a ray, twice the time to build
+    fast,     ///< every triangle is in exactly one leaf
+    quality,  ///< triangles may be split among leaves: fewer steps per ray, twice the time to build
 };
 
-/// What to look at. Empty options are decided by the scene and by a pilot view of about 1000 receivers.
+/// What to look at. The scene and a pilot view of about 1000 receivers decide the options that are empty.
 struct ViewSettings {
-    std::optional<int> width{};           ///< pixels; empty: the scene's
-    std::optional<int> height{};          ///< pixels; empty: the scene's
-    std::optional<float> range{};         ///< of the close range, m; empty: holds nine tenths of what is seen
+    std::optional<int> width{};    ///< pixels; empty: the scene's
+    std::optional<int> height{};   ///< pixels; empty: the scene's
+    std::optional<float> range{};  ///< range, m; empty: the close range holds nine tenths of what is seen
     std::optional<float> clamp_radius{};  ///< R of the bounded geometry term, m; empty: range / 20
-    /// As Mitsuba counts: 1 is emission, 2 direct light; empty: the scene's, or 8.
+    /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
+    /// the scene's, or 8 if the scene has none.
     std::optional<std::uint32_t> max_depth{};
 };
 
-/// Which VPLs to make.
+/// How to make VPLs.
 struct SamplingSettings {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
-    std::uint32_t vpl_count = 1000;         ///< to aim at; light walks decide how many there are exactly
-    std::optional<float> close_fraction{};  ///< of vpl_count for the close range, [0, 1]; empty: by pilot
+    std::uint32_t vpl_count = 1000;         ///< target number; light walks decide the exact one
+    std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
 };
 
-/// How to make pixels of VPLs and emitters.
+/// How to make pixels from VPLs and emitters.
 struct GatherSettings {
     std::uint32_t samples_per_pixel = 4;
-    std::uint32_t direct_samples_per_pixel = 64;  ///< for area lights and the environment
-    bool indirect_only = false;                   ///< the layer of direct light holds emission only
-    /// Russian roulette: a VPL that could bring less than this many times the mean of all is asked about by
-    /// chance; 0: every VPL is asked about.
+    std::uint32_t direct_samples_per_pixel = 64;  ///< samples towards area lights and the environment
+    bool indirect_only = false;                   ///< the layer of direct light has emission only
+    /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
+    /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;
 };
 
-/// A picture: a view, VPLs for it, and a gather, once or several times.
+/// How to make a picture: a view, VPLs for it and a gather, in one pass or several.
 struct RenderSettings {
     ViewSettings view{};
     SamplingSettings sampling{};
     GatherSettings gather{};
     std::uint32_t seed = 0;
-    /// Passes to average, each with random numbers and VPLs of its own; empty: one, or, where `seconds` is
-    /// given, as many as fit.
+    /// The number of passes to average, each with random numbers and VPLs of its own. Empty means one pass,
+    /// or, if `seconds` is given, as many as fit.
     std::optional<std::uint32_t> passes{};
-    /// No pass but the first is begun that, to judge by those before it, would end so long after the start.
+    /// The time limit in seconds from the start. A pass after the first is begun only if, judging by the
+    /// passes before it, it would end within the limit.
     std::optional<double> seconds{};
 };
 
@@ -88,7 +90,7 @@ struct SessionOptions {
 
 /// How Session::irradiance() estimates the light at points.
 struct IrradianceSettings {
-    std::uint32_t direct_samples = 64;  ///< for each point, towards area lights and the environment
+    std::uint32_t direct_samples = 64;  ///< samples per point, towards area lights and the environment
     /// How many short paths to trace from each point. They bring back the light that the view's clamp radius
     /// takes away; 0 leaves that light out.
     std::uint32_t paths = 16;

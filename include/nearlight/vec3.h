@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three numbers.
+// Vectors and colours of three components.
 #pragma once
 
 namespace nearlight {

@@ -28,7 +28,7 @@ Scene step() {
 std::vector<std::pair<std::string, Tunables>> extremes(const Tunables& usual) {
     std::vector<std::pair<std::string, Tunables>> result;
     for (const TunableField& field : tunable_fields()) {
-        for (const std::uint32_t value : {field.low, std::min(field.high, 1u << 16u)}) {
+        for (const std::uint32_t value : {field.min, std::min(field.max, 1u << 16u)}) {
             if (value != usual.*field.value) {
                 Tunables tunables = usual;
                 tunables.*field.value = value;

@@ -26,10 +26,10 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kMaxWorkers = 4;
-/// Contexts hold the driver's libraries; a worker without work for so long gives them up.
+/// A worker that is idle for this long releases its contexts, which keep the driver's libraries loaded.
 constexpr int kIdleMilliseconds = 500;
 
-/// A process that has lost its partner gets an error, not a signal.
+/// The flags give a process that has lost its partner an error instead of a signal.
 #ifdef MSG_NOSIGNAL
 constexpr int kSendFlags = MSG_NOSIGNAL;
 #else
@@ -68,7 +68,8 @@ bool receive_all(int socket, void* data, std::size_t size) {
     return true;
 }
 
-/// Size, then bytes. Both ends are the same program on the same machine.
+/// Sends the size of a block and then its bytes. The layout is not portable, as both ends are the same
+/// program on one machine.
 template <typename Bytes>
 bool send_block(int socket, const Bytes& block) {
     const std::uint64_t size = block.size();
@@ -85,7 +86,7 @@ bool receive_block(int socket, Bytes& block) {
     return receive_all(socket, block.data(), size);
 }
 
-/// What travels of a request, in this order.
+/// The parts of a request that are sent, in this order.
 template <typename Request>
 auto sent_parts(Request& request) {
     auto& entry = request.entry;
@@ -93,7 +94,7 @@ auto sent_parts(Request& request) {
                       &entry.driver,   &request.options, &request.source};
 }
 
-/// The worker's side: this process's own handle of the device, for which programs are the same (see
+/// Finds the worker's own handle of the device that a request is for: one with the same programs (see
 /// ProgramRequest::key()).
 std::optional<cl::Device> find_device(const DeviceList& list, const DeviceEntry& like) {
     for (const DeviceEntry& entry : list.devices) {
@@ -124,7 +125,7 @@ ProgramBinary compile_here(const DeviceList& list, const ProgramRequest& request
     }
 }
 
-/// Answers requests until the other end is closed.
+/// Answers requests until the other end of the socket is closed.
 void serve(int socket) {
     std::optional<DeviceList> devices;
     CompileContexts contexts;
@@ -149,7 +150,8 @@ void serve(int socket) {
     }
 }
 
-/// What a compiler prints, the parent's prints too, and who reads the program's output waits for its end.
+/// Redirects the worker's standard streams to /dev/null. The parent's compiler prints the same messages, and
+/// a reader of the parent's output would otherwise wait for the worker's end.
 void leave_terminal() {
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (int stream = STDIN_FILENO; nowhere >= 0 && stream <= STDERR_FILENO; ++stream) {
@@ -157,13 +159,13 @@ void leave_terminal() {
     }
 }
 
-/// Never returns: what the calling process was about to do is not the worker's business.
+/// Serves requests and never returns, because the worker must not go on with the work of the calling process.
 [[noreturn]] void run_worker(int socket, pid_t parent) {
-    // Ctrl-C goes to all processes of a terminal; the parent decides when its kernels are not needed.
+    // Ctrl-C goes to all processes of a terminal, but the parent decides when it no longer needs kernels.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
 #ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // elsewhere a worker ends when it is done with the program at hand
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // on other systems a worker ends after its present program
 #endif
     leave_terminal();
     if (getppid() == parent) {
@@ -195,7 +197,7 @@ CompileWorkers start_compile_workers(std::size_t count) {
         if (process == 0) {
             close(ends[0]);
             for (const auto& earlier : workers) {
-                close(earlier->socket_);  // or they would not notice when the parent is gone
+                close(earlier->socket_);  // else earlier workers would not notice the parent's end
             }
             run_worker(ends[1], parent);
         }
@@ -207,7 +209,7 @@ CompileWorkers start_compile_workers(std::size_t count) {
         workers.emplace_back(new CompileWorker(process, ends[0]));
     }
     if (workers.size() < count) {
-        say_debug("no more than " + std::to_string(workers.size()) + " processes to compile in");
+        say_debug("only " + std::to_string(workers.size()) + " processes could be started to compile in");
     }
     return workers;
 }

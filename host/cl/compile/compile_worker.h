@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process of its own that compiles programs for this one.
+// Worker processes that compile programs for this one.
 //
-// PoCL generates code for one kernel at a time in a process, however many threads ask. Processes do not wait
-// for one another.
+// In one process, PoCL generates code for one kernel at a time, however many threads ask. Processes do not
+// wait for one another.
 #pragma once
 
 #include <sys/types.h>
@@ -15,18 +15,19 @@
 
 namespace nearlight::core {
 
-/// Ends with this object, or with the process that started it, whichever is first. compile() is for one
-/// thread at a time, stop() for any.
+/// A process that compiles programs. It ends with this object or with the process that started it, whichever
+/// ends first. compile() may be called by one thread at a time, stop() by any thread.
 class CompileWorker {
   public:
     ~CompileWorker();
     CompileWorker(const CompileWorker&) = delete;
     CompileWorker& operator=(const CompileWorker&) = delete;
 
-    /// Asks the worker, and waits. Empty where the program does not compile, has no binary, or the worker is
-    /// gone: the caller compiles then, and so finds out why.
+    /// Has the worker compile a program, and waits for its binary. The binary is empty if the program does
+    /// not compile or has no binary, or if the worker is gone. The caller then compiles the program itself
+    /// and so learns the reason.
     ProgramBinary compile(const ProgramRequest& request);
-    /// At once, also while another thread waits in compile(), which then returns.
+    /// Ends the process at once. If another thread waits in compile(), that call returns.
     void stop();
     [[nodiscard]] bool stopped() const { return stopped_; }
     [[nodiscard]] pid_t process() const { return process_; }
@@ -42,12 +43,12 @@ class CompileWorker {
 
 using CompileWorkers = std::vector<std::unique_ptr<CompileWorker>>;
 
-/// As many as there are processors, 4 at most; none on a single processor, where they would only cost.
+/// The number of processors, but at most 4, and 0 on a single processor, where workers would only cost time.
 std::size_t default_compile_worker_count();
 
-/// Fewer where the system gives no more. Workers are copies of the calling process (fork) and load the driver
-/// themselves: must be called from the main thread before there are others, and before list_devices().
-/// They take 0.3 ms each while they have nothing to do.
+/// Starts `count` workers, or fewer if the system allows no more. Workers are copies of the calling process
+/// (fork) and load the driver themselves, so this must be called from the main thread before there are other
+/// threads, and before list_devices(). A worker that never compiles costs 0.3 ms.
 CompileWorkers start_compile_workers(std::size_t count = default_compile_worker_count());
 
 }  // namespace nearlight::core

@@ -19,7 +19,7 @@ void build(const cl::Program& program, const DeviceEntry& entry, const std::stri
     program.build({entry.handle}, options.c_str());
 }
 
-/// Empty where the driver refuses the binary.
+/// Makes a program of a binary. Returns nothing if the driver refuses the binary.
 std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBinary binary) {
     try {
         cl::Program program(request.context, {request.entry.handle},
@@ -27,13 +27,13 @@ std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBin
         build(program, request.entry, request.options);
         return program;
     } catch (const cl::Error& error) {
-        say_debug("binary of kernels/" + request.file + " refused by the driver (" +
-                  opencl_error_name(error.err()) + "), compiling again");
+        say_debug("the driver refuses the binary of kernels/" + request.file + " (" +
+                  opencl_error_name(error.err()) + "); compiling again");
         return std::nullopt;
     }
 }
 
-/// Empty where the driver gives none.
+/// The binary of a program; empty if the driver gives none.
 ProgramBinary binary_of(const cl::Program& program) {
     try {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
@@ -102,10 +102,10 @@ cl::Context compile_context(const ProgramRequest& request, CompileContexts& cont
     return found->second;
 }
 
-/// The outcome of a compiler, and what it is made into for request.context.
+/// A compiled program in request.context, and its binary.
 struct Compiled {
     cl::Program program;
-    ProgramBinary binary;  ///< empty where the driver gives none
+    ProgramBinary binary;  ///< empty if the driver gives none
 };
 
 Compiled compile_here(const ProgramRequest& request, CompileContexts& contexts) {
@@ -120,20 +120,21 @@ Compiled compile_here(const ProgramRequest& request, CompileContexts& contexts) 
     return compiled;
 }
 
-/// Empty where the program is not a matter for workers, or this one gives none.
+/// Compiles a program in a worker. Returns nothing if the program is not for a CPU or the worker makes no
+/// binary of it.
 std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& request) {
     if (worker == nullptr || request.entry.kind != DeviceKind::cpu) {
         return std::nullopt;
     }
     ProgramBinary binary = worker->compile(request);
     if (worker->stopped()) {
-        throw Error(ErrorKind::failure, "kernels/" + request.file + " is not wanted any more");
+        throw Error(ErrorKind::failure, "kernels/" + request.file + " is no longer needed");
     }
     if (auto program = binary.empty() ? std::nullopt : from_binary(request, binary)) {
         return Compiled{*program, std::move(binary)};
     }
-    say_debug("process " + std::to_string(worker->process()) + " gives no binary of kernels/" + request.file +
-              ", compiling it in this one");
+    say_debug("process " + std::to_string(worker->process()) + " made no binary of kernels/" + request.file +
+              "; compiling it in this process");
     return std::nullopt;
 }
 

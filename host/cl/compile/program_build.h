@@ -12,30 +12,31 @@
 
 namespace nearlight::core {
 
-/// What is to be compiled, for which device, and where the outcome is kept.
+/// What to compile, for which device, and where to keep the result.
 struct ProgramRequest {
     DeviceEntry entry;
-    cl::Context context;  ///< in which the program is to be used
-    std::string file;     ///< for messages: kernels/`file`
-    std::string source;   ///< includes expanded
+    cl::Context context;  ///< the context that uses the program
+    std::string file;     ///< name of kernels/`file`, for messages
+    std::string source;   ///< text with its includes expanded
     std::string options;
     std::filesystem::path cache_dir;
 
-    /// Equal for equal programs on equal devices, over processes.
+    /// The key in caches, which is equal for equal programs on equal devices, in every process.
     [[nodiscard]] std::string key() const;
 };
 
-/// Contexts of one thread that compiles, made when first needed.
+/// The contexts that one compiling thread uses, by device. They are made when they are first needed.
 using CompileContexts = std::map<cl_device_id, cl::Context>;
 
 using ProgramBinary = std::vector<unsigned char>;
 
 class CompileWorker;
 
-/// The program in request.context, from the cache or compiled. What is compiled for a CPU is taken over as a
-/// binary: from `worker`, where there is one that compiles it, or else from a context of `contexts`, for PoCL
-/// compiles one program at a time in each. Throws Error(ErrorKind::kernel_build) with the build log's first
-/// error, after saving the expanded source and the whole log to files that the message names.
+/// Makes the program in request.context, from the cache or by compiling it. Programs for CPUs are compiled
+/// elsewhere and taken over as binaries, because PoCL compiles one program at a time in each context:
+/// `worker` compiles them, or, if it is null or fails, a context of `contexts`. Throws
+/// Error(ErrorKind::kernel_build) with the build log's first error, after saving the expanded source and the
+/// whole log to files that the message names.
 cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker);
 
 }  // namespace nearlight::core

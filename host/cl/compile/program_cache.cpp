@@ -11,7 +11,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Key length and key, then checksum, then the binary.
+/// The head of a cache file: the length of the key, the key, and the checksum of the binary that follows.
 std::string header_of(const std::string& key, const std::string& binary) {
     return "nearlight program 1\n" + std::to_string(key.size()) + "\n" + key + "\n" +
            hex_digits(hash128(binary)) + "\n";

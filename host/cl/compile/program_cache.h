@@ -9,15 +9,15 @@
 
 namespace nearlight::core {
 
-/// A folder of files named after a hash of their key. A file carries its whole key and a checksum, so neither
-/// a hash collision nor a damaged file can be taken for the program.
+/// A folder of files that are named after a hash of their key. A file has its whole key and a checksum, so a
+/// file of another key and a damaged file are recognised and ignored.
 class ProgramCache {
   public:
     /// An empty folder name, or "none", makes a cache that holds nothing.
     explicit ProgramCache(std::filesystem::path dir);
 
     [[nodiscard]] std::optional<std::vector<unsigned char>> find(const std::string& key) const;
-    /// Failure to write is no error: the next run compiles again.
+    /// Stores a program. A failure to write is not an error: the next run compiles the program again.
     void store(const std::string& key, const std::vector<unsigned char>& binary) const;
 
   private:

@@ -6,8 +6,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Without workers: PoCL parses in as many contexts as there are, but generates code for one kernel at a time
-/// in the whole process.
+/// The minimum number of threads, which matters if there are no workers: PoCL parses in all contexts at the
+/// same time, but generates code for one kernel at a time in the whole process.
 constexpr std::size_t kMinThreads = 2;
 
 }  // namespace
@@ -29,7 +29,8 @@ std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
     });
     std::shared_future<cl::Program> result = job.get_future();
     const std::lock_guard lock(mutex_);
-    // The longest first: what remains for the end is short, so that no worker is alone with much.
+    // The longest source comes first, so that the last programs are short and no worker is left alone with
+    // much work.
     const auto place =
         std::ranges::find_if(jobs_, [&](const Waiting& other) { return other.length < length; });
     jobs_.insert(place, {length, std::move(job)});
@@ -51,7 +52,7 @@ void ProgramCompiler::work(CompileWorker* worker) {
     std::unique_lock lock(mutex_);
     for (;;) {
         if (jobs_.empty() && !contexts.empty()) {
-            contexts.clear();  // they hold the driver's libraries
+            contexts.clear();  // contexts keep the driver's libraries loaded
         }
         changed_.wait(lock, [&] { return ending_ || !jobs_.empty(); });
         if (ending_) {

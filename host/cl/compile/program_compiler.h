@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads in which programs are compiled, so that nobody waits for one before its first launch.
+// Compiles programs in background threads, so that nobody waits for a program before its first launch.
 #pragma once
 
 #include <CL/opencl.hpp>
@@ -16,27 +16,29 @@
 
 namespace nearlight::core {
 
-/// May be shared by several devices; what one has compiled, others of its kind find in the cache.
+/// Threads that compile programs. Several devices may share one compiler; devices of one kind find each
+/// other's programs in the cache.
 class ProgramCompiler {
   public:
-    /// Programs for CPUs are compiled by `workers`, or in this process where there are none.
+    /// `workers` compile the programs for CPUs. If there are none, this process does.
     explicit ProgramCompiler(CompileWorkers workers = {}) : workers_(std::move(workers)) {}
     ProgramCompiler(const ProgramCompiler&) = delete;
     ProgramCompiler& operator=(const ProgramCompiler&) = delete;
-    /// Stops workers, waits for what is being compiled in this process, and drops what has not begun.
+    /// Stops the workers, waits for programs that this process is compiling, and drops programs that were not
+    /// begun.
     ~ProgramCompiler();
 
-    /// The program as build_program() makes it, errors included; longest source first, as many at a
-    /// time as there are workers, two at least.
+    /// Queues a program for build_program(), whose errors the future rethrows. Programs with the longest
+    /// source are compiled first, as many at a time as there are workers, but at least two.
     std::shared_future<cl::Program> start(ProgramRequest request);
 
-    /// During which something was being compiled or loaded.
+    /// The seconds in which at least one program was being compiled or loaded.
     [[nodiscard]] double busy_seconds();
 
   private:
     using Job = std::packaged_task<cl::Program(CompileContexts&, CompileWorker*)>;
     struct Waiting {
-        std::size_t length;  ///< of the source
+        std::size_t length;  ///< length of the source
         Job job;
     };
     void work(CompileWorker* worker);
@@ -44,12 +46,12 @@ class ProgramCompiler {
     CompileWorkers workers_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Waiting> jobs_;  ///< the longest first
+    std::deque<Waiting> jobs_;  ///< ordered by length, the longest first
     int running_ = 0;
-    Stopwatch since_;  ///< when `running_` was 0 for the last time
+    Stopwatch since_;  ///< runs from the moment when `running_` last left 0
     double busy_seconds_ = 0;
     bool ending_ = false;
-    std::vector<std::jthread> threads_;  // last: they use all of the above
+    std::vector<std::jthread> threads_;  // declared last: threads use the other members
 };
 
 }  // namespace nearlight::core

@@ -17,7 +17,7 @@ constexpr const char* kInstallHint =
     "package";
 
 std::string trimmed(std::string text) {
-    // Some drivers pad with blanks, others count the terminating zero.
+    // Some drivers pad names with blanks, and others count the terminating zero.
     while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) {
         text.pop_back();
     }
@@ -88,11 +88,12 @@ std::string describe_choices(const DeviceList& list) {
     return text;
 }
 
-/// `part_count` devices of equally many compute units; a rest of units stays idle.
+/// Splits a device into `part_count` devices with equal numbers of compute units. Units that are left over
+/// stay idle.
 std::vector<DeviceEntry> split_device(const DeviceEntry& whole, unsigned part_count) {
     if (part_count == 0 || part_count > whole.max_parts) {
-        throw Error(ErrorKind::no_device, "OpenCL device '" + whole.name + "' can be split in 1 to " +
-                                              std::to_string(whole.max_parts) + " parts, not in " +
+        throw Error(ErrorKind::no_device, "OpenCL device '" + whole.name + "' can be split into 1 to " +
+                                              std::to_string(whole.max_parts) + " parts, not into " +
                                               std::to_string(part_count));
     }
     const unsigned units = whole.compute_units / part_count;
@@ -146,7 +147,7 @@ DeviceEntry default_device(const DeviceList& list) {
     return *best;
 }
 
-/// One item of a choice without its parts.
+/// Chooses the whole devices of one item, which has no "/N" or "/N.K".
 std::vector<DeviceEntry> choose_whole(const DeviceList& list, const std::string& choice) {
     std::vector<DeviceEntry> chosen;
     std::copy_if(list.devices.begin(), list.devices.end(), std::back_inserter(chosen),
@@ -167,7 +168,7 @@ std::vector<DeviceEntry> choose_whole(const DeviceList& list, const std::string&
     return chosen;
 }
 
-/// One item of a choice: "cpu", "cpu/2" or "cpu/2.0".
+/// Chooses the devices of one item, such as "cpu", "cpu/2" or "cpu/2.0".
 std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& item) {
     static const std::regex with_parts(R"((.+)/(\d{1,4})(\.(\d{1,4}))?)");
     std::smatch match;
@@ -184,7 +185,7 @@ std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& 
             chosen.push_back(std::move(parts[index]));
         } else {
             throw Error(ErrorKind::no_device,
-                        "'" + item + "' names a part that is not there: they are numbered from 0 to " +
+                        "'" + item + "' names a part that does not exist; parts are numbered from 0 to " +
                             std::to_string(parts.size() - 1));
         }
     }
@@ -199,11 +200,12 @@ std::string to_string(DeviceKind kind) {
 
 void set_driver_defaults() {
     // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the group
-    // size of a launch. The second is no faster (bench/log/compile.md), and users would wait for it.
+    // size of a launch. The second compilation makes no faster kernel (bench/log/compile.md), and users would
+    // wait for it.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
 }
 
-// The second name is that of PoCL 4 and later.
+// PoCL 4 and later use the second name.
 void limit_driver_threads(int threads) {
     for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {
         setenv(name, std::to_string(threads).c_str(), 1);
@@ -219,7 +221,7 @@ DeviceList list_devices() {
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error& error) {
-        if (error.err() != -1001) {  // CL_PLATFORM_NOT_FOUND_KHR: simply none
+        if (error.err() != -1001) {  // CL_PLATFORM_NOT_FOUND_KHR: there is no platform, which is no problem
             list.problems.push_back("the OpenCL loader failed: " + opencl_error_name(error.err()));
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What OpenCL offers on this machine, and the choice among it.
+// The OpenCL devices of this machine, and the choice among them.
 #pragma once
 
 #include <CL/opencl.hpp>
@@ -18,39 +18,41 @@ struct DeviceEntry {
     cl::Device handle;
     std::string name;
     std::string platform;
-    std::string version;  ///< of the device, e.g. "OpenCL 3.0 PoCL HSTR: …"
+    std::string version;  ///< OpenCL version of the device, e.g. "OpenCL 3.0 PoCL HSTR: …"
     std::string driver;
     DeviceKind kind = DeviceKind::other;
     unsigned compute_units = 0;
-    unsigned float_width = 0;  ///< floats of its vectors (CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT)
+    unsigned float_width = 0;  ///< floats per vector (CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT)
     std::size_t global_bytes = 0;
     std::size_t max_allocation_bytes = 0;
-    unsigned max_parts = 1;        ///< equal parts of one compute unit or more that it can be split in
-    std::string part;              ///< of a split device, e.g. "part 0 of 2"; empty for a whole one
-    std::string unusable_because;  ///< empty where the device can be used
+    unsigned max_parts = 1;  ///< maximum number of equal parts that it can be split into
+    std::string part;        ///< which part of a split device, e.g. "part 0 of 2"; empty for a whole device
+    std::string unusable_because;  ///< reason, as the end of a sentence; empty if the device can be used
 
-    /// For messages: the name, and which part of it.
+    /// The name for messages, including the part.
     [[nodiscard]] std::string label() const { return part.empty() ? name : name + " (" + part + ")"; }
 };
 
-/// Platforms that are broken or have no device are kept as text, so that `devices` can show them.
+/// All devices, and as text the platforms that are broken or have no device, so that the command `devices`
+/// can show them.
 struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;
 };
-/// Environment variables that drivers read, where they are not set: list_devices() does it too, but must not
-/// be the first to where there are threads already.
+/// Sets environment variables that drivers read, unless they are set. list_devices() does so too, but if the
+/// process has several threads, this must be called before they start.
 void set_driver_defaults();
-/// To be called before: CPU drivers that can be told (PoCL) take so many threads.
+/// Limits the threads of CPU drivers that allow it (PoCL). Must be called before list_devices().
 void limit_driver_threads(int threads);
-/// Never throws for what drivers do wrong.
+/// Lists all devices of all platforms. Errors of drivers become problems in the list and are not thrown.
 DeviceList list_devices();
 
-/// By `choice`, a comma-separated list of: an index, "cpu", "gpu", "all", or part of a name (any case), each
-/// with "/N" behind it for N equal parts of the device as devices of their own, or "/N.K" for part K (from 0)
-/// alone; empty: NEARLIGHT_DEVICE from the environment, or else the first GPU, or else the first device. Each
-/// device comes once. Only "all", lists and parts give several. Throws Error(ErrorKind::no_device) with what
-/// to install, or with the devices there are.
+/// Chooses devices by `choice`, a list of items with commas between them. An item is an index, "cpu", "gpu",
+/// "all", or part of a name in any case. Each can end in "/N", which makes N equal parts of the device
+/// devices of their own, or in "/N.K", which takes only part K, counted from 0. An empty choice takes
+/// NEARLIGHT_DEVICE from the environment, else the first GPU, else the first device. Each device comes once;
+/// only "all", lists and parts give several devices. Throws Error(ErrorKind::no_device), which says what to
+/// install or lists the devices.
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
 
 }  // namespace nearlight::core

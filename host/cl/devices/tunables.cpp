@@ -9,7 +9,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::array kFields{
-    TunableField{"packet_width", &Tunables::beam_width, 16, 256, true},
+    TunableField{"beam_width", &Tunables::beam_width, 16, 256, true},
     TunableField{"local_size", &Tunables::local_size, 1, 256, true},
     TunableField{"run_local_size", &Tunables::run_local_size, 1, 256, true},
     TunableField{"runs_per_unit", &Tunables::runs_per_unit, 1, 1024, false},
@@ -21,9 +21,9 @@ constexpr std::array kFields{
     TunableField{"batch_receivers", &Tunables::batch_receivers, 1u << 10u, 1u << 24u, false},
 };
 
-/// CPUs: a group is what one thread runs, so few and long work-items, several a core to even out, and more
-/// VPLs rather than more bundles in a launch, because a bundle's start costs something. GPUs: enough items to
-/// fill their lanes.
+/// On CPUs one thread runs a work-group, so work-items are few and long, with several per core to balance the
+/// load. A launch takes more VPLs rather than more bundles, because each bundle costs time to start. GPUs
+/// need enough work-items to fill their lanes.
 constexpr Tunables kCpu{.beam_width = 256,
                         .local_size = 8,
                         .run_local_size = 1,
@@ -54,7 +54,7 @@ constexpr std::array kTable{
 }  // namespace
 
 bool TunableField::allows(std::uint32_t x) const {
-    return x >= low && x <= high && (!is_power_of_two || std::has_single_bit(x));
+    return x >= min && x <= max && (!is_power_of_two || std::has_single_bit(x));
 }
 
 std::span<const TunableField> tunable_fields() {

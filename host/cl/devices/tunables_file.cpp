@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tunables on disk: lines of "name value", for people to read and to change.
+// Tunables on disk: lines of "name value", which people can read and change.
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* kHead = "nearlight tunables 2";
 
-/// A hash of the text of kernel files, followed by their names, so that whoever reads it can make it anew.
+/// A hash of the text of kernel files, followed by their names, so that a reader of the key can compute it
+/// again.
 std::string kernels_key(std::span<const std::string> files, const std::filesystem::path& kernel_dir) {
     Hasher hasher;
     std::string names;
@@ -29,7 +30,7 @@ std::string kernels_key(std::span<const std::string> files, const std::filesyste
     return hex_digits(hasher.hash64()) + names;
 }
 
-/// Whether the kernels that `key` names are still what they were when kernels_key() made it.
+/// Whether the kernels that `key` names have not changed since kernels_key() made it.
 bool is_current(const std::string& key, const std::filesystem::path& kernel_dir) {
     std::istringstream words(key);
     std::string hash;
@@ -54,7 +55,7 @@ std::string to_text(const Tunables& tunables, const DeviceEntry& entry, const st
     return text;
 }
 
-/// What is wrong with the file, for a warning.
+/// What is wrong with a file, as the end of a warning's sentence.
 struct Complaint {
     std::string text;
 };
@@ -69,7 +70,7 @@ std::map<std::string, std::string> read_lines(std::istream& file) {
         const std::size_t blank = line.find(' ');
         if (blank == std::string::npos ||
             !lines.emplace(line.substr(0, blank), line.substr(blank + 1)).second) {
-            throw Complaint{"has a strange line '" + line + "'"};
+            throw Complaint{"has a line that is not understood, '" + line + "'"};
         }
     }
     return lines;
@@ -89,7 +90,7 @@ std::uint32_t parse(const TunableField& field, const std::map<std::string, std::
     return static_cast<std::uint32_t>(value);
 }
 
-/// Of a file made for the same device and kernels.
+/// Reads a file. Throws Complaint unless it is complete and made for the same device and kernels.
 Tunables read_tunables(std::istream& file, const DeviceEntry& entry,
                        const std::filesystem::path& kernel_dir) {
     const std::map<std::string, std::string> lines = read_lines(file);
@@ -98,11 +99,11 @@ Tunables read_tunables(std::istream& file, const DeviceEntry& entry,
         return found != lines.end() && found->second == text;
     };
     if (!is("device", device_key(entry))) {
-        throw Complaint{"is of another device or driver"};
+        throw Complaint{"is for another device or driver"};
     }
     if (const auto found = lines.find("kernels");
         found == lines.end() || !is_current(found->second, kernel_dir)) {
-        throw Complaint{"was found with other kernels"};
+        throw Complaint{"was made with other kernels"};
     }
     Tunables tunables{};
     for (const TunableField& field : tunable_fields()) {
@@ -129,7 +130,7 @@ ChosenTunables choose_tunables(const DeviceEntry& entry, const std::filesystem::
             return {read_tunables(file, entry, kernel_dir), path.string(), true, {}};
         } catch (const Complaint& complaint) {
             warning = path.string() + " " + complaint.text +
-                      ": using the usual tunables; `nearlight tune` finds them anew";
+                      "; the usual tunables are used instead, and `nearlight tune` makes a new file";
         }
     }
     const TunablesRow& row = tunables_row(entry.kind);
@@ -140,7 +141,8 @@ void store_tunables(const Tunables& tunables, std::span<const std::string> kerne
                     const std::filesystem::path& cache_dir, const std::filesystem::path& kernel_dir) {
     const std::filesystem::path path = tunables_file(entry, cache_dir);
     if (path.empty()) {
-        throw Error(ErrorKind::invalid_argument, "no folder to keep tunables in: name one", "cache_dir");
+        throw Error(ErrorKind::invalid_argument, "there is no folder to keep tunables in; name one",
+                    "cache_dir");
     }
     make_folder(cache_dir);
     write_text(path, to_text(tunables, entry, kernels_key(kernels, kernel_dir)));
