@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Whether tracers agree, hit by hit, and what may excuse them where they do not.
+// SPDX-License-Identifier: Apache-2.0 Whether tracers agree, hit by hit, and whether single precision excuses
+// disagreements.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace nearlight::core {
 
-/// What a tracer found.
+/// The answers of a tracer.
 struct TracerAnswer {
     PairMask rays;      ///< pairs that it traced
-    PairMask occluded;  ///< of these
+    PairMask occluded;  ///< those of `rays` that are occluded
 };
 
 /// A pair about which a tracer and the reference differ.
@@ -21,9 +21,9 @@ struct Disagreement {
     std::string tracer;
     std::size_t packet = 0, lane = 0, vpl = 0;
     Vec3 from{}, to{};         ///< VPL, receiver
-    bool is_culling = false;   ///< one traces and the other culls it; otherwise one hits, the other does not
-    bool tracer_says = false;  ///< hit; of culling: traced
-    double distance = 0.0;     ///< of the segment to the nearest edge, m; of culling: the least |cosine|
+    bool is_culling = false;   ///< one traces the pair and the other culls it; otherwise they differ about a hit
+    bool tracer_says = false;  ///< the tracer found a hit; if is_culling: it traced the pair
+    double distance = 0.0;     ///< from the segment to the nearest edge, m; if is_culling: the smaller |cosine|
     bool excused = false;      ///< single precision explains it: the distance is small enough
 };
 
@@ -31,23 +31,24 @@ struct Disagreement {
 struct AgreementVerdict {
     std::uint64_t differences = 0;
     bool is_rare = true;  ///< fewer than 10⁻⁵ of the rays, or a single one
-    bool is_good = true;  ///< that, and each excused
+    bool is_good = true;  ///< is_rare, and every difference is excused
 };
 
 /// Compares tracers with one reference.
 class Agreement {
   public:
-    /// `edges` are the edges that excuse; both must outlive this.
+    /// Segments that pass near an edge of `edges` are excused. Both arguments must outlive this object.
     Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges);
 
-    /// Adds what differs: occlusion of rays that both traced, and pairs that `answer` culls or traces against
-    /// the set. A tracer that leaves rays out by chance may cull (`may_skip`).
+    /// Adds the differences: occlusion of rays that both traced, and pairs that `answer` culls or traces
+    /// contrary to the set of segments. `may_skip` allows culling, for tracers that leave rays out at random.
     AgreementVerdict compare(const std::string& tracer, const TracerAnswer& answer, const PairMask& reference,
                              bool may_skip = false);
 
-    /// ε, m: a segment that passes an edge within 10⁻⁵ of the scene's extent may go either way.
+    /// Distance (m) from an edge within which both answers about a segment are right: 10⁻⁵ of the scene's
+    /// extent.
     [[nodiscard]] double edge_tolerance() const { return edge_tolerance_; }
-    /// The first hundred of each tracer.
+    /// The first hundred disagreements of each tracer.
     [[nodiscard]] const std::vector<Disagreement>& items() const { return items_; }
 
   private:

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// The ways to ask Embree about rays.
+// SPDX-License-Identifier: Apache-2.0 The ways to trace rays with Embree.
 #pragma once
 
 #include <string>
@@ -7,17 +6,18 @@
 
 namespace nearlight::core {
 
-/// One way to ask.
+/// One way to trace rays with Embree.
 struct EmbreeMode {
-    int width = 16;             ///< rays a call: 1 or 16
+    int width = 16;             ///< rays per call: 1 or 16
     bool coherent = false;      ///< Embree is told that successive rays are alike
     bool high_quality = false;  ///< RTC_BUILD_QUALITY_HIGH (spatial splits) instead of MEDIUM
 };
 
-/// Single rays first, and of them incoherent ones in the tree of medium quality.
+/// All modes. The first is single incoherent rays in the tree of medium quality, and all modes of single rays
+/// come first.
 std::vector<EmbreeMode> all_embree_modes();
 
-/// "rtcOccluded16 coherent, quality high", where `call` is "rtcOccluded".
+/// Name of the mode: with the call "rtcOccluded", for example "rtcOccluded16 coherent, quality high".
 std::string to_string(const EmbreeMode& mode, const std::string& call);
 
 }  // namespace nearlight::core

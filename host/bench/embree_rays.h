@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Embree on given rays, for their closest hits, as fast as Embree goes.
+// SPDX-License-Identifier: Apache-2.0 Closest hits of given rays by Embree, used in the fastest way it
+// offers.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,14 @@ namespace nearlight::core {
 
 class EmbreeRays {
   public:
-    /// Builds both trees, without robust edges, over the triangles `ids`. Throws Error: out_of_memory, or
-    /// runtime.
+    /// Builds both trees, without robust edges, over the triangles `ids`. Throws Error:
+    /// ErrorKind::out_of_memory or ErrorKind::failure.
     EmbreeRays(const Scene& scene, std::span<const uint> ids);
     ~EmbreeRays();
 
-    /// Time inside Embree's calls only (wall: summed over threads and divided by their number); rays are laid
-    /// out beforehand. Writes to `distances` the t of each closest hit, infinity where there is none.
+    /// Returns the time inside Embree's calls only (wall time is summed over threads and divided by their
+    /// number); rays are laid out beforehand. Writes to `distances` the t of each closest hit, or infinity
+    /// for a ray that hits nothing.
     Seconds trace(std::span<const RayQuery> rays, const EmbreeMode& mode, int threads,
                   std::vector<float>& distances) const;
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// What Embree is asked with. For .cpp files only, as embree.h.
+// SPDX-License-Identifier: Apache-2.0 Embree's trees of both qualities. Like embree.h, it is for .cpp files.
 #pragma once
 
 #include <span>
@@ -9,10 +8,11 @@
 
 namespace nearlight::core {
 
-/// Trees of both qualities, without robust edges.
+/// Embree's trees of medium and high quality over the same triangles, without robust edges.
 class EmbreeTreePair {
   public:
-    /// Over the triangles `ids`. Throws Error: out_of_memory, or runtime.
+    /// Builds both trees over the triangles `ids`. Throws Error: ErrorKind::out_of_memory or
+    /// ErrorKind::failure.
     EmbreeTreePair(const Scene& scene, std::span<const uint> ids);
 
     [[nodiscard]] RTCScene tree(const EmbreeMode& mode) const {

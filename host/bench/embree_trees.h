@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Embree's trees: how long they take to build, and what they are worth when traced as ours are.
+// SPDX-License-Identifier: Apache-2.0 Embree's trees: how long they take to build, and the trees themselves
+// in our layout.
 #pragma once
 
 #include <span>
@@ -14,13 +14,13 @@ enum class EmbreeQuality {
     high,    ///< RTC_BUILD_QUALITY_HIGH: with spatial splits
 };
 
-/// Seconds that rtcCommitScene() takes for the triangles `ids`, with Embree's own kind of tree.
-/// Error(runtime) where Embree fails.
+/// Seconds that rtcCommitScene() takes for the triangles `ids`, with Embree's own kind of tree. Throws
+/// Error(ErrorKind::failure) where Embree fails.
 double seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality);
 
-/// A binary tree by rtcBuildBVH(), with the same costs and leaf size as ours and, at high quality, room for
-/// as many cut triangles as Embree's own scenes have by default (20 %). In our layout, but for the order of
-/// nodes. Error(runtime) where Embree fails.
+/// Builds a binary tree by rtcBuildBVH(), with the same costs and leaf size as ours and, at high quality,
+/// room for as many cut triangles as Embree's own scenes have by default (20 %). It has our layout except for
+/// the order of nodes. Throws Error(ErrorKind::failure) where Embree fails.
 Bvh build_embree_bvh(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality,
                      const BvhConfig& config = {});
 

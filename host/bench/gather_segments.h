@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// A set of shadow rays that any tracer can be given: what a gather asks, without the renderer around it.
+// SPDX-License-Identifier: Apache-2.0 The set of shadow rays of a gather, which any tracer can be given
+// without the renderer around it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace nearlight::core {
 
-/// One bit a (receiver, VPL) pair: bit `lane` of word packet·vpl_count + vpl.
+/// One bit per pair of a receiver and a VPL: bit `lane` of word packet·vpl_count + vpl.
 using PairMask = std::vector<std::uint64_t>;
 
 /// Segments from VPLs to receivers, each asked whether a triangle cuts it strictly between the fractions
@@ -23,30 +23,32 @@ struct GatherSegments {
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    PairMask rays;              ///< pairs that are segments; the others were culled
+    PairMask rays;              ///< pairs that are segments; the other pairs were culled
 
     [[nodiscard]] std::size_t word(std::size_t packet, std::size_t vpl) const {
         return packet * vpls.size() + vpl;
     }
 };
 
-/// The opaque triangles of the scene, and those pairs that face each other: both cosines positive, and a
-/// finite geometry term. The culling is plain host code, so a set is the same whatever device measures it.
+/// The set of the pairs that face each other (both cosines are positive and the geometry term is finite),
+/// with the scene's opaque triangles. The culling is plain host code, so the set does not depend on the
+/// device.
 GatherSegments make_gather_segments(const Scene& scene, std::vector<Vpl> vpls,
                                     std::vector<ReceiverPacket> receivers, float clamp_radius);
 
-/// What the camera sees at `width` × `height` pixels, lit by `vpl_count` VPLs of light walks
+/// Segments between what the camera sees at `width` × `height` pixels and `vpl_count` VPLs of walks
 /// (gather_workload.h).
 GatherSegments make_camera_segments(const Scene& scene, const Bvh& bvh, std::size_t vpl_count, int width,
                                     int height);
 
-/// The same with the VPLs and the clamp radius of a render with default settings: unequal powers, many near
-/// the camera.
+/// Segments between what the camera sees and the VPLs of a render with default settings, with its clamp
+/// radius. The VPLs have unequal powers, and many of them are near the camera.
 GatherSegments make_rendered_segments(Device& device, const Scene& scene, const Bvh& bvh,
                                       std::size_t vpl_count, int width, int height);
 
+/// Number of bits that are set.
 std::uint64_t count_bits(std::span<const std::uint64_t> mask);
-/// Pairs whose receiver is there.
+/// Number of pairs whose receiver is present.
 std::uint64_t count_pairs(const GatherSegments& segments);
 
 }  // namespace nearlight::core

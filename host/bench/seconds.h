@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Time as benchmarks take it. Processor time tells on a machine that others use too.
+// SPDX-License-Identifier: Apache-2.0 Times of benchmarks. Processor time is the one to trust on a machine
+// with other load.
 #pragma once
 
 #include <ctime>
@@ -10,10 +10,10 @@ namespace nearlight::core {
 
 struct Seconds {
     double wall = 0.0;
-    double processor = 0.0;  ///< of all threads that worked, summed; a GPU's work is not in it
+    double processor = 0.0;  ///< sum over all threads that worked; it does not contain a GPU's work
 };
 
-/// Both times of a stretch, of the whole process or of the calling thread.
+/// Wall time and processor time since construction, of the whole process or of the calling thread.
 class TwoClocks {
   public:
     enum class Of { process, thread };

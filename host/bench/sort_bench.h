@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Measures the radix sort and the prefix sum beside the host's libraries and beside plain copying.
+// SPDX-License-Identifier: Apache-2.0 Measures the radix sort and the prefix sum, the host's libraries and
+// plain copying side by side.
 #pragma once
 
 #include <string>
@@ -15,16 +15,16 @@ struct SortBenchConfig {
     int repeats = 11;
 };
 
-/// One way to do a piece of work.
+/// The figures of one way to sort, to sum or to copy.
 struct SortFigures {
     std::string name;
     Seconds median{};
-    double bytes = 0.0;  ///< that it reads and writes at least
+    double bytes = 0.0;  ///< minimum number of bytes that it reads and writes
     bool is_right = true;
 };
 
-/// Others' seconds over ours, run by run: wall clock, and processor time where the device is a CPU (otherwise
-/// 0).
+/// The median over the repeats of another way's seconds divided by ours: by the wall clock, and by processor
+/// time where the device is a CPU (otherwise 0).
 struct SortRatio {
     std::string name;
     double wall = 0.0;
@@ -38,9 +38,9 @@ struct SortBenchResult {
     std::vector<SortRatio> ratios;
 };
 
-/// Sorts pairs of a random 32-bit key and its index (the others as one 64-bit number each, which gives the
-/// same order), and sums 32-bit numbers. Every repeat runs everything in turn; data is laid out beforehand,
-/// untimed.
+/// Sorts pairs of a random 32-bit key and its index, and sums 32-bit numbers. The host's libraries sort each
+/// pair as one 64-bit number, which gives the same order. Every repeat runs everything in turn; the data is
+/// laid out beforehand and that is not timed.
 SortBenchResult bench_sort(Device& device, const SortBenchConfig& config = {});
 
 }  // namespace nearlight::core

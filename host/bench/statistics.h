@@ -10,7 +10,7 @@
 
 namespace nearlight::core {
 
-/// Of at least one value.
+/// The median of one or more values.
 inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
@@ -26,7 +26,7 @@ inline double median_absolute_deviation(const std::vector<double>& values) {
     return median(deviations);
 }
 
-/// One clock's readings, repeat by repeat.
+/// The readings of one clock, one per repeat.
 inline std::vector<double> readings(const std::vector<Seconds>& runs, double Seconds::*clock) {
     std::vector<double> values;
     for (const Seconds& run : runs) {
@@ -40,7 +40,7 @@ struct Ratio {
     double deviation = 0.0;  ///< median absolute deviation
 };
 
-/// Their seconds over ours, repeat by repeat.
+/// Their seconds divided by ours, repeat by repeat.
 inline Ratio ratio(const std::vector<Seconds>& theirs, const std::vector<Seconds>& ours,
                    double Seconds::*clock) {
     std::vector<double> ratios;

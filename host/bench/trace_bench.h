@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Measures the traversal of camera pass and light tracer beside Embree's, on the same rays.
+// SPDX-License-Identifier: Apache-2.0 Measures our traversal, as the camera pass and the light tracer use it,
+// and Embree's on the same rays.
 #pragma once
 
 #include <string>
@@ -12,31 +12,32 @@
 namespace nearlight::core {
 
 struct TraceBenchConfig {
-    int width = 512;  ///< camera rays: one for each pixel
+    int width = 512;  ///< of the picture, which has one camera ray per pixel
     int height = 512;
-    std::size_t walk_rays = 1u << 18u;  ///< of light walks
+    std::size_t walk_rays = 1u << 18u;  ///< number of rays of walks
     int repeats = 11;
-    int threads = 0;  ///< that ask Embree; 0: as many as there are cores
+    int threads = 0;  ///< threads of Embree; 0: one per core
 };
 
 struct RayTracerFigures {
     std::string name;
     Seconds median{};
-    /// Rays that it lets pass and rtcIntersect1 does not, or the other way round, or whose hits lie apart.
+    /// Number of rays that hit something according to only one of this tracer and rtcIntersect1, or that hit
+    /// at different distances.
     std::size_t differing = 0;
 };
 
-/// Rays of one kind. Ratios are the seconds of the fastest of Embree's modes over ours: by wall clock, and by
-/// processor time where the device is a CPU (otherwise 0).
+/// The figures for rays of one kind. Ratios are the seconds of Embree's fastest mode divided by ours: by the
+/// wall clock, and by processor time where the device is a CPU (otherwise 0).
 struct RaySetResult {
     std::string name;  ///< "camera", "light walks"
     std::size_t rays = 0;
     std::size_t hits = 0;
-    std::vector<RayTracerFigures> tracers;  ///< ours first
-    std::string best;                       ///< of Embree's modes
+    std::vector<RayTracerFigures> tracers;  ///< our kernel first
+    std::string best;                       ///< name of Embree's fastest mode
     double ratio = 0.0;
     double ratio_processor = 0.0;
-    bool agrees = true;  ///< ours differs for less than 1e-5 of the rays (one is let pass)
+    bool agrees = true;  ///< our kernel differs for at most 1e-5 of the rays, or for one ray
 };
 
 struct TraceBenchResult {
@@ -45,8 +46,8 @@ struct TraceBenchResult {
     std::vector<RaySetResult> sets;
 };
 
-/// Closest hits of what the camera's pixels send out, in tiles, and of light walks, one after the other: the
-/// kernel of ray_caster.cl, whose traversal the other kernels share, and all of Embree's modes in turn.
+/// Measures closest hits, first of camera rays in tiles, then of the rays of walks. The kernel of
+/// ray_caster.cl, whose traversal the other kernels share, and all of Embree's modes run in turn.
 TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenchConfig& config = {});
 
 }  // namespace nearlight::core

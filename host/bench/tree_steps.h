@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What a tree costs to trace, counted: the same on any machine, however busy.
+// SPDX-License-Identifier: Apache-2.0 Counts the steps of rays through a tree. The counts are the same on
+// every machine.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,19 @@
 
 namespace nearlight::core {
 
-/// Work of any-hit rays from VPLs to receivers whose cosines are both positive. A node is one visit, with
+/// Counts for any-hit rays from VPLs to receivers whose cosines are both positive. A node is one visit, with
 /// tests of both child boxes.
 struct TreeSteps {
     std::uint64_t rays = 0;
     std::uint64_t occluded = 0;
-    double nodes_per_ray = 0.0;  ///< a ray alone, nearer child first, as the kernels for one ray go
+    double nodes_per_ray = 0.0;  ///< each ray by itself, nearer child first, as in the kernels for single rays
     double triangles_per_ray = 0.0;
-    std::uint64_t packets = 0;      ///< of the rays of one VPL and up to 64 receivers
-    double nodes_per_packet = 0.0;  ///< together, children in stored order, as the packet kernel goes
+    std::uint64_t packets = 0;      ///< each has the rays between one VPL and up to 64 receivers
+    double nodes_per_packet = 0.0;  ///< rays together, children in stored order, as in the packet kernel
     double triangles_per_packet = 0.0;
 };
 
+/// Counts the steps of all pairs. @param threads 0: one per core
 TreeSteps count_steps(const Bvh& bvh, std::span<const Vpl> vpls, std::span<const ReceiverPacket> receivers,
                       int threads);
 

@@ -7,7 +7,7 @@
 
 namespace nearlight::core {
 
-/// Concurrency of a TBB arena for so many threads; 0, or more than there are cores: one a core.
+/// Concurrency of a TBB arena for `threads` threads: at most the number of cores, which 0 stands for too.
 inline int arena_size(int threads) {
     const int cores = tbb::this_task_arena::max_concurrency();
     return threads > 0 ? std::min(threads, cores) : cores;

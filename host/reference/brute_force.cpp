@@ -26,7 +26,7 @@ struct Crossing {
     double t, u, v;
 };
 
-// Written so that any NaN fails a comparison and is no hit.
+// Comparisons are written so that a NaN fails them and the ray misses.
 std::optional<Crossing> cross_triangle(const Scene& scene, const Triangle& triangle,
                                        const DoubleVector& origin, const DoubleVector& direction) {
     const DoubleVector v0 = to_double(scene.vertices[triangle.v0].position);

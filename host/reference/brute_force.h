@@ -9,11 +9,12 @@
 
 namespace nearlight::core {
 
-/// Closest hit with t in (t_min, t_max), either side, among the triangles that `ids` names, or all of them
-/// where `ids` is empty; of equal ones the first. A triangle without area is never hit.
-/// [Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997]
+/// Closest hit on either side with t in (t_min, t_max) among the triangles `ids`, or among all triangles
+/// where `ids` is empty. Of hits at the same t, the first triangle's counts. A triangle without area is never
+/// hit. [Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997]
 BvhHit brute_force_closest_hit(const Scene& scene, std::span<const uint> ids, Vec3 origin, Vec3 direction,
                                float t_min, float t_max);
+/// Whether any triangle of `ids`, or of the scene where `ids` is empty, is hit with t in (t_min, t_max).
 bool brute_force_occluded(const Scene& scene, std::span<const uint> ids, Vec3 origin, Vec3 direction,
                           float t_min, float t_max);
 

@@ -10,8 +10,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Of coordinates and distances, relative to the scene's extent: a direction in single precision, times a
-/// distance.
+/// Tolerance of coordinates and distances, relative to the scene's extent. It allows for the rounding of a
+/// direction in single precision that is multiplied by a distance.
 constexpr float kTolerance = 2e-5f;
 
 struct Found : ReceiverPoint {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What the camera pass must find at pixel centres where no surface has lobes, by Embree.
+// SPDX-License-Identifier: Apache-2.0 The oracle of the camera pass, by Embree: what it must find at pixel
+// centres where no surface has lobes.
 #pragma once
 
 #include <span>
@@ -13,12 +13,13 @@ namespace nearlight::core {
 RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y);
 
 struct CameraComparison {
-    std::size_t receivers = 0;   ///< present ones
-    std::size_t absent = 0;      ///< lanes beside the picture, and pixels that see nothing
-    std::size_t mismatches = 0;  ///< position, normal, albedo, depth or close range differ, away from edges
+    std::size_t receivers = 0;  ///< receivers that are present
+    std::size_t absent = 0;     ///< lanes beside the picture, and pixels that see nothing
+    std::size_t mismatches =
+        0;  ///< lanes away from edges whose position, normal, albedo, depth or close range differs
 };
 
-/// Compares the whole picture, which was rendered as one band of one sample and one branch.
+/// Compares a camera pass over the whole picture, made as one band of one sample and one branch, with Embree.
 CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
                                      const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices);

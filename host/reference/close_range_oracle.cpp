@@ -9,9 +9,8 @@
 namespace nearlight::core {
 namespace {
 
-// The point of a triangle inside five half-spaces that is nearest to the camera, as a quadratic
-// programme in the two barycentric weights, in double precision. The minimum lies inside, or on the line of
-// some constraint.
+// The point of a triangle inside five half-spaces that is nearest to the camera solves a quadratic program in
+// the two barycentric weights. The minimum lies inside, or on the line of a constraint.
 struct Constraint {
     double a, b, c;  // a·u + b·v + c ≥ 0
 };

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Which triangles reach into the close range, worked out without clipping polygons, and which points lie in
-// it.
+// SPDX-License-Identifier: Apache-2.0 The oracle of the close range: which triangles reach into it, found
+// without clipping polygons, and which points lie in it.
 #pragma once
 
 #include "host/base/math.h"
@@ -12,10 +11,12 @@ struct TriangleCorners {
 };
 
 /// Squared distance (m²) from the camera to the nearest point of the triangle inside the five planes of the
-/// region, each moved outwards by `slack` m; infinity where there is none. The range itself is not looked at.
+/// region, each moved outwards by `slack` m; infinity where no such point exists. The range itself plays no
+/// part.
 double nearest_squared_distance(const TriangleCorners& corners, const CloseRange& region, double slack);
 
-/// Whether a point lies in the close range as the flag says, or so near its border (m) that rounding decides.
+/// Whether `flag` says correctly if the point lies in the close range. Within `slack` m of the border, where
+/// rounding decides, both answers are correct.
 bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack);
 
 }  // namespace nearlight::core

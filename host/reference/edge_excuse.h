@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Which disagreements over a shadow ray single precision explains.
+// SPDX-License-Identifier: Apache-2.0 Decides which disagreements about a shadow ray single precision
+// explains.
 #pragma once
 
 #include <span>
@@ -8,11 +8,12 @@
 
 namespace nearlight::core {
 
-/// How near an edge a segment must pass to go either way, as a fraction of the scene's extent.
+/// Maximum distance from an edge at which both answers about a segment are right, as a fraction of the
+/// scene's extent.
 inline constexpr double kSegmentEdgeTolerance = 1e-5;
 
-/// Excuses segments that pass an edge that closely, but only so many: where everything
-/// is wrong, looking closely at each segment would take minutes and excuse nothing.
+/// Excuses segments that pass an edge within kSegmentEdgeTolerance. It examines a limited number of them:
+/// where everything is wrong, examining each segment would take minutes and excuse nothing.
 class EdgeExcuse {
   public:
     EdgeExcuse(std::span<const BvhTriangle> triangles, float extent)

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Embree 3 or 4, whichever the build found: its objects, released when they go out of scope, and its ray
-// queries, which the two take differently. For .cpp files only: no other header includes Embree's.
+// SPDX-License-Identifier: Apache-2.0 Embree 3 or 4, whichever the build found: its objects, released when
+// they go out of scope, and its ray queries, whose interface differs between the two versions. Only .cpp
+// files and embree_tree.h include this file, so that no other header includes Embree's.
 #pragma once
 
 #if NEARLIGHT_EMBREE_MAJOR >= 4
@@ -25,7 +25,8 @@ using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRel
 using EmbreeTree = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease<rtcReleaseScene>>;
 using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<rtcReleaseGeometry>>;
 
-/// Embree's ray queries, told beforehand whether successive rays are alike. Each thread needs its own.
+/// Embree's ray queries; `coherent` tells Embree that successive rays are alike. Each thread needs its own
+/// object.
 class EmbreeQuery {
   public:
 #if NEARLIGHT_EMBREE_MAJOR >= 4

@@ -12,11 +12,12 @@
 namespace nearlight::core {
 namespace {
 
-static_assert(sizeof(RayPacket16) == sizeof(RTCRay16) && alignof(RayPacket16) == alignof(RTCRay16));
-static_assert(offsetof(RayPacket16, direction_x) == offsetof(RTCRay16, dir_x));
-static_assert(offsetof(RayPacket16, t_max) == offsetof(RTCRay16, tfar));
+static_assert(sizeof(Rays16) == sizeof(RTCRay16) && alignof(Rays16) == alignof(RTCRay16));
+static_assert(offsetof(Rays16, direction_x) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(Rays16, t_max) == offsetof(RTCRay16, tfar));
 
-// Of a segment: what its end points' own surfaces may take.
+// Fraction of a segment at each end that is ignored, so that the surfaces of its end points do not occlude
+// it.
 constexpr float kSegmentMargin = 1e-5f;
 
 RTCBuildQuality build_quality(EmbreeOptions::Quality quality) {
@@ -31,7 +32,7 @@ RTCBuildQuality build_quality(EmbreeOptions::Quality quality) {
     return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-/// Embree may return anything for NaN, so such rays do not reach it.
+/// Whether Embree can trace the ray. Its answers for NaN are undefined.
 bool is_traceable(Vec3 origin, Vec3 direction) {
     return is_finite(origin) && is_finite(direction) && !is_zero(direction);
 }
@@ -125,7 +126,7 @@ bool EmbreeScene::blocked(Vec3 from, Vec3 to) const {
     return occluded(from, to - from, kSegmentMargin, 1.0f - kSegmentMargin);
 }
 
-std::uint32_t EmbreeScene::occluded16(RayPacket16& rays, std::uint32_t active) const {
+std::uint32_t EmbreeScene::occluded16(Rays16& rays, std::uint32_t active) const {
     alignas(64) int valid[16];
     for (uint lane = 0; lane < 16; ++lane) {
         valid[lane] = (active >> lane & 1u) != 0u ? -1 : 0;

@@ -31,7 +31,7 @@ EmbreeGeometry make_geometry(RTCDevice device, const Scene& scene, std::span<con
     auto* indices = static_cast<uint*>(rtcSetNewGeometryBuffer(
         geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint), ids.size()));
     if (positions == nullptr || indices == nullptr) {
-        return nullptr;  // the report has the reason
+        return nullptr;  // `report` has the reason
     }
     for (const Vertex& vertex : scene.vertices) {
         *positions++ = vertex.position;

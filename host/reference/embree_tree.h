@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Embree's device and its trees over triangles of a scene. For .cpp files only, as embree.h.
+// SPDX-License-Identifier: Apache-2.0 Embree's device and its trees over triangles of a scene. Like embree.h,
+// it is for .cpp files.
 #pragma once
 
 #include <mutex>
@@ -11,18 +11,19 @@
 
 namespace nearlight::core {
 
-/// The first error that Embree reported, possibly from a thread of its own.
+/// The first error that Embree reported, possibly from one of its own threads.
 struct EmbreeReport {
     std::mutex mutex;
     RTCError code = RTC_ERROR_NONE;
     std::string message;
 };
 
-/// Errors of the device go to `report`, which must outlive it. Throws Error(ErrorKind::failure).
+/// Opens Embree. Errors of the device go to `report`, which must outlive it. Throws Error(ErrorKind::failure)
+/// where Embree does not start.
 EmbreeDevice open_embree(EmbreeReport& report);
 
-/// A tree over the triangles `ids` of the scene, in that order: hit.primID is an index into `ids`. Copies
-/// what it needs. Throws Error with Embree's message: out_of_memory, or runtime.
+/// Builds a tree over the triangles `ids` of the scene; hit.primID is an index into `ids`. The tree copies
+/// what it needs. Throws Error with Embree's message: ErrorKind::out_of_memory or ErrorKind::failure.
 EmbreeTree build_embree_tree(RTCDevice device, EmbreeReport& report, const Scene& scene,
                              std::span<const uint> ids, RTCBuildQuality quality, RTCSceneFlags flags);
 

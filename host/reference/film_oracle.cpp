@@ -10,7 +10,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Packet and lane of a sample of a pixel.
+/// The packet and the lane that hold a sample of a pixel.
 std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
                                              uint branch) {
     constexpr uint kTile = NEARLIGHT_TILE_SIZE;

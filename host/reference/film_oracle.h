@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Samples of all kinds for a film, and the layers that must become of them, in double precision.
+// SPDX-License-Identifier: Apache-2.0 The film's oracle: samples of all kinds, and the layers that the film
+// must make of them, in double precision.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace nearlight::core {
 
-/// A picture whose edges cut tiles.
+/// A small picture whose right and lower edges cut tiles.
 struct FilmLayout {
     uint width = 13;
     uint height = 11;
-    uint samples = 3;   ///< a pixel
-    uint branches = 2;  ///< a sample
+    uint samples = 3;   ///< samples per pixel
+    uint branches = 2;  ///< branches per sample
 
     [[nodiscard]] std::size_t tile_columns() const {
         return (width + NEARLIGHT_TILE_SIZE - 1) / NEARLIGHT_TILE_SIZE;
@@ -25,7 +25,7 @@ struct FilmLayout {
     }
 };
 
-/// What the camera pass and both kinds of light leave of the whole picture.
+/// What the camera pass and the stages of direct and indirect light hand to the film, for the whole picture.
 struct FilmSamples {
     std::vector<ReceiverPacket> receivers;
     std::vector<CameraVertex> vertices;
@@ -33,10 +33,10 @@ struct FilmSamples {
     std::vector<IrradiancePacket> indirect;
 };
 
-/// Random numbers in every field; some camera rays meet nothing.
+/// Samples with random numbers in every field. Some camera rays meet nothing.
 FilmSamples random_film_samples(const FilmLayout& layout);
 
-/// What the layers of a pixel must be, in the order of layer_channels().
+/// The values that the layers of a pixel must have, in the order of layer_channels().
 std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout& layout, uint x, uint y);
 
 }  // namespace nearlight::core

@@ -23,7 +23,7 @@ uint spread_bits(uint x) {
     return (x | (x << 2u)) & 0x09249249u;
 }
 
-/// 30 bits; `unit` lies in [0, 1]³.
+/// Morton code of 30 bits for a point in [0, 1]³.
 uint morton_code(Vec3 unit) {
     const auto cell = [](float x) { return static_cast<uint>(std::clamp(x * 1024.0f, 0.0f, 1023.0f)); };
     return spread_bits(cell(unit.x)) | (spread_bits(cell(unit.y)) << 1u) | (spread_bits(cell(unit.z)) << 2u);
@@ -44,7 +44,7 @@ class PointMaker {
   public:
     explicit PointMaker(const Scene& scene) : scene_(scene), extent_(max_component(bounds(scene).size())) {}
 
-    /// Standing off, on the side of the surface that `direction` points away from.
+    /// A point a small distance off the surface, on the side that a ray along `direction` hits.
     [[nodiscard]] ReceiverPoint at_hit(const BvhHit& hit, Vec3 direction) const {
         const Triangle& triangle = scene_.triangles[hit.triangle];
         Vec3 normal = triangle_normal(scene_, triangle);
@@ -82,7 +82,7 @@ Vec3 sphere_direction(Pcg32& random) {
 }
 
 Vpl make_vpl(const ReceiverPoint& point, uint depth) {
-    // Equal powers: the work does not depend on them.
+    // All powers are equal, because the work does not depend on them.
     return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
 }
 
@@ -102,7 +102,7 @@ RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter&
     return endless_ray(emitter.position, sphere_direction(random));
 }
 
-/// Emitters that walks start from; the environment is left out.
+/// The emitters from which walks start: all but the environment.
 std::vector<Emitter> lamps(const EmitterTable& table) {
     std::vector<Emitter> result;
     for (const Emitter& emitter : table.emitters) {
@@ -113,7 +113,8 @@ std::vector<Emitter> lamps(const EmitterTable& table) {
     return result;
 }
 
-/// Calls visit(ray, deposit or nullptr) for each ray of a walk until it answers false. True if it never did.
+/// Calls visit(ray, deposit) for each ray of a walk until it returns false; `deposit` is null where the ray
+/// leaves the scene. Returns false if `visit` did.
 template <typename Visit>
 bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, RayQuery ray, Pcg32& random,
                  const Visit& visit) {
@@ -136,7 +137,7 @@ bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, R
     return true;
 }
 
-/// The same for at most so many walks from the lamps; nothing where there are none.
+/// Calls follow_walk() for at most `max_walks` walks from the scene's lights, until `visit` returns false.
 template <typename Visit>
 void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t max_walks, Pcg32& random,
                   const Visit& visit) {
@@ -160,7 +161,7 @@ void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t max_walks, Pcg
 
 std::vector<Vpl> trace_walks(const Scene& scene, const Bvh& bvh, std::size_t count, Pcg32& random) {
     std::vector<Vpl> vpls;
-    // A lamp in the open may hit nothing at all.
+    // The number of walks is limited because a light in the open may hit nothing.
     follow_walks(scene, bvh, 100 * count, random, [&](const RayQuery&, const Vpl* deposit) {
         if (deposit != nullptr) {
             vpls.push_back(*deposit);

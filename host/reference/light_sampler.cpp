@@ -12,7 +12,7 @@ namespace {
 // With more point and spot lights than this, one of them is chosen by power.
 constexpr uint kMaxDeltaRays = 16;
 
-/// First entry above u; the last one where rounding leaves none.
+/// Index of the first entry above u, or of the last entry if rounding leaves none above.
 uint pick_entry(std::span<const float> cdf, float u) {
     const auto found = std::upper_bound(cdf.begin(), cdf.end(), u);
     return static_cast<uint>(std::min(found - cdf.begin(), std::ptrdiff_t(cdf.size()) - 1));
@@ -100,7 +100,7 @@ Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, 
     const Emitter& emitter = pick_emitter(area_lights, 1.0f - area_share_ * (1.0f - random.pick));
     const float probability = emitter.probability / area_share_;
     if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-        // What the choice of the light left of its random number chooses the row.
+        // The part of the random number that the choice of the light left unused chooses the row.
         const float first = 1.0f - environment_probability_;
         random.pick = std::clamp((random.pick - first) / environment_probability_, 0.0f, 0x1.fffffep-1f);
         sum += environment_irradiance(embree, position, normal, probability, random);
@@ -167,7 +167,7 @@ Vec3 LightSampler::environment_irradiance(const EmbreeScene& embree, Vec3 positi
     const float y = cos_top + (cos_bottom - cos_top) * random.place.y;
     const float sine = std::sqrt(std::max(0.0f, 1.0f - y * y));
     const Vec3 local{std::sin(azimuth) * sine, y, -std::cos(azimuth) * sine};
-    const float* m = parameters.world_to_local;  // a rotation: its transpose goes back
+    const float* m = parameters.world_to_local;  // a rotation, so its transpose is its inverse
     const Vec3 direction{m[0] * local.x + m[3] * local.y + m[6] * local.z,
                          m[1] * local.x + m[4] * local.y + m[7] * local.z,
                          m[2] * local.x + m[5] * local.y + m[8] * local.z};

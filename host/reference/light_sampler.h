@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Light that comes straight from the scene's lights: by sampling them, and by hitting them.
+// SPDX-License-Identifier: Apache-2.0 Direct light in the reference path tracer: by sampling the scene's
+// lights, and by hitting them.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,11 @@
 
 namespace nearlight::core {
 
-/// Irradiance (W/m²) that a point or spot light sends to a point that stands off its surface; 0 for others.
+/// Irradiance (W/m²) that a point or spot light sends to a point that stands off its surface; 0 for emitters
+/// of other types.
 Vec3 delta_light_irradiance(const EmbreeScene& embree, const Emitter& emitter, Vec3 position, Vec3 normal);
 
+/// Uniform random numbers in [0, 1): `pick` chooses a light, `place` a place on it.
 struct LightRandom {
     float pick = 0.0f;
     Point2 place;
@@ -26,20 +28,21 @@ class LightSampler {
   public:
     explicit LightSampler(const Scene& scene);
 
-    /// Irradiance (W/m²) at a point that stands off its surface, about the unit normal: from all point and
-    /// spot lights where they are few, otherwise from one of them, and from one place on an area light or the
-    /// environment.
+    /// Estimate of the irradiance (W/m²) at a point that stands off its surface, about the unit normal. It
+    /// sums all point and spot lights where they are few, otherwise one of them, and one place on an area
+    /// light or in the environment.
     [[nodiscard]] Vec3 sampled_irradiance(const EmbreeScene& embree, Vec3 position, Vec3 normal,
                                           LightRandom random) const;
-    /// Weighted radiance that a cosine-distributed ray about `normal` brings: of the triangle that it hits,
-    /// or of the environment if it hits none. Direction is a unit vector.
+    /// Weighted radiance that a cosine-distributed ray about `normal` brings from the triangle that it hits,
+    /// or from the environment if it hits none. `direction` is a unit vector.
     [[nodiscard]] Vec3 met_radiance(const BvhHit& hit, Vec3 direction, Vec3 normal) const;
 
-    /// Radiance of the environment from a unit direction (pointing at it), nearest pixel; 0 without one.
-    /// Longitude as Mitsuba has it: in local space the its first column begins at −Z, columns to the right
-    /// turn over +X.
+    /// Radiance that arrives from the environment; `direction` is a unit vector that points towards it. The
+    /// nearest pixel counts; without an environment the radiance is 0. Longitude follows Mitsuba: in local
+    /// space the first column begins at −Z, and columns to the right turn towards +X.
     [[nodiscard]] Vec3 environment_radiance(Vec3 direction) const;
-    /// Radiance that the triangle sends towards the origin of a ray of that direction: its front only.
+    /// Radiance that the triangle sends towards the origin of a ray with the given direction. Only its front
+    /// emits.
     [[nodiscard]] Vec3 emitted_radiance(uint triangle, Vec3 direction) const;
 
     [[nodiscard]] float extent() const { return extent_; }

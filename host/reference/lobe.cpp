@@ -6,7 +6,7 @@ namespace {
 
 constexpr float kSmooth = 1e-3f;
 
-/// Where a lobe reflects or refracts: the microfacet met, and what masks the way on.
+/// The microfacet at which a lobe reflects or refracts, and the masking of the outgoing direction.
 struct Facet {
     Vec3 normal;
     Frame frame;
@@ -25,7 +25,7 @@ Facet sample_facet(Vec3 normal, float alpha, Vec3 to_viewer, Point2 u) {
     return {frame.to_world(sample_ggx_visible_normal(frame.to_local(to_viewer), alpha, u)), frame, alpha};
 }
 
-/// Reflected on the facet; no weight if that leads into the surface.
+/// The reflection on the facet. Its weight is 0 if its direction points into the surface.
 LobeSample reflected(const Surface& surface, const Facet& facet, Vec3 normal, Vec3 to_viewer, Vec3 weight) {
     const Vec3 direction = normalize(reflect(to_viewer, facet.normal));
     if (dot(direction, normal) <= 0.0f || dot(direction, surface.geometric_normal) <= 0.0f) {
@@ -38,7 +38,7 @@ LobeSample sample_coat(const Surface& surface, Vec3 normal, Vec3 to_viewer, Lobe
     const Material& material = *surface.material;
     const float chance = fresnel_dielectric(dot(normal, to_viewer), material.eta.x);
     if (random.choice >= chance) {
-        return {.is_base = true, .weight = {1, 1, 1}};  // (1 − F) over its own probability
+        return {.is_base = true, .weight = {1, 1, 1}};  // (1 − F) divided by its probability, 1 − F
     }
     const Facet facet = sample_facet(normal, material.roughness, to_viewer, random.direction);
     const float fresnel = fresnel_dielectric(std::max(0.0f, dot(facet.normal, to_viewer)), material.eta.x);
@@ -67,7 +67,7 @@ LobeSample sample_dielectric(const Surface& surface, Vec3 normal, Vec3 to_viewer
     return {.weight = material.transmission * facet.masking(direction), .direction = direction};
 }
 
-/// A pane reflects on both faces, back and forth: R + T²R + T²R³ + … = 2R/(1 + R).
+/// A thin pane, which reflects back and forth between its faces: R + T²R + T²R³ + … = 2R/(1 + R).
 LobeSample sample_thin_dielectric(const Surface& surface, Vec3 normal, Vec3 to_viewer, LobeRandom random) {
     const Material& material = *surface.material;
     const float face = fresnel_dielectric(std::min(1.0f, dot(normal, to_viewer)), material.eta.x);

@@ -24,7 +24,8 @@
 namespace nearlight::core {
 namespace {
 
-// Bounces before Russian roulette may end a walk, and the most it lets live.
+// Number of bounces before Russian roulette may end a path, and the maximum probability of survival after
+// that.
 constexpr int kSureBounces = 3;
 constexpr float kMaxSurvival = 0.95f;
 constexpr int kTileSize = 16;
@@ -47,7 +48,7 @@ class PathTracer {
 
   private:
     [[nodiscard]] Light gather(const Receiver& receiver, SampleBatch& batch, int sample) const;
-    /// Direct light at a vertex of a walk (irradiance ÷ π), and the ray on which the walk goes on.
+    /// Direct light at a vertex of a path (irradiance ÷ π), and the ray on which the path continues.
     struct Step {
         Vec3 direct;
         Vec3 direction;
@@ -99,8 +100,8 @@ PathTracer::Step PathTracer::step(Vec3 position, Vec3 normal, bool wants_direct,
     return result;
 }
 
-// What the receiver reflects per unit of albedo. The cosine-distributed ray carries albedo/π · cosθ over its
-// density, which is the albedo, and the bounded geometry term scales it by r²/max(r², R²).
+// The light that the receiver reflects per unit of albedo. The weight of a cosine-distributed ray is albedo/π
+// · cosθ divided by its density, which is the albedo; the bounded geometry term scales it by r²/max(r², R²).
 Light PathTracer::gather(const Receiver& receiver, SampleBatch& batch, int sample) const {
     Light light;
     Vec3 weight{1, 1, 1};
@@ -163,7 +164,7 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     pixel.add(sum, batch_size);
 }
 
-/// Counts what is done and passes it on, one thread at a time.
+/// Counts the work that is done and reports it, from one thread at a time.
 class ProgressGate {
   public:
     ProgressGate(const Progress& progress, double total) : progress_(progress), total_(total) {}
@@ -184,7 +185,7 @@ class ProgressGate {
     std::atomic<bool> stopped_ = false;
 };
 
-/// One more batch for each pixel that has just `batch` of them.
+/// Traces one more batch for each pixel that has exactly `batch` batches.
 void trace_round(const PathTracer& tracer, const PathTracerSettings& settings, int batch,
                  std::vector<PixelStatistics>& pixels, ProgressGate& gate) {
     const tbb::blocked_range2d<int> film(0, settings.height, kTileSize, 0, settings.width, kTileSize);
@@ -207,14 +208,14 @@ void trace_round(const PathTracer& tracer, const PathTracerSettings& settings, i
     tbb::parallel_for(film, trace_tile, tbb::simple_partitioner());
 }
 
-/// Sums of the earlier picture, or empty ones.
+/// The sums of the earlier picture, or empty sums without one.
 std::vector<PixelStatistics> first_pixels(const PathTracerSettings& settings, const Image* earlier) {
     if (earlier == nullptr) {
         return std::vector<PixelStatistics>(static_cast<std::size_t>(settings.width) *
                                             static_cast<std::size_t>(settings.height));
     }
     if (earlier->width != settings.width || earlier->height != settings.height) {
-        throw Error(ErrorKind::file, "the picture to go on from has another size");
+        throw Error(ErrorKind::file, "the picture to continue has another size");
     }
     return from_image(*earlier, settings.batch_size);
 }

@@ -16,7 +16,8 @@ void add_square(Double3& sum, const Double3& a, const Double3& b, int divisor) {
     sum.add(Double3{square(a.x + b.x), square(a.y + b.y), square(a.z + b.z)});
 }
 
-/// Of the mean of `batches` equally large batches whose means sum to `sum`.
+/// Variance of the mean of `batches` batches of equal size, from the sums of the batches' means and of their
+/// squares.
 float variance_of_mean(double sum, double square_sum, int batches) {
     if (batches < 2) {
         return std::numeric_limits<float>::infinity();
@@ -25,7 +26,7 @@ float variance_of_mean(double sum, double square_sum, int batches) {
     return static_cast<float>(excess / (double(batches) * (batches - 1)));
 }
 
-/// Writes channels one after the other.
+/// Writes the values of a pixel's channels one after the other.
 class ChannelWriter {
   public:
     explicit ChannelWriter(float* values) : values_(values) {}
@@ -83,7 +84,7 @@ std::vector<std::string> channel_names() {
     return names;
 }
 
-/// Where channel_names() has the first channel of each layer.
+/// The index in channel_names() of the first channel of each layer.
 enum Place : std::size_t {
     kDirect = 3,
     kIndirect = 6,
@@ -98,19 +99,19 @@ enum Place : std::size_t {
     kSurfaces,
 };
 
-/// Values by channel name, whatever order a file has them in.
+/// Reads values by channel name, in whatever order the file stores the channels.
 class ChannelReader {
   public:
     explicit ChannelReader(const Image& image) : image_(image) {
         for (const std::string& name : channel_names()) {
             const int index = image.find_channel(name);
             if (index < 0) {
-                throw Error(ErrorKind::file, "the picture to go on from has no channel '" + name + "'");
+                throw Error(ErrorKind::file, "the picture to continue has no channel '" + name + "'");
             }
             indices_.push_back(static_cast<std::size_t>(index));
         }
     }
-    /// Of the channel that channel_names() has at `place`.
+    /// The value of the channel that channel_names() has at `place`.
     [[nodiscard]] double number(std::size_t pixel, std::size_t place) const {
         return image_.values[pixel * image_.channel_count() + indices_[place]];
     }
@@ -124,7 +125,7 @@ class ChannelReader {
     std::vector<std::size_t> indices_;
 };
 
-/// Sum of squares from which variance_of_mean() makes `variance`.
+/// The sum of squares for which variance_of_mean() returns `variance`.
 double square_sum(double sum, double variance, int batches) {
     if (batches == 0) {
         return 0.0;
@@ -139,7 +140,7 @@ Double3 square_sums(const Double3& sum, const Double3& variance, double batch_si
             square_sum(sum.z / batch_size, variance.z, batches)};
 }
 
-/// Channels in the order of channel_names().
+/// The sums of pixel `i`, from channels in the order of channel_names().
 PixelStatistics read_pixel(const ChannelReader& in, std::size_t i, int batch_size) {
     PixelStatistics pixel;
     const auto samples = in.number(i, kSamples);
@@ -147,12 +148,12 @@ PixelStatistics read_pixel(const ChannelReader& in, std::size_t i, int batch_siz
     const auto surfaces = in.number(i, kSurfaces);
     if (!(samples >= 0 && samples <= 1 << 30 && receivers >= 0 && receivers <= samples && surfaces >= 0 &&
           surfaces <= samples)) {
-        throw Error(ErrorKind::file, "the picture to go on from has senseless counts of samples");
+        throw Error(ErrorKind::file, "the picture to continue has contradictory counts of samples");
     }
     pixel.samples = static_cast<int>(samples);
     pixel.batches = pixel.samples / batch_size;
     if (pixel.batches * batch_size != pixel.samples) {
-        throw Error(ErrorKind::file, "the picture to go on from was made in other batches");
+        throw Error(ErrorKind::file, "the picture to continue was made with another batch size");
     }
     BatchSum& sum = pixel.sum;
     sum.receivers = static_cast<int>(receivers);

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What the reference keeps per pixel while it renders.
+// SPDX-License-Identifier: Apache-2.0 The sums that the reference path tracer keeps for each pixel while it
+// renders.
 #pragma once
 
 #include <array>
@@ -30,12 +30,12 @@ struct BatchSum {
     Double3 direct, indirect, albedo, normal, position;
     double depth = 0;
     int receivers = 0;
-    int surfaces = 0;  ///< samples that met any surface
+    int surfaces = 0;  ///< number of samples that met a surface
 
     void add(Vec3 direct_light, Vec3 indirect_light, const CameraPath& path);
 };
 
-/// Sums over batches, and of the squares of the batches' means.
+/// Sums over the batches of a pixel, and sums of the squares of the batches' means.
 struct PixelStatistics {
     BatchSum sum;
     Double3 beauty_square, indirect_square;
@@ -45,10 +45,10 @@ struct PixelStatistics {
     void add(const BatchSum& batch, int batch_size);
 };
 
-/// Channels as trace_paths() says. Batches of a pixel are of one size.
+/// The picture with the channels that trace_paths() lists. All batches of a pixel have the same size.
 Image to_image(std::span<const PixelStatistics> pixels, int width, int height);
-/// The inverse of to_image(), to the rounding of floats. Throws Error(ErrorKind::file) where a channel is
-/// missing or counts make no sense.
+/// The inverse of to_image(), except for rounding to float. Throws Error(ErrorKind::file) if a channel is
+/// missing or counts contradict each other.
 std::vector<PixelStatistics> from_image(const Image& image, int batch_size);
 
 }  // namespace nearlight::core

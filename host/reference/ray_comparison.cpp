@@ -11,9 +11,9 @@
 namespace nearlight::core {
 namespace {
 
-/// Relative rounding of a distance to a surface that is met head-on.
+/// Relative rounding error of the distance to a surface that the ray meets head-on.
 constexpr double kDistanceTolerance = 2e-6;
-/// Below this cosine a ray lies in the triangle's plane for all that single precision can tell.
+/// Below this cosine, single precision cannot tell a ray from one in the triangle's plane.
 constexpr double kGrazingCosine = 1e-4;
 
 std::array<Vec3, 3> corners(const Scene& scene, uint id) {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Two ray casters on the same rays: where they differ, and whether single precision excuses it.
+// SPDX-License-Identifier: Apache-2.0 Compares two ray casters on the same rays: where they differ, and
+// whether single precision excuses it.
 #pragma once
 
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace nearlight::core {
 
-/// How near an edge a ray must pass for both answers to be right, as a fraction of the scene's extent: a few
-/// roundings of the products that decide on which side of the edge it passes.
+/// Maximum distance from an edge at which both answers about a ray are right, as a fraction of the scene's
+/// extent. It is a few roundings of the products that decide on which side of the edge the ray passes.
 inline constexpr double kEdgeTolerance = 2e-6;
 
-/// m between the ray, as far as the scene (of that extent) reaches, and the nearest edge of a triangle.
+/// Distance (m) between the ray, up to the end of a scene of the given extent, and the nearest edge of the
+/// triangle.
 double distance_to_triangle_edges(const Scene& scene, uint triangle, const RayQuery& ray, float extent);
 
-/// A ray on which two casters differ.
+/// A ray about which two casters differ.
 struct RayDispute {
     RayQuery ray{};
     BvhHit expected;
@@ -32,17 +33,19 @@ struct RayComparison {
     std::size_t hits = 0;  ///< rays that hit something in the expected answers
     std::vector<RayDispute> disputes;
 
-    [[nodiscard]] std::size_t mismatches() const;  ///< disputes without excuse
+    [[nodiscard]] std::size_t mismatches() const;  ///< number of disputes that are not excused
 };
 
-/// Same triangle (or none) and the same distance within rounding for every ray, or a dispute. In dispute is
-/// the nearer of the two triangles. Requires spans of one size.
+/// Compares hits ray by ray. A ray whose answers differ in the triangle, or in the distance by more than
+/// rounding, becomes a dispute about the nearer of the two triangles. The spans must have the same size.
 RayComparison compare_hits(const Scene& scene, std::span<const RayQuery> rays,
                            std::span<const BvhHit> expected, std::span<const BvhHit> found);
 
-/// The answers of the oracles, ray by ray.
+/// Closest hits by brute force, one per ray.
 std::vector<BvhHit> brute_force_hits(const Scene& scene, std::span<const RayQuery> rays);
+/// Closest hits by the host's traversal of the tree, one per ray.
 std::vector<BvhHit> host_hits(const Bvh& bvh, std::span<const RayQuery> rays);
+/// Closest hits among opaque triangles by Embree, one per ray.
 std::vector<BvhHit> embree_hits(const Scene& scene, std::span<const RayQuery> rays);
 
 }  // namespace nearlight::core

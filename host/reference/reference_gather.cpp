@@ -18,7 +18,7 @@ Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radiu
     if (!(distance2 > 0.0f)) {
         return {0, 0, 0};
     }
-    const float scale = 1.0f / distance2;  // both cosines are over the length of the segment
+    const float scale = 1.0f / distance2;  // the cosines below are multiplied by the length of the segment
     const float cosines =
         std::max(0.0f, -dot(normal, segment)) * std::max(0.0f, dot(vpl.normal, segment)) * scale;
     if (!(cosines > 0.0f) || embree.blocked(vpl.position, position)) {
@@ -27,7 +27,7 @@ Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radiu
     return vpl.power * (cosines / (kPi * std::max(distance2, clamp_radius * clamp_radius)));
 }
 
-/// Sums `term(position, normal, i)` for i < count over every receiver.
+/// Sums `term(position, normal, i)` over all i < count for every receiver.
 template <typename Term>
 void sum_terms(std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance, int threads,
                std::size_t count, const Term& term) {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Irradiance of receivers by plain loops and Embree: what the gather kernels are checked with.
+// SPDX-License-Identifier: Apache-2.0 Irradiance of receivers by plain loops and Embree: the oracle of the
+// gather kernels.
 #pragma once
 
 #include <span>
@@ -10,20 +10,21 @@
 
 namespace nearlight::core {
 
-/// E = Σ power/π · max0(cosθ_receiver)·max0(cosθ_vpl) / max(r², R²) · V for each receiver, V by the segment
-/// from VPL to receiver, t in (1e-5, 1 − 1e-5). Terms in single precision, sums in double. Absent receivers
-/// get 0.
+/// Computes E = Σ power/π · max0(cosθ_receiver)·max0(cosθ_vpl) / max(r², R²) · V for each receiver; V is the
+/// visibility of the segment from VPL to receiver, t in (1e-5, 1 − 1e-5). Terms are in single precision, sums
+/// in double precision. Absent receivers get 0.
 /// @param clamp_radius R, m; 0: unbounded
-/// @param threads 0: as many as there are cores; the result does not depend on it
-/// Requires irradiance.size() == receivers.size().
+/// @param threads 0: one per core; the result does not depend on it. Requires irradiance.size() ==
+/// receivers.size().
 void gather_reference(const EmbreeScene& embree, std::span<const Vpl> vpls, float clamp_radius,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads = 0);
 
-/// Importons as the senders that a gather makes of them, for gather_reference().
+/// The importons as senders in the form of VPLs, which gather_reference() takes.
 std::vector<Vpl> as_vpls(std::span<const Importon> importons);
 
-/// E = Σ intensity · max0(cosθ) / r² · V over point and spot lights; other lights in the span are left out.
+/// Computes E = Σ intensity · max0(cosθ) / r² · V over the point and spot lights for each receiver. Other
+/// lights in the span are left out. Threads: 0 is one per core.
 void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads = 0);

@@ -12,7 +12,7 @@ double dot64(Vec3 a, Vec3 b) {
     return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y + static_cast<double>(a.z) * b.z;
 }
 
-/// max0(cosθx)·max0(cosθy) / max(r², R²)
+/// The geometry term without visibility: max0(cosθx)·max0(cosθy) / max(r², R²).
 double open_term(const Vpl& vpl, const ReceiverPoint& receiver, double clamp_radius) {
     const Vec3 segment = receiver.position - vpl.position;
     const double r2 = dot64(segment, segment);

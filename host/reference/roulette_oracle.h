@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// With which probability a bundle of receivers must ask about each VPL, in double precision.
+// SPDX-License-Identifier: Apache-2.0 The oracle of the roulette, in double precision: the probability with
+// which a bundle of receivers asks about each VPL.
 #pragma once
 
 #include <span>
@@ -10,8 +10,9 @@
 
 namespace nearlight::core {
 
-/// min(1, b / (threshold · mean of b)), one for each VPL; b is the root mean square, over the receivers of
-/// the bundle, of what the VPL could bring to them in its strongest channel if nothing were in the way.
+/// The probability min(1, b / (threshold · mean of b)) of each VPL; b is the root mean square, over the
+/// receivers of the bundle, of what the VPL could bring to them in its strongest channel if nothing were in
+/// the way.
 std::vector<double> roulette_probabilities(std::span<const Vpl> vpls,
                                            std::span<const ReceiverPacket> receivers,
                                            const BundleLayout::Bundle& bundle, float clamp_radius,

@@ -7,7 +7,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Bijective mixing [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
+/// Bijective mixing of bits [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
 std::uint64_t mix(std::uint64_t x) {
     x = (x ^ (x >> 30u)) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ (x >> 27u)) * 0x94d049bb133111ebull;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// Random numbers of one pixel's batch of samples.
+// SPDX-License-Identifier: Apache-2.0 The random numbers of one batch of samples of a pixel.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace nearlight::core {
 
-/// The decisions of a path that are stratified over a batch; what comes later is plain random.
+/// The decisions of a path that are stratified over a batch. Later decisions use independent random numbers.
 enum class Decision {
     film,
     lobe,
@@ -25,8 +24,8 @@ enum class Decision {
 };
 
 /// A batch of `size` samples (1, 4 or 16). Each decision has its own square grid of `size` cells with one
-/// random point in each, dealt to the samples in random order: the samples of a batch depend on each other,
-/// those of different batches do not. Every single point is uniform, so each sample alone is unbiased.
+/// random point in each, dealt to the samples in random order. The samples of a batch depend on each other;
+/// those of different batches do not. Every single point is uniform, so each sample is unbiased.
 class SampleBatch {
   public:
     static constexpr int kMaxSize = 16;

@@ -67,8 +67,8 @@ Vec3 refract(Vec3 w, Vec3 m, float eta) {
 }
 
 Vec3 sample_ggx_visible_normal(Vec3 w, float alpha, Point2 u) {
-    // Stretched, the visible normals are those of a hemisphere: a projected half disc and a squeezed half
-    // disc.
+    // On the stretched surface the visible normals are those of a hemisphere, whose projection is a half disc
+    // and a squeezed half disc.
     const Vec3 view = normalize({alpha * w.x, alpha * w.y, w.z});
     const Vec3 up{0, 0, 1};
     Vec3 t1 = cross(up, view);

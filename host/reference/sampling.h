@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Sampling and reflection formulas of the reference path tracer, written independently of the kernels'.
+// SPDX-License-Identifier: Apache-2.0 Sampling and reflection formulas of the reference path tracer, written
+// independently of those in the kernels.
 #pragma once
 
 #include "host/base/math.h"
@@ -11,7 +11,7 @@ struct Point2 {
     float y = 0.0f;
 };
 
-/// Frame with the unit vector n as its z axis.
+/// Orthonormal frame with the unit vector n as its z axis.
 class Frame {
   public:
     explicit Frame(Vec3 n) : n_(n) {
@@ -28,25 +28,27 @@ class Frame {
 
 /// Unit vector about +Z with density cosθ/π, for u in [0, 1)².
 Vec3 sample_cosine_hemisphere(Point2 u);
-/// Barycentric weights (of v1 and v2), uniform over a triangle.
+/// Barycentric weights of v1 and v2, uniform over a triangle for u in [0, 1)².
 Point2 sample_triangle(Point2 u);
 
-/// Unpolarised reflectance of an interface, cos_i ≥ 0, eta = index behind ÷ index before it; 1 beyond the
-/// critical angle.
+/// Unpolarised reflectance of a dielectric interface for cos_i ≥ 0; 1 beyond the critical angle. eta is the
+/// refractive index behind the interface divided by that in front of it.
 float fresnel_dielectric(float cos_i, float eta);
-/// Of a metal with complex index eta + i·k in air, per colour channel.
+/// Unpolarised reflectance of a metal with the complex refractive index eta + i·k in air, per colour channel,
+/// for cos_i ≥ 0.
 Vec3 fresnel_conductor(float cos_i, Vec3 eta, Vec3 k);
 
-/// Unit w mirrored about the unit vector m, both pointing away from the surface.
+/// The unit vector w mirrored about the unit vector m; both point away from the surface.
 Vec3 reflect(Vec3 w, Vec3 m);
-/// Refracts w (away from the surface, dot(w, m) > 0) through an interface with normal m; eta as above.
-/// The zero vector on total internal reflection.
+/// Refracts w (away from the surface, dot(w, m) > 0) through an interface with normal m; eta as for
+/// fresnel_dielectric(). The zero vector on total internal reflection.
 Vec3 refract(Vec3 w, Vec3 m, float eta);
 
-/// Microfacet normal of a GGX surface as seen from the local direction w (w.z > 0), in proportion to its
-/// visible area [Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 2018].
+/// Samples a microfacet normal of a GGX surface seen from the local direction w (w.z > 0), with density
+/// proportional to its visible area [Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 2018].
 Vec3 sample_ggx_visible_normal(Vec3 w, float alpha, Point2 u);
-/// Smith's masking of direction w (local): with visible normals, the weight of the other direction.
+/// Smith's masking function G1 of the local direction w. When visible normals are sampled, it is the weight
+/// of the other direction.
 float ggx_masking(Vec3 w, float alpha);
 
 }  // namespace nearlight::core

@@ -14,7 +14,7 @@ constexpr Vec3 kRoomMax{4.0f, 4.0f, 4.0f};
 constexpr uint kWallMaterial = 0;
 constexpr uint kSphereMaterial = 1;
 constexpr uint kLampMaterial = 2;
-constexpr int kSphereRings = 16;  // 2·(16 − 1)·32 triangles a sphere
+constexpr int kSphereRings = 16;  // 2·(16 − 1)·32 triangles per sphere
 constexpr int kSphereSegments = 32;
 constexpr std::size_t kSphereTriangles = 2 * (kSphereRings - 1) * kSphereSegments;
 
@@ -35,7 +35,8 @@ uint add_vertex(Scene& scene, Vec3 position) {
     return static_cast<uint>(scene.vertices.size() - 1);
 }
 
-/// corner, corner + a, corner + a + b, corner + b; its front is on the side of a × b.
+/// Adds the quadrilateral corner, corner + a, corner + a + b, corner + b, whose front is on the side of a ×
+/// b.
 void add_quad(Scene& scene, Vec3 corner, Vec3 a, Vec3 b, uint material) {
     const uint first = add_vertex(scene, corner);
     add_vertex(scene, corner + a);
@@ -105,7 +106,7 @@ Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed) {
     const float radius = 1.6f / std::cbrt(static_cast<float>(spheres));
     const Vec3 size = kRoomMax - kRoomMin;
     for (std::size_t i = 0; i < spheres; ++i) {
-        // Denser towards the floor, as things in rooms are.
+        // Spheres are denser towards the floor, as things in rooms are.
         const Vec3 place{random.uniform(), random.uniform(), random.uniform()};
         const Vec3 center = kRoomMin + Vec3{place.x, 0.6f * place.y * place.y, place.z} * size;
         add_noisy_sphere(scene, center, radius * (0.4f + 0.6f * random.uniform()), random);

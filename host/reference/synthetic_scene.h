@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// A scene of any size for measuring, when no file is at hand.
+// SPDX-License-Identifier: Apache-2.0 A scene of any size for benchmarks that have no file.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -7,7 +6,7 @@
 namespace nearlight::core {
 
 /// A room of 8 × 4 × 8 m with a lamp under its ceiling and a floor full of spheres whose surface is rough
-/// noise, about `triangle_count` triangles in all. The same for the same arguments on any machine.
+/// noise, about `triangle_count` triangles in all. The same arguments give the same scene on every machine.
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed = 1);
 
 }  // namespace nearlight::core

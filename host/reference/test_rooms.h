@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// Rooms whose light is known.
+// SPDX-License-Identifier: Apache-2.0 Rooms in which the light is known.
 #pragma once
 
 #include "host/base/math.h"
@@ -7,14 +6,15 @@
 
 namespace nearlight::core {
 
-/// Full of rough spheres, closed, with a lamp and of one albedo: no light is lost but what the albedo takes.
+/// A closed room full of rough spheres, with a lamp and the same albedo everywhere. Light is lost only by
+/// absorption.
 Scene make_even_room(Vec3 albedo);
 
-/// The same shape in its own colours, without its lamp, under point and spot lights.
+/// A room full of rough spheres in several colours, lit by point and spot lights only.
 Scene make_delta_lit_room();
 
-/// The inside of a sphere about a point light (1 W/sr): its irradiance is 1 / radius² everywhere, but for the
-/// 2 ‰ that flat triangles take.
+/// The inside of a sphere about a point light of 1 W/sr. Its irradiance is 1 / radius² everywhere, to within
+/// the 2 ‰ by which flat triangles differ from the sphere.
 Scene make_lit_sphere(float radius, float albedo);
 
 }  // namespace nearlight::core

@@ -10,8 +10,8 @@ namespace nearlight::core {
 struct CheckResult {
     std::string name;
     std::size_t cases = 0;       ///< things compared
-    std::size_t mismatches = 0;  ///< of those, how many differ by more than rounding explains
-    std::string problem;         ///< what kept the check from running; empty where it ran
+    std::size_t mismatches = 0;  ///< number of cases that differ by more than rounding explains
+    std::string problem;         ///< why the check could not run; empty if it ran
 
     [[nodiscard]] bool pass() const { return cases > 0 && mismatches == 0 && problem.empty(); }
     /// Counts one comparison.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Every kernel against its oracle on the host, on one device.
+// SPDX-License-Identifier: Apache-2.0 The comparison of every kernel with its oracle on the host, on one
+// device.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace nearlight::core {
 
-/// Runs all checks in turn, some seconds in all. A check that cannot run (a kernel that the driver does not
-/// compile, say) fails with the reason; the others go on. `done` is told of each.
+/// Runs all checks in turn, which takes some seconds. A check that cannot run, for example because a kernel
+/// does not compile, fails with the reason; the other checks still run. `done` receives each result.
 std::vector<CheckResult> run_selftest(Device& device, const std::function<void(const CheckResult&)>& done);
 
 }  // namespace nearlight::core

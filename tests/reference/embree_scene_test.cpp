@@ -148,7 +148,7 @@ TEST(EmbreeScene, PacketsAgreeWithSingleRays) {
     const std::vector<RayQuery> rays = rays_of_family(scene, "random", 1600);
     constexpr std::uint32_t kActive = 0xfff7u;  // lane 3 is idle
     for (std::size_t first = 0; first < rays.size(); first += 16) {
-        RayPacket16 packet{};
+        Rays16 packet{};
         std::uint32_t expected = 0;
         for (std::size_t lane = 0; lane < 16; ++lane) {
             const Vec3 o = rays[first + lane].origin;
