@@ -12,9 +12,9 @@
 namespace nearlight::core {
 namespace {
 
-constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign
-constexpr double kMaxShare = 1e-5;         // of all rays
-constexpr std::uint64_t kMaxItems = 100;   // of a tracer: each costs a look at every edge
+constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign of a cosine
+constexpr double kMaxShare = 1e-5;         // maximum of the fraction of rays that may differ
+constexpr std::uint64_t kMaxItems = 100;   // of each tracer, because each item costs a look at every edge
 
 double cosine(Vec3 normal, Vec3 direction) {
     return std::abs(double{normal.x} * direction.x + double{normal.y} * direction.y +
@@ -29,7 +29,8 @@ Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle
       edges_(edges),
       edge_tolerance_(kSegmentEdgeTolerance * max_component(bounds(segments.geometry).size())) {}
 
-/// Fills in where the pair lies and how close it comes to what excuses.
+/// Fills in the position of the pair and its distance from the nearest edge, and decides whether that excuses
+/// it.
 bool Agreement::is_excused(Disagreement& item) const {
     const Vpl& vpl = segments_->vpls[item.vpl];
     const ReceiverPoint receiver = receiver_at(segments_->receivers[item.packet], item.lane);

@@ -28,10 +28,10 @@ TreeWork make_tree_work(const Scene& scene, const Bvh& bvh, const BuildBenchConf
     return work;
 }
 
-/// A way to a tree.
+/// One way to build a tree.
 struct Contender {
     std::string name;
-    std::function<double()> measure;  ///< seconds of a build
+    std::function<double()> measure;  ///< builds a tree and returns the seconds that it took
     std::function<Bvh()> build;
     std::vector<double> seconds;
 };

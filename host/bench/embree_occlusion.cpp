@@ -13,15 +13,16 @@
 namespace nearlight::core {
 namespace {
 
-/// VPLs whose rays are laid out at a time: with the 64 receivers of a packet 4096 rays at most, 200 kB.
-constexpr std::size_t kBlockVpls = 64;
+/// Number of VPLs whose rays are laid out at a time: with the 64 receivers of a packet at most 4096 rays, or
+/// 200 kB.
+constexpr std::size_t kVplsAtOnce = 64;
 
-/// The rays of one packet and some VPLs.
-struct Block {
-    std::vector<RTCRay16> packets;
-    std::vector<int> counts;  ///< rays in each of `packets`
+/// The rays between one packet and some VPLs, laid out for Embree.
+struct RaysAtOnce {
+    std::vector<RTCRay16> sixteens;
+    std::vector<int> counts;  ///< number of rays in each of `sixteens`
     std::vector<RTCRay> singles;
-    std::vector<std::size_t> pairs;  ///< of each ray: word of the mask · 64 + lane
+    std::vector<std::size_t> pairs;  ///< place of each ray in the mask: word · 64 + lane
 };
 
 RTCRay make_ray(const Vpl& vpl, const ReceiverPacket& packet, std::size_t lane) {
@@ -53,76 +54,78 @@ void set_lane(RTCRay16& packet, int lane, const RTCRay& ray) {
     packet.flags[lane] = 0;
 }
 
-void add_ray16(Block& block, int& lanes, const RTCRay& ray) {
+void add_ray16(RaysAtOnce& rays_at_once, int& lanes, const RTCRay& ray) {
     if (lanes == 16) {
-        block.packets.emplace_back();
-        block.counts.push_back(0);
+        rays_at_once.sixteens.emplace_back();
+        rays_at_once.counts.push_back(0);
         lanes = 0;
     }
-    set_lane(block.packets.back(), lanes++, ray);
-    block.counts.back() = lanes;
+    set_lane(rays_at_once.sixteens.back(), lanes++, ray);
+    rays_at_once.counts.back() = lanes;
 }
 
-void add_rays(Block& block, const GatherSegments& segments, std::size_t packet, std::size_t vpl, int width) {
+void add_rays(RaysAtOnce& rays_at_once, const GatherSegments& segments, std::size_t packet, std::size_t vpl,
+              int width) {
     const std::size_t word = segments.word(packet, vpl);
-    int lanes = 16;  // used in the last of block.packets; a VPL begins a new one
+    int lanes = 16;  // in use in the last of rays_at_once.sixteens; each VPL begins a new one
     for (std::uint64_t rays = segments.rays[word]; rays != 0; rays &= rays - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rays));
         const RTCRay ray = make_ray(segments.vpls[vpl], segments.receivers[packet], lane);
-        block.pairs.push_back(word * NEARLIGHT_PACKET_SIZE + lane);
+        rays_at_once.pairs.push_back(word * NEARLIGHT_PACKET_SIZE + lane);
         if (width == 1) {
-            block.singles.push_back(ray);
+            rays_at_once.singles.push_back(ray);
         } else {
-            add_ray16(block, lanes, ray);
+            add_ray16(rays_at_once, lanes, ray);
         }
     }
 }
 
-void fill(Block& block, const GatherSegments& segments, std::size_t packet, std::size_t first_vpl,
+void fill(RaysAtOnce& rays_at_once, const GatherSegments& segments, std::size_t packet, std::size_t first_vpl,
           int width) {
-    block.packets.clear();
-    block.counts.clear();
-    block.singles.clear();
-    block.pairs.clear();
-    const std::size_t end = std::min(segments.vpls.size(), first_vpl + kBlockVpls);
+    rays_at_once.sixteens.clear();
+    rays_at_once.counts.clear();
+    rays_at_once.singles.clear();
+    rays_at_once.pairs.clear();
+    const std::size_t end = std::min(segments.vpls.size(), first_vpl + kVplsAtOnce);
     for (std::size_t vpl = first_vpl; vpl < end; ++vpl) {
-        add_rays(block, segments, packet, vpl, width);
+        add_rays(rays_at_once, segments, packet, vpl, width);
     }
 }
 
-void trace_block(Block& block, RTCScene tree, EmbreeQuery& query) {
+void trace_rays(RaysAtOnce& rays_at_once, RTCScene tree, EmbreeQuery& query) {
     alignas(64) int valid[32];
     for (int i = 0; i < 32; ++i) {
         valid[i] = i < 16 ? -1 : 0;
     }
     alignas(64) int partial[16];
-    for (std::size_t i = 0; i < block.packets.size(); ++i) {
+    for (std::size_t i = 0; i < rays_at_once.sixteens.size(); ++i) {
         const int* mask = valid;
-        if (block.counts[i] < 16) {
-            std::copy_n(valid + 16 - block.counts[i], 16, partial);
+        if (rays_at_once.counts[i] < 16) {
+            std::copy_n(valid + 16 - rays_at_once.counts[i], 16, partial);
             mask = partial;
         }
-        query.occluded(mask, tree, block.packets[i]);
+        query.occluded(mask, tree, rays_at_once.sixteens[i]);
     }
-    for (RTCRay& ray : block.singles) {
+    for (RTCRay& ray : rays_at_once.singles) {
         query.occluded(tree, ray);
     }
 }
 
-/// Sets the bits of the rays that are occluded. Words are never shared by blocks, so threads do not meet.
-void keep(const Block& block, PairMask& occluded) {
+/// Sets the bits of the rays that are occluded. Each word of the mask belongs to one packet and one VPL, so
+/// no two threads write to the same word.
+void keep(const RaysAtOnce& rays_at_once, PairMask& occluded) {
     std::size_t ray = 0;
     const auto set = [&](bool hit) {
-        const std::size_t pair = block.pairs[ray++];
+        const std::size_t pair = rays_at_once.pairs[ray++];
         occluded[pair / NEARLIGHT_PACKET_SIZE] |= std::uint64_t{hit ? 1u : 0u}
                                                   << (pair % NEARLIGHT_PACKET_SIZE);
     };
-    for (const RTCRay& single : block.singles) {
+    for (const RTCRay& single : rays_at_once.singles) {
         set(single.tfar < 0.0f);
     }
-    for (std::size_t i = 0; i < block.packets.size(); ++i) {
-        for (int lane = 0; lane < block.counts[i]; ++lane) {
-            set(block.packets[i].tfar[lane] < 0.0f);
+    for (std::size_t i = 0; i < rays_at_once.sixteens.size(); ++i) {
+        for (int lane = 0; lane < rays_at_once.counts[i]; ++lane) {
+            set(rays_at_once.sixteens[i].tfar[lane] < 0.0f);
         }
     }
 }
@@ -151,18 +154,18 @@ OcclusionResult EmbreeOcclusion::trace(const GatherSegments& segments, const Emb
     std::atomic<std::size_t> next_packet = 0;
     const auto run = [&](OcclusionResult& result) {
         EmbreeQuery query(mode.coherent);
-        Block block;
+        RaysAtOnce rays_at_once;
         for (std::size_t packet = next_packet++; packet < segments.receivers.size(); packet = next_packet++) {
-            for (std::size_t vpl = 0; vpl < segments.vpls.size(); vpl += kBlockVpls) {
-                fill(block, segments, packet, vpl, mode.width);
+            for (std::size_t vpl = 0; vpl < segments.vpls.size(); vpl += kVplsAtOnce) {
+                fill(rays_at_once, segments, packet, vpl, mode.width);
                 const TwoClocks clocks(TwoClocks::Of::thread);
-                trace_block(block, tree, query);
+                trace_rays(rays_at_once, tree, query);
                 const Seconds seconds = clocks.seconds();
                 result.seconds.wall += seconds.wall;
                 result.seconds.processor += seconds.processor;
-                result.rays += block.pairs.size();
+                result.rays += rays_at_once.pairs.size();
                 if (keep_answers) {
-                    keep(block, answers);
+                    keep(rays_at_once, answers);
                 }
             }
         }

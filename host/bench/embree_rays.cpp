@@ -11,8 +11,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Rays that are laid out at a time, so that they stay in the cache.
-constexpr std::size_t kBlockRays = 4096;
+/// Number of rays that are laid out at a time: few enough to stay in the cache.
+constexpr std::size_t kRaysAtOnce = 4096;
 
 RTCRayHit one_ray(const RayQuery& query) {
     RTCRayHit hit{};
@@ -46,7 +46,7 @@ float distance(unsigned geometry, float t) {
     return geometry == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : t;
 }
 
-/// Adds the time of the calls to `seconds`.
+/// Traces rays one by one, and adds the time of the calls to `seconds`.
 void trace_singles(RTCScene tree, EmbreeQuery& query, std::span<const RayQuery> rays,
                    std::span<float> distances, Seconds& seconds) {
     std::vector<RTCRayHit> singles(rays.size());
@@ -108,9 +108,9 @@ Seconds EmbreeRays::trace(std::span<const RayQuery> rays, const EmbreeMode& mode
     std::atomic<std::size_t> next = 0;
     const auto work = [&](Seconds& own) {
         EmbreeQuery query(mode.coherent);
-        for (std::size_t first = next.fetch_add(kBlockRays); first < rays.size();
-             first = next.fetch_add(kBlockRays)) {
-            const std::size_t count = std::min(kBlockRays, rays.size() - first);
+        for (std::size_t first = next.fetch_add(kRaysAtOnce); first < rays.size();
+             first = next.fetch_add(kRaysAtOnce)) {
+            const std::size_t count = std::min(kRaysAtOnce, rays.size() - first);
             const auto trace = mode.width == 1 ? trace_singles : trace_packets;
             trace(tree, query, rays.subspan(first, count), std::span(distances).subspan(first, count), own);
         }

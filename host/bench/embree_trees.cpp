@@ -20,7 +20,8 @@ namespace {
 using EmbreeBvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, EmbreeRelease<rtcReleaseBVH>>;
 
 constexpr float kEmbreeReplication = 1.2f;  // max_spatial_split_replications of Embree 3.13
-/// Not to be reached: a tree that Embree bounds by halving has few levels more than it needs.
+/// Maximum depth for Embree, which falls back to halving near it, so that a tree may be a few levels deeper.
+/// Our limit is therefore not reached.
 constexpr unsigned kMaxTreeDepth = NEARLIGHT_MAX_BVH_DEPTH - 4;
 
 EmbreeDevice new_device() {
@@ -43,11 +44,11 @@ RTCBuildQuality to_embree(EmbreeQuality quality) {
     return quality == EmbreeQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
 }
 
-/// What Embree's builder makes: an inner node, or up to four triangles.
+/// A node of the tree that Embree's builder makes: an inner node, or a leaf of up to four triangles.
 struct Item {
     Item* children[2] = {nullptr, nullptr};
     RTCBounds boxes[2] = {};
-    uint count = 0;  ///< of triangles; 0: an inner node
+    uint count = 0;  ///< number of triangles; 0: an inner node
     uint triangles[NEARLIGHT_LEAF_MAX_TRIANGLES] = {};
 };
 
@@ -82,7 +83,8 @@ RTCBounds to_bounds(const Box4& box) {
     return {box.low[0], box.low[1], box.low[2], 0.0f, box.high[0], box.high[1], box.high[2], 0.0f};
 }
 
-/// `user` is our splitter: both sides cut triangles in the same way.
+/// Cuts a triangle with our own splitter, which `user` points to, so that Embree's tree and ours cut
+/// triangles alike.
 void split_primitive(const RTCBuildPrimitive* primitive, unsigned axis, float position, RTCBounds* left,
                      RTCBounds* right, void* user) {
     Reference reference{{{primitive->lower_x, primitive->lower_y, primitive->lower_z, 0.0f},
@@ -94,7 +96,7 @@ void split_primitive(const RTCBuildPrimitive* primitive, unsigned axis, float po
     *right = to_bounds(cut.right);
 }
 
-/// Moves the tree into our arrays.
+/// Copies Embree's tree into the arrays of our layout.
 class Converter {
   public:
     explicit Converter(SahTree& tree) : tree_(tree) {}
@@ -107,7 +109,7 @@ class Converter {
             return leaf_reference(first, item.count);
         }
         if (depth >= NEARLIGHT_MAX_BVH_DEPTH) {
-            throw Error(ErrorKind::failure, "Embree's tree is too deep to be traced: use another scene");
+            throw Error(ErrorKind::failure, "Embree's tree is too deep to be traced; use another scene");
         }
         const auto index = static_cast<uint>(tree_.slots.size());
         tree_.slots.emplace_back();

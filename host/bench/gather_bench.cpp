@@ -13,16 +13,16 @@
 namespace nearlight::core {
 namespace {
 
-/// Anything that can be given a set of segments.
+/// A way to trace a set of segments.
 struct Tracer {
     std::string name;
-    int embree_width;  ///< 0: ours
+    int embree_width;  ///< rays per call of Embree; 0: our kernels
     bool has_roulette;
     std::function<Seconds()> time;
     std::function<TracerAnswer()> answer;
 };
 
-/// The set on the device, for a kernel of ours or (automatic) for each in turn.
+/// The set of segments on the device, for one of our kernels, or for both in turn (`automatic`).
 struct DeviceSegments {
     DeviceSegments(Device& device, const GatherSegments& segments, const Bvh& bvh, GatherKernel kernel)
         : tree(kernel == GatherKernel::automatic ? upload_both_trees(device, bvh)
@@ -42,7 +42,8 @@ struct DeviceSegments {
                 .clamp_radius = clamp_radius,
                 .selection = selection ? &*selection : nullptr};
     }
-    /// Nothing for a threshold of 0: every bundle asks about all VPLs.
+    /// The VPLs that each bundle asks about; empty for a threshold of 0, where every bundle asks about all
+    /// VPLs.
     [[nodiscard]] std::optional<VplSelection> select(float threshold) {
         const auto count = static_cast<uint>(receivers.count());
         return threshold > 0.0f ? std::optional(roulette.select({.vpls = vpls,
@@ -101,7 +102,7 @@ Tracer make_embree_tracer(const std::shared_ptr<EmbreeOcclusion>& embree, const 
             }};
 }
 
-/// Embree's come first, and of them the reference that all are compared with.
+/// All tracers. Embree's come first, and the first of them is the reference that all are compared with.
 std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments, const Bvh& bvh,
                                  const GatherBenchConfig& config) {
     std::vector<Tracer> tracers;
@@ -123,7 +124,7 @@ std::vector<Tracer> make_tracers(Device& device, const GatherSegments& segments,
     return tracers;
 }
 
-/// Asks every tracer about every pair. This also warms them up.
+/// Compares every tracer's answers with those of the reference. This also warms the tracers up.
 void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<const Tracer> tracers,
                      GatherBenchResult& result) {
     Agreement agreement(segments, bvh.triangles);

@@ -13,7 +13,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr float kClampRadiusShare =
-    0.01f;  // of the scene's extent; without roulette the work is the same for any
+    0.01f;  // of the scene's extent; without roulette the work does not depend on it
 
 Scene opaque_geometry(const Scene& scene) {
     Scene result;

@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0
-// nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE]: on every OpenCL device (or on those that
-// $NEARLIGHT_DEVICE names), both gather kernels in a made-up room: compared pair by pair with the host's
-// traversal, then timed; and a whole picture, with every kernel in it. For machines that have a compiler and
-// OpenCL and nothing else.
+// SPDX-License-Identifier: Apache-2.0 nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE] needs nothing but a
+// compiler and OpenCL. On every OpenCL device (or on those that $NEARLIGHT_DEVICE names) it compares both
+// gather kernels with the host's traversal in a generated room, pair by pair, and times them. Then it renders
+// a whole picture with every kernel.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -29,13 +28,14 @@ namespace {
 constexpr float kClampRadius = 0.05f;
 constexpr int kRepeats = 5;
 constexpr std::size_t kCheckedVpls = 16;
-/// Rays that graze an edge may go either way; more than this share of all rays is an error of a kernel.
+/// Maximum fraction of rays that may differ, because both answers are right for rays that graze an edge. A
+/// kernel with more differences is wrong.
 constexpr double kMaxDisagreements = 1e-5;
 
 struct Options {
     std::size_t triangles = 100'000;
     std::size_t vpls = 256;
-    std::size_t side = 256;  ///< of the receivers' square of pixels
+    std::size_t side = 256;  ///< width and height of the receivers' picture, pixels
 };
 
 struct Workload {
@@ -55,7 +55,7 @@ Options parse(int argc, char** argv) {
         const std::string_view text = argv[i];
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *values[i - 1]);
         if (error != std::errc() || end != text.data() + text.size() || *values[i - 1] == 0) {
-            throw Error(ErrorKind::invalid_argument, "'" + std::string(text) + "' is no positive number");
+            throw Error(ErrorKind::invalid_argument, "'" + std::string(text) + "' is not a positive number");
         }
     }
     return options;
@@ -71,7 +71,7 @@ Workload make_workload(const Options& options) {
     return work;
 }
 
-/// What a gather needs, on a device.
+/// The input of a gather, on a device.
 struct GatherJob {
     GatherJob(Device& device, const Workload& work, GatherKernel kernel, std::size_t vpl_count)
         : tree(upload_tree(device, work.bvhs.opaque, kernel)),
@@ -89,7 +89,7 @@ struct GatherJob {
     GatherSums<Vpl> sums;
 };
 
-/// True if the kernel sees what the host sees.
+/// Whether the kernel's visibility is that of the host's traversal.
 bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
     GatherJob job(device, work, gatherer.kernel(), kCheckedVpls);
     const std::vector<GatherPair> pairs = gatherer.gather_recorded(job.input(), job.sums);
@@ -134,7 +134,7 @@ void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
                 pairs / median * 1e-6, kRepeats);
 }
 
-/// A picture in which every pixel is a number, and not all are black.
+/// Renders a picture, and checks that every pixel is finite and that not all are black.
 bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
     const RenderSettings settings{.view = {.width = 128, .height = 128}, .sampling = {.sampler = sampler}};
     double sum = 0.0;

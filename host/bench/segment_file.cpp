@@ -42,7 +42,7 @@ void append(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Takes values off the front of the file's bytes, which must be long enough.
+/// Reads values one after the other from the file's bytes, which must be long enough.
 class Reader {
   public:
     explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -80,7 +80,7 @@ std::uint64_t present_lanes(const ReceiverPacket& packet) {
     return lanes;
 }
 
-/// What is wrong with the contents, or nothing.
+/// The first contradiction in the contents; empty if there is none.
 std::string complaint(const GatherSegments& segments, std::uint64_t ray_count) {
     const auto finite = [](Vec3 v) { return nearlight::core::is_finite(v); };
     const std::size_t vertices = segments.geometry.vertices.size();
@@ -178,7 +178,7 @@ GatherSegments read_segments(const std::filesystem::path& file) {
     const std::string bytes = read_bytes(file);
     const auto fail = [&](const std::string& what) {
         return Error(ErrorKind::file,
-                     "'" + file.string() + "' is no set of segments that this version reads: " + what +
+                     "'" + file.string() + "' is not a set of segments that this version reads: " + what +
                          "; write it anew",
                      "segments");
     };

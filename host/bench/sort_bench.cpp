@@ -19,9 +19,11 @@
 namespace nearlight::core {
 namespace {
 
-// Of a pair: four passes, each of which reads the keys, then reads and writes keys and values.
+// Bytes that the sort moves for each pair: each of the four passes reads the key, then reads and writes key
+// and value.
 constexpr double kSortBytes = 4.0 * 5.0 * sizeof(uint);
-// Of a number: read to be reduced, read and written to be summed.
+// Bytes that the prefix sum moves for each number, which is read to be reduced, then read and written to be
+// summed.
 constexpr double kScanBytes = 3.0 * sizeof(uint);
 
 struct SortContestant {
@@ -32,7 +34,7 @@ struct SortContestant {
     std::function<bool()> is_right;
 };
 
-/// The data, and what is right.
+/// The data and the right answers.
 struct SortWork {
     explicit SortWork(std::size_t count) : keys(count), values(count), pairs(count) {
         Pcg32 random(1);
@@ -104,7 +106,7 @@ SortContestant host_scan(const SortWork& work) {
             [sums, &work] { return *sums == work.sums; }};
 }
 
-/// What memory can do: all cores copy.
+/// The speed of memory: all cores copy.
 SortContestant copy(const SortWork& work) {
     const auto to = std::make_shared<std::vector<std::uint64_t>>(work.pairs.size());
     return {"copy of the pairs", 2.0 * sizeof(std::uint64_t), [] {},

@@ -17,12 +17,13 @@
 namespace nearlight::core {
 namespace {
 
-/// Distances apart that count as the same hit, of the distance.
+/// Maximum relative difference between the distances of what counts as the same hit.
 constexpr float kSameHit = 1e-4f;
-/// Rays that graze an edge may go either way; more than this share of all rays is an error.
+/// Maximum fraction of rays that may differ, because both answers are right for rays that graze an edge.
 constexpr double kMaxDiffering = 1e-5;
 
-/// One way to trace the rays of a set: fills in their distances, and says how long the tracing took.
+/// One way to trace the rays of a set. It fills in their distances and returns the time that the tracing
+/// took.
 struct RayContestant {
     std::string name;
     std::function<Seconds(std::vector<float>&)> trace;
@@ -40,7 +41,7 @@ std::size_t count_differing(std::span<const float> distances, std::span<const fl
     return count;
 }
 
-/// What our side needs.
+/// Our kernel with its input.
 struct OurTracer {
     OurTracer(Device& on, const Bvh& bvh) : device(&on), caster(on), tree(upload_ray_tree(on, bvh)) {}
     Device* device;
@@ -73,7 +74,8 @@ std::vector<RayContestant> embrees(const EmbreeRays& embree, std::span<const Ray
     return contestants;
 }
 
-/// Each contestant's seconds, repeat by repeat, in turn; one more run before warms up and is compared.
+/// Runs the contestants in turn, and returns the seconds of each contestant's repeats. An additional first
+/// round warms up and is not counted. Answers are compared after the last round.
 std::vector<std::vector<Seconds>> race(const std::vector<RayContestant>& contestants, int repeats,
                                        RaySetResult& result) {
     std::vector<std::vector<float>> distances(contestants.size());
@@ -116,8 +118,8 @@ RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::stri
     result.ratio = ratio(runs[best], runs[0], &Seconds::wall).median;
     result.ratio_processor =
         own.device->is_cpu() ? ratio(runs[best], runs[0], &Seconds::processor).median : 0.0;
-    const auto most = std::max(1.0, kMaxDiffering * static_cast<double>(rays.size()));
-    result.agrees = static_cast<double>(result.tracers[0].differing) <= most;
+    const auto max_differing = std::max(1.0, kMaxDiffering * static_cast<double>(rays.size()));
+    result.agrees = static_cast<double>(result.tracers[0].differing) <= max_differing;
     return result;
 }
 

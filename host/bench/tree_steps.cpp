@@ -45,7 +45,7 @@ float enter(const TestRay& segment, Vec3 low, Vec3 high) {
     return enter_box(segment, NEARLIGHT_SEGMENT_T_MAX, low, high);
 }
 
-/// One ray, nearer child first.
+/// Counts the steps of one ray that visits the nearer child first.
 void count_ray(const Bvh& bvh, const TestRay& segment, Counts& counts) {
     std::array<uint, NEARLIGHT_MAX_BVH_DEPTH + 1> stack;
     std::size_t top = 0;
@@ -78,7 +78,7 @@ void count_ray(const Bvh& bvh, const TestRay& segment, Counts& counts) {
     }
 }
 
-/// The rays of one VPL and one packet of receivers, which go down the tree together.
+/// The rays between one VPL and one packet of receivers, which go through the tree together.
 class Packet {
   public:
     void add(const TestRay& segment) { segments_[count_++] = segment; }

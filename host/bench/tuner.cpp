@@ -19,23 +19,24 @@
 namespace nearlight::core {
 namespace {
 
-/// Another value has to be faster than the usual one by so much.
+/// Maximum time of a value that replaces the usual one, as a fraction of the usual one's time.
 constexpr double kWorthIt = 0.97;
 
-/// What a candidate runs, and a hash of what came out.
+/// The work that is timed, and the hash of its result.
 struct Work {
     std::function<void()> run;
     std::function<std::uint64_t()> hash;
 };
 
-/// Work that tells of one tunable.
+/// One tunable, and the work whose time depends on it.
 struct Trial {
     std::uint32_t Tunables::*value;
     std::string measured_by;
-    /// Processor time tells more where others use the machine too, but not how evenly work is divided.
+    /// Whether processor time decides. It is more reliable than the wall clock on a machine with other load,
+    /// but does not show how evenly work is divided.
     bool by_processor;
-    std::uint32_t min, max;           ///< powers of two that are tried
-    std::function<Work()> make_work;  ///< with the device set to a candidate
+    std::uint32_t min, max;           ///< all powers of two between them are tried
+    std::function<Work()> make_work;  ///< called with the device set to the value that is tried
 };
 
 template <typename T>
@@ -44,7 +45,7 @@ std::uint64_t hash_of(const Buffer<T>& buffer) {
     return hash64(std::as_bytes(std::span(values)));
 }
 
-/// The room, on the host and on the device.
+/// The generated room, on the host and on the device.
 struct Room {
     Room(Device& device, const TunerConfig& config)
         : scene(make_sphere_room(config.triangles)),
@@ -80,7 +81,7 @@ Work gather_work(Device& device, const Room& room) {
             [state] { return hash_of(state->sums.light); }};
 }
 
-/// Kernels of the picture: rays from the camera and to the lights.
+/// The kernels that trace rays from the camera and to the lights.
 Work picture_work(Device& device, const Room& room) {
     struct State {
         State(Device& on, const Room& of)
@@ -149,7 +150,7 @@ std::vector<Trial> make_trials(Device& device, const Room& room, const TunerConf
     return trials;
 }
 
-/// A candidate that takes part.
+/// A value that is tried, with its work and its times.
 struct Runner {
     Tunables tunables{};
     Work work;
@@ -164,19 +165,19 @@ Seconds timed(Device& device, const Runner& runner) {
     return clocks.seconds();
 }
 
-/// Runners for all values; one without work where the device refuses its value.
+/// Runners for all values. The runner of a value that the device refuses has no work.
 std::vector<Runner> make_runners(Device& device, const Trial& trial, const Tunables& base,
-                                 std::vector<TunerCandidate>& candidates) {
+                                 std::vector<TriedValue>& tried) {
     std::vector<Runner> runners;
-    for (TunerCandidate& candidate : candidates) {
+    for (TriedValue& one : tried) {
         Runner runner{.tunables = base, .work = {}, .runs = {}};
-        runner.tunables.*trial.value = candidate.value;
+        runner.tunables.*trial.value = one.value;
         try {
             device.set_tunables(runner.tunables);
             runner.work = trial.make_work();
             timed(device, runner);  // compiles and warms up
         } catch (const Error& error) {
-            candidate.failed_because = error.what();
+            one.failed_because = error.what();
             runner.work = {};
         }
         runners.push_back(std::move(runner));
@@ -200,38 +201,37 @@ void check_results(const Trial& trial, std::span<const Runner> runners) {
     }
 }
 
-std::vector<TunerCandidate> list_candidates(const Trial& trial, std::uint32_t usual) {
-    std::vector<TunerCandidate> candidates{{.value = usual}};
+std::vector<TriedValue> values_to_try(const Trial& trial, std::uint32_t usual) {
+    std::vector<TriedValue> tried{{.value = usual}};
     for (std::uint32_t value = trial.min; value <= trial.max; value *= 2) {
         if (value != usual) {
-            candidates.push_back({.value = value});
+            tried.push_back({.value = value});
         }
     }
-    std::ranges::sort(candidates, {}, &TunerCandidate::value);
-    return candidates;
+    std::ranges::sort(tried, {}, &TriedValue::value);
+    return tried;
 }
 
-/// Fills in the figures and gives the winner's value.
+/// Fills in the figures and returns the fastest value.
 std::uint32_t decide(const Trial& trial, std::span<const Runner> runners, std::uint32_t usual,
-                     std::vector<TunerCandidate>& candidates) {
-    const auto of_usual = static_cast<std::size_t>(
-        std::ranges::find(candidates, usual, &TunerCandidate::value) - candidates.begin());
+                     std::vector<TriedValue>& tried) {
+    const auto of_usual =
+        static_cast<std::size_t>(std::ranges::find(tried, usual, &TriedValue::value) - tried.begin());
     const auto clock = trial.by_processor ? &Seconds::processor : &Seconds::wall;
     std::uint32_t best = usual;
     double best_ratio = kWorthIt;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        TunerCandidate& candidate = candidates[i];
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        TriedValue& one = tried[i];
         const std::vector<Seconds>& runs = runners[i].runs;
         if (runs.empty() || runners[of_usual].runs.empty()) {
             continue;
         }
-        candidate.median = {median(readings(runs, &Seconds::wall)),
-                            median(readings(runs, &Seconds::processor))};
-        candidate.to_usual = ratio(runs, runners[of_usual].runs, clock);
-        const double surely = candidate.to_usual.median + 2.0 * candidate.to_usual.deviation;
-        if (candidate.value != usual && surely < 1.0 && candidate.to_usual.median < best_ratio) {
-            best = candidate.value;
-            best_ratio = candidate.to_usual.median;
+        one.median = {median(readings(runs, &Seconds::wall)), median(readings(runs, &Seconds::processor))};
+        one.to_usual = ratio(runs, runners[of_usual].runs, clock);
+        const double surely = one.to_usual.median + 2.0 * one.to_usual.deviation;
+        if (one.value != usual && surely < 1.0 && one.to_usual.median < best_ratio) {
+            best = one.value;
+            best_ratio = one.to_usual.median;
         }
     }
     return best;
@@ -242,9 +242,9 @@ TunerTrial run_trial(Device& device, const Trial& trial, const Tunables& base, i
                       .measured_by = trial.measured_by,
                       .by_processor = trial.by_processor,
                       .usual = base.*trial.value,
-                      .candidates = list_candidates(trial, base.*trial.value)};
+                      .tried = values_to_try(trial, base.*trial.value)};
     result.tunable = std::ranges::find(tunable_fields(), trial.value, &TunableField::value)->name;
-    std::vector<Runner> runners = make_runners(device, trial, base, result.candidates);
+    std::vector<Runner> runners = make_runners(device, trial, base, result.tried);
     check_results(trial, runners);
     for (int repeat = 0; repeat < repeats; ++repeat) {
         for (Runner& runner : runners) {
@@ -253,7 +253,7 @@ TunerTrial run_trial(Device& device, const Trial& trial, const Tunables& base, i
             }
         }
     }
-    result.chosen = decide(trial, runners, result.usual, result.candidates);
+    result.chosen = decide(trial, runners, result.usual, result.tried);
     return result;
 }
 

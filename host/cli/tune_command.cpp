@@ -25,16 +25,16 @@ nlohmann::ordered_json to_json(const TunerTrial& trial) {
                                 {"clock", trial.by_processor ? "processor" : "wall"},
                                 {"usual", trial.usual},
                                 {"chosen", trial.chosen}};
-    for (const TunerCandidate& candidate : trial.candidates) {
-        if (!candidate.failed_because.empty()) {
-            json["candidates"].push_back({{"value", candidate.value}, {"failed", candidate.failed_because}});
+    for (const TriedValue& one : trial.tried) {
+        if (!one.failed_because.empty()) {
+            json["candidates"].push_back({{"value", one.value}, {"failed", one.failed_because}});
             continue;
         }
-        json["candidates"].push_back({{"value", candidate.value},
-                                      {"seconds", candidate.median.wall},
-                                      {"processor_seconds", candidate.median.processor},
-                                      {"to_usual", candidate.to_usual.median},
-                                      {"deviation", candidate.to_usual.deviation}});
+        json["candidates"].push_back({{"value", one.value},
+                                      {"seconds", one.median.wall},
+                                      {"processor_seconds", one.median.processor},
+                                      {"to_usual", one.to_usual.median},
+                                      {"deviation", one.to_usual.deviation}});
     }
     return json;
 }
@@ -54,17 +54,17 @@ std::string to_text(const TunerTrial& trial) {
     std::string text = fmt::format(
         "{}, measured by the {} ({})\n{:>10} {:>10} {:>13} {:>16}\n", trial.tunable, trial.measured_by,
         trial.by_processor ? "processor time" : "wall clock", "value", "ms", "processor ms", "to the usual");
-    for (const TunerCandidate& candidate : trial.candidates) {
-        if (!candidate.failed_because.empty()) {
-            text += fmt::format("{:>10} {}\n", candidate.value, candidate.failed_because);
+    for (const TriedValue& one : trial.tried) {
+        if (!one.failed_because.empty()) {
+            text += fmt::format("{:>10} {}\n", one.value, one.failed_because);
             continue;
         }
-        const char* const mark = candidate.value == trial.chosen  ? "  chosen"
-                                 : candidate.value == trial.usual ? "  usual"
-                                                                  : "";
-        text += fmt::format("{:>10} {:>10.2f} {:>13.2f} {:>9.3f} ± {:.3f}{}\n", candidate.value,
-                            1e3 * candidate.median.wall, 1e3 * candidate.median.processor,
-                            candidate.to_usual.median, candidate.to_usual.deviation, mark);
+        const char* const mark = one.value == trial.chosen  ? "  chosen"
+                                 : one.value == trial.usual ? "  usual"
+                                                            : "";
+        text +=
+            fmt::format("{:>10} {:>10.2f} {:>13.2f} {:>9.3f} ± {:.3f}{}\n", one.value, 1e3 * one.median.wall,
+                        1e3 * one.median.processor, one.to_usual.median, one.to_usual.deviation, mark);
     }
     return text;
 }

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kLightTriangles = 3000;
 
-/// Whether a shadow ray of the receiver passes an edge.
+/// Whether a shadow ray of the receiver passes so near an edge that both answers are right.
 bool is_excused(EdgeExcuse& edges, const Scene& scene, Vec3 x) {
     return std::any_of(scene.delta_emitters.begin(), scene.delta_emitters.end(),
                        [&](const Emitter& light) { return edges.excuses(light.position, x); });
@@ -59,7 +59,7 @@ void check_direct_light(Device& device, CheckResult& result) {
 void check_light_tracing(Device& device, CheckResult& result) {
     const Vec3 albedo{0.8f, 0.5f, 0.3f};
     const Scene scene = make_even_room(albedo);
-    double flux = 0;  // of each colour: the lamp is white
+    double flux = 0;  // of each colour channel, because the lamp is white
     for (const Emitter& emitter : build_emitter_table(scene).emitters) {
         flux += static_cast<double>(kPi) * emitter.area * emitter.radiance.x;
     }
@@ -80,7 +80,7 @@ void check_light_tracing(Device& device, CheckResult& result) {
     for (std::size_t depth = 0; depth < power.size(); ++depth, launched *= walks.mean_albedo) {
         for (std::size_t c = 0; c < 3; ++c) {
             expected[c] *= c == 0 ? albedo.x : (c == 1 ? albedo.y : albedo.z);
-            // The number of walks that go on is rounded; a few meet a crack between triangles.
+            // The number of walks that continue is rounded, and a few walks meet a crack between triangles.
             result.expect(std::abs(power[depth][c] - expected[c]) <= (1.5 / launched + 1e-3) * expected[c]);
         }
     }

@@ -20,7 +20,7 @@
 namespace nearlight::core {
 namespace {
 
-/// At the middle of every so many triangles.
+/// Receivers at the centres of 64 triangles, spread evenly over the scene's list.
 std::vector<ReceiverPacket> receivers_on(const Scene& scene) {
     const float extent = max_component(bounds(scene).size());
     std::vector<ReceiverPacket> packets(1);
@@ -53,8 +53,8 @@ constexpr LocalLightPlan kPlan{.clamp_radius = 0.1f,
                                .seed = 3};
 constexpr std::size_t kSlotsPerPacket = std::size_t{kPlan.rays_per_receiver} * NEARLIGHT_PACKET_SIZE;
 
-/// cosθx·cosθy / d² of points within the radius that face each other, by Embree's ray. Points of one plane
-/// do not, whatever rounding says.
+/// The geometry term cosθx·cosθy / d² of two points, with visibility by Embree's ray. It is 0 for points
+/// farther apart than `radius`, and for points in one plane, whatever rounding says.
 double pair_geometry(const EmbreeScene& embree, const ReceiverPoint& x, const Vpl& light, float radius) {
     const Vec3 between = x.position - light.position;
     const double squared = dot(between, between);
@@ -73,7 +73,7 @@ Vec3 light_at(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     return irradiance;
 }
 
-/// What a light's surface gives off under the point and spot lights, W/m².
+/// Exitance (W/m²) of a local light's surface under the point and spot lights.
 Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     constexpr float kBack = 1e-3f;
     const BvhHit hit =
@@ -85,7 +85,8 @@ Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     return light_at(scene, embree, light) * light_albedo(scene, *surface.material, surface.u, surface.v);
 }
 
-/// The first halving of the widest radius that is small enough for the light there, or nearly so.
+/// Whether `radius` is the first halving of the widest radius that is small enough for the irradiance there,
+/// except for rounding.
 bool radius_fits(float radius, Vec3 irradiance) {
     const float wanted = kPlan.radius_at_unit_light / std::sqrt(luminance(irradiance));
     float min_wanted = kPlan.widest_radius;
@@ -100,7 +101,7 @@ bool radius_fits(float radius, Vec3 irradiance) {
            radius == std::max(max_wanted, kPlan.clamp_radius);
 }
 
-/// The lights of all packets, what they are made of, and what they are good for.
+/// The local lights of all packets, with the stage's input and output for them.
 struct LocalCase {
     const Scene& scene;
     const EmbreeScene& embree;
@@ -127,8 +128,8 @@ bool is_excused(EdgeExcuse& edges, const LocalCase& data, std::size_t slot) {
                                [&](const Emitter& light) { return edges.excuses(y, light.position); });
 }
 
-/// The radius is what the law says, power is exitance over the density of all rays of the packet; bits are
-/// the receivers that see the light.
+/// Whether a light is right: its radius follows the law, its power is the exitance divided by the density of
+/// all rays of the packet, and its bits are the receivers that see it.
 bool light_fits(const LocalCase& data, std::size_t slot) {
     const Vpl& light = data.lights[slot];
     double density = 0;
@@ -144,7 +145,8 @@ bool light_fits(const LocalCase& data, std::size_t slot) {
            seen_by == data.seen_by[slot] && length(light.power - want) <= 1e-3f * length(want);
 }
 
-/// Σ power/π · (G_R − G_Rg) over the lights that see the receiver, by the kernel's own bits.
+/// The sum of power/π · (G_R − G_Rg) over the lights that see the receiver according to the kernel's own
+/// bits.
 double sum_of_lights(const LocalCase& data, std::size_t receiver) {
     const ReceiverPoint x = receiver_at(data.receivers, receiver);
     const std::size_t first = receiver / NEARLIGHT_PACKET_SIZE * kSlotsPerPacket;
@@ -168,9 +170,8 @@ double sum_of_lights(const LocalCase& data, std::size_t receiver) {
 
 }  // namespace
 
-// In a sphere of radius r a cosine-distributed ray meets the wall at a distance t with t²/4r² uniform in
-// [0, 1], so that a clamp radius R ≤ 2r takes R²/8r² of the light away; and the wall is equally bright all
-// over.
+// In a sphere of radius r a cosine-distributed ray meets the wall at a distance t with t²/4r² uniform in [0,
+// 1], so that a clamp radius R ≤ 2r takes away R²/8r² of the light. The wall is equally bright everywhere.
 void check_bounce_tracer(Device& device, CheckResult& result) {
     constexpr float kRadius = 2.0f;
     constexpr float kAlbedo = 0.8f;
@@ -190,7 +191,8 @@ void check_bounce_tracer(Device& device, CheckResult& result) {
                 on_device, receivers, 1,
                 {.sample_count = kSamples, .bounce_count = bounces, .clamp_radius = clamp_radius, .seed = 4},
                 irradiance);
-            // Directions are well spread; that weak paths end by chance, from the third bounce on, is noise.
+            // Single receivers are compared up to two bounces only: directions are well spread, but from the
+            // third bounce on weak paths end by chance, which adds noise.
             double mean = 0;
             for (const Vec3 found : lanes_of(irradiance.download_one(0))) {
                 mean += found.y / NEARLIGHT_PACKET_SIZE;

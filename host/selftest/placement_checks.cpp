@@ -25,7 +25,7 @@ TriangleCorners corners_of(const Scene& scene, uint id) {
             scene.vertices[triangle.v2].position};
 }
 
-/// How far p is from the plane of the triangle and outside its edges, m.
+/// Maximum of the distances (m) of p from the triangle's plane and beyond its edges.
 float distance_outside(const TriangleCorners& t, Vec3 p) {
     const Vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
     float outside = std::abs(dot(n, p - t.a));
@@ -35,7 +35,7 @@ float distance_outside(const TriangleCorners& t, Vec3 p) {
     return outside;
 }
 
-/// Two lights, so that every point asks both of them; the spheres reflect outwards only.
+/// A room with two lights, so that every point asks both of them. The spheres reflect outwards only.
 Scene make_room_of_two_lights() {
     Scene scene = make_delta_lit_room();
     scene.delta_emitters = {scene.delta_emitters.front(), scene.delta_emitters.back()};
@@ -43,7 +43,7 @@ Scene make_room_of_two_lights() {
     return scene;
 }
 
-/// Whether either light reaches the point, on any side that reflects.
+/// Whether a light reaches the point on a side that reflects.
 bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, float extent) {
     const TriangleCorners t = corners_of(scene, id);
     const Vec3 front = normalize(cross(t.b - t.a, t.c - t.a));
@@ -60,7 +60,7 @@ bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, 
     return false;
 }
 
-/// The share of a lattice of points of the triangle that light reaches.
+/// The fraction of a lattice of points on the triangle that light reaches.
 double lit_share(const Scene& scene, const EmbreeScene& embree, uint id, float extent) {
     constexpr int kSteps = 15;
     const TriangleCorners t = corners_of(scene, id);
@@ -96,7 +96,7 @@ void check_classifier(Device& device, CheckResult& result) {
     const std::vector<uint> found = flags.download();
     for (uint i = 0; i < kPlacementTriangles; ++i) {
         if (triangle_area(scene, scene.triangles[i]) < 1e-6f) {
-            continue;  // of no area, or so little that rounding decides whether there is any
+            continue;  // rounding decides whether it has any area
         }
         const TriangleCorners corners = corners_of(scene, i);
         const bool surely = nearest_squared_distance(corners, region, 0.0) < kRange * kRange;
@@ -136,7 +136,7 @@ void check_placement(Device& device, CheckResult& result) {
     const Scene scene = make_triangle_soup(kPlacementTriangles, 22);
     std::vector<uint> ids;
     std::vector<float> areas;
-    std::vector<double> ends;  // of the area up to and including ids[i]
+    std::vector<double> ends;  // sums of the areas up to and including ids[i]
     double sum = 0;
     for (uint i = 0; i < kPlacementTriangles; ++i) {
         areas.push_back(triangle_area(scene, scene.triangles[i]));

@@ -13,7 +13,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Around work-group sizes, around the lengths at which arrays are split, and a large one.
+/// Sizes around those of work-groups and around the lengths at which arrays are split, and a large one.
 constexpr std::size_t kSizes[] = {1, 63, 64, 65, 1023, 1024, 1025, 65'537, 500'000};
 
 template <typename T>
@@ -48,7 +48,7 @@ void check_scan_of(Device& device, CheckResult& result) {
     }
 }
 
-/// Every third bit of a code, from `first` on: the cell along one axis.
+/// The cell along one axis, which is every third bit of a code from `first` on.
 int cell_of(uint code, uint first) {
     uint cell = 0;
     for (uint bit = 0; bit < 10; ++bit) {
@@ -103,7 +103,7 @@ void check_compaction(Device& device, CheckResult& result) {
 void check_sort(Device& device, CheckResult& result) {
     MortonSort sorter(device);
     for (const std::size_t size : kSizes) {
-        // Few different keys in every second run, so that stability shows.
+        // Every second array has few different keys, so that an unstable sort is noticed.
         const std::vector<uint> numbers = random_numbers<uint>(size, 3, size % 2 == 0 ? 0xffu : ~0u);
         std::vector<uint> expected(size);
         std::iota(expected.begin(), expected.end(), 0u);

@@ -16,8 +16,8 @@ namespace {
 constexpr float kRouletteRadius = 0.05f;
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
-constexpr uint kRunPackets = 5;  // of 20: bundles of 4 and of 1
-/// Standard errors that chance does not reach in thousands of cases.
+constexpr uint kRunPackets = 5;  // per run: a bundle of 4 and a bundle of 1
+/// Number of standard errors that chance does not reach in thousands of cases.
 constexpr double kMaxDeviations = 5.5;
 
 struct RouletteCase {
@@ -62,7 +62,7 @@ RouletteCase make_case(Device& device) {
     return data;
 }
 
-/// Bundle by bundle, VPL by VPL.
+/// Compares how often each bundle chose each VPL, and its weight, with the probabilities.
 void check_choices(Device& device, const RouletteCase& data, CheckResult& result) {
     const BundleLayout layout = data.task(0).bundles;
     std::vector<uint> chosen(layout.bundle_count() * data.vpls.size());
@@ -89,7 +89,7 @@ void check_choices(Device& device, const RouletteCase& data, CheckResult& result
             const double p = probabilities[vpl];
             const double count = chosen[bundle * data.vpls.size() + vpl];
             const double weight = chosen_weights[bundle * data.vpls.size() + vpl];
-            // A bound that is almost 0 or almost the limit may be on either side of it for rounding.
+            // Rounding may move a probability that is almost 0 or almost 1 to either side of that limit.
             const double chance = kMaxDeviations * std::sqrt(kSeeds * p * (1 - p)) + (p > 0 && p < 1 ? 2 : 0);
             result.expect(std::abs(count - p * kSeeds) <= chance &&
                           (count == 0 || std::abs(weight * p - 1) <= 1e-3));
@@ -97,7 +97,7 @@ void check_choices(Device& device, const RouletteCase& data, CheckResult& result
     }
 }
 
-/// Of all receivers and channels of each packet.
+/// The sums over all receivers and channels of each packet.
 std::vector<double> sums_of_packets(const Buffer<IrradiancePacket>& irradiance) {
     std::vector<double> sums;
     for (const IrradiancePacket& packet : irradiance.download()) {
@@ -112,7 +112,7 @@ void check_expectation(Device& device, const RouletteCase& data, CheckResult& re
     GatherSums<Vpl> sums(device, data.receivers.size());
     gatherer.gather(data.input(nullptr), sums);
     const std::vector<double> full = sums_of_packets(sums.light);
-    std::vector<double> deviation(full.size());  // summed over the seeds
+    std::vector<double> deviation(full.size());  // sum over the seeds
     std::vector<double> squares(full.size());
     for (uint seed = 0; seed < kSeeds; ++seed) {
         const VplSelection selection = roulette.select(data.task(seed));

@@ -47,7 +47,7 @@ std::vector<CheckResult> run_selftest(Device& device, const std::function<void(c
         result.name = check.name;
         try {
             check.run(device, result);
-        } catch (const Error& error) {  // of one kernel; the report is what this is for
+        } catch (const Error& error) {  // one check failed; the report names it
             result.problem = error.what();
         }
         done(result);

@@ -46,7 +46,8 @@ std::vector<Vpl> random_vpls(std::size_t count) {
     return vpls;
 }
 
-/// Irradiance of lane i is (i, 2i, 1): exact in single precision, and so are its multiples by two.
+/// Packets in which the irradiance of lane i is (i, 2i, 1). These numbers and their doubles are exact in
+/// single precision.
 std::vector<IrradiancePacket> ramp(std::size_t packets) {
     std::vector<IrradiancePacket> light(packets);
     for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
@@ -58,7 +59,7 @@ std::vector<IrradiancePacket> ramp(std::size_t packets) {
     return light;
 }
 
-/// On triangles of random ones of which each second is two-sided.
+/// Random samples on triangles of the scene, of which every second one is two-sided.
 std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count) {
     Pcg32 random(12);
     std::vector<SurfaceSample> samples;
@@ -82,7 +83,7 @@ std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count)
     return samples;
 }
 
-/// What each receiver sends to the camera of a VPL's light; `response` is the camera's.
+/// The light of a VPL that each receiver sends to the camera; `response` is the camera's.
 std::vector<Vec3> seen_of(const EmbreeScene& embree, const Vpl& vpl,
                           std::span<const ReceiverPacket> receivers, std::span<const CameraVertex> response) {
     std::vector<IrradiancePacket> irradiance(receivers.size());
@@ -103,7 +104,8 @@ double column_sum(std::span<const Vec3> seen) {
     return sum;
 }
 
-/// Of the importance that a receiver would send to a VPL if nothing were in the way, up to a factor.
+/// The square of the importance that a receiver would send to a VPL if nothing were in the way, up to a
+/// factor.
 double squared_importance(const Vpl& vpl, const ReceiverPoint& x, const CameraVertex& response) {
     const Vec3 segment = x.position - vpl.position;
     const double r2 = dot(segment, segment);
@@ -114,8 +116,8 @@ double squared_importance(const Vpl& vpl, const ReceiverPoint& x, const CameraVe
     return term * term * dot(color, color);
 }
 
-/// The root of the sum of squares over the receivers that are asked about the VPL: of all together with
-/// others that send nothing there are `importon_count`.
+/// The root of the sum of squares over the receivers that are asked about the VPL. There are `importon_count`
+/// importons in all; those beyond `response` send nothing.
 double column_error(std::span<const Vec3> seen, const Vpl& vpl, std::span<const ReceiverPacket> receivers,
                     std::span<const CameraVertex> response, std::size_t importon_count) {
     std::vector<double> squares;
@@ -124,10 +126,10 @@ double column_error(std::span<const Vec3> seen, const Vpl& vpl, std::span<const 
         squares.push_back(squared_importance(vpl, receiver_at(receivers, i), response[i]));
         total += squares.back();
     }
-    const double least = VplContribution::kNegligiblePart * total / static_cast<double>(importon_count);
+    const double min_square = VplContribution::kNegligiblePart * total / static_cast<double>(importon_count);
     double sum = 0;
     for (std::size_t i = 0; i < response.size(); ++i) {
-        sum += squares[i] >= least ? dot(seen[i], seen[i]) : 0.0;
+        sum += squares[i] >= min_square ? dot(seen[i], seen[i]) : 0.0;
     }
     return std::sqrt(sum);
 }
@@ -142,7 +144,7 @@ bool any_excused(EdgeExcuse& edges, const Vpl& vpl, std::span<const ReceiverPack
     return false;
 }
 
-/// Whether `vpl` is what Embree's ray from `point` through it meets.
+/// Whether Embree's ray from `point` towards `vpl` lands there.
 bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, const Importon& point,
                   const Vpl& vpl) {
     const Vec3 on_surface = vpl.position - vpl.normal * ray_epsilon(vpl.position, extent);
@@ -191,7 +193,7 @@ void check_vpl_light(Device& device, CheckResult& result) {
 
 void check_patch_vpls(Device& device, CheckResult& result) {
     constexpr std::size_t kSamples = 4000;
-    constexpr float kArea = 0.25f;  // m² a sample
+    constexpr float kArea = 0.25f;  // m² per sample
     Scene scene = make_triangle_soup(1000, 23);
     scene.materials = {diffuse_material({0.5f, 0.25f, 0.125f}), diffuse_material({0.2f, 0.4f, 0.8f})};
     scene.materials[1].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
@@ -250,7 +252,7 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
     const std::vector<float> sums = brought.download();
     const std::vector<float> errors =
         contribution.by_group(on_device, on_device_vpls, vpls.size(), view, kVplRadius).errors;
-    // So few receivers are all among the importons in groups.
+    // There are so few receivers that all of them are among the importons in groups.
     const std::size_t importon_count =
         std::size_t{view.importon_groups.group_count} * view.importon_groups.group_size;
     for (std::size_t i = 0; i < vpls.size(); ++i) {
@@ -271,7 +273,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const float extent = on_device.host_info.extent;
     std::vector<Importon> importons;
     for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
-        const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one of each tile
+        const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one per tile
         Importon& importon = importons.emplace_back();
         importon.position = x.position;
         importon.normal = x.normal;
@@ -280,7 +282,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     Gatherer gatherer(device);
     ReverseVpls stage(device, gatherer);
     const std::vector<Vpl> found = stage.trace(on_device, points, 17);
-    // The room is closed and all of it reflects: ray after ray leaves a VPL.
+    // The room is closed and all of it reflects, so every ray leaves a VPL.
     result.expect(found.size() == importons.size() * kRaysPerPoint);
     if (result.mismatches > 0) {
         return;
