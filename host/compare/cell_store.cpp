@@ -16,10 +16,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// To be changed when what a cell holds changes its meaning.
+/// Change this when the meaning of a cell's contents changes.
 constexpr const char* kFormat = "cell 1";
 
-/// What JSON cannot hold is written as null.
+/// Reads a number; NaN and infinity, which JSON cannot represent, are stored as null.
 double number(const Json& value) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
@@ -79,7 +79,7 @@ std::optional<Cell> CellStore::load(const CellId& id) const {
     try {
         return from_json(Json::parse(read_bytes(file)), id);
     } catch (const Json::exception&) {
-        say_warning("'" + file.string() + "' is broken; measuring that cell anew");
+        say_warning("'" + file.string() + "' is broken; measuring that cell again");
         return std::nullopt;
     }
 }

@@ -28,7 +28,7 @@ std::string conditions_of(const Device& device, const SceneFacts& facts, const R
            to_string(settings.bvh_quality);
 }
 
-/// The file that shows this scene, if any does.
+/// The reference file that shows this scene; empty if none does.
 std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const CompareSettings& settings) {
     const std::string hash = hex_digits(scene_hash(scene));
     for (const std::filesystem::path& file : settings.reference_files) {
@@ -41,7 +41,7 @@ std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const
     return std::nullopt;
 }
 
-/// A file that fits no scene is a mistake.
+/// Assigns each scene its reference file. Throws Error(ErrorKind::file) for a file that fits no scene.
 std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::span<const Scene> scenes,
                                                                          const CompareSettings& settings) {
     std::vector<std::optional<std::filesystem::path>> assigned;
@@ -59,7 +59,7 @@ std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::sp
     return assigned;
 }
 
-/// What one scene needs on its way.
+/// The comparison on one scene.
 class SceneRun {
   public:
     SceneRun(Device& device, SceneBench& bench, const CompareSettings& settings,
@@ -86,7 +86,7 @@ class SceneRun {
                 conditions_of(device_, bench_.facts(), reference, settings_)};
     }
 
-    /// All cells in order; nothing where it was stopped.
+    /// All cells in order; empty if it was stopped.
     std::optional<std::vector<Cell>> measure(const Reference& reference, const CellStore& store,
                                              Comparison& comparison) {
         std::vector<CellId> missing;
@@ -114,7 +114,8 @@ class SceneRun {
     }
 
   private:
-    /// Tells how far all is while cell `index` is measured; that goes on to its end whoever wants to stop.
+    /// Reports the progress of all cells while cell `index` is measured. A cell is always finished, even
+    /// after a request to stop.
     SceneBench::Progress progress_of(std::span<const CellId> cells, std::size_t index,
                                      const CostModel& cost) const {
         double before = 0, total = 0;

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// The test bench of many-light samplers: scenes × methods × counts of VPLs × seeds, all measured on the
-// indirect light alone, against one truth.
+// SPDX-License-Identifier: Apache-2.0 The comparison of samplers: scenes × methods × numbers of VPLs × seeds.
+// Only indirect light is compared, with one reference per scene.
 #pragma once
 
 #include <functional>
@@ -19,7 +18,7 @@ struct SceneComparison {
     SceneFacts facts;
     Reference reference;
     std::vector<EqualVplsRow> equal_vpls{};
-    std::vector<EqualRmse> equal_rmse{};  ///< rows refer to CompareSettings::methods
+    std::vector<EqualRmse> equal_rmse{};  ///< EqualRmseRow::curve is an index into CompareSettings::methods
     SceneFigures figures{};
     std::vector<Plot> plots{};
 };
@@ -27,28 +26,28 @@ struct SceneComparison {
 struct Comparison {
     std::string device;
     std::string driver;
-    std::size_t measured_cells = 0;  ///< in this run
-    std::size_t reused_cells = 0;    ///< found in the output folder
+    std::size_t measured_cells = 0;  ///< cells that this run measured
+    std::size_t reused_cells = 0;    ///< cells that were found in the output folder
     std::vector<SceneComparison> scenes{};
 };
 
-/// What is told while it goes on.
+/// Receives the progress of a comparison, and can stop it.
 struct CompareObserver {
     std::function<void(const std::string& step)> begin;
-    /// How far the step is, 0 to 1, and how long it will still take, if that is known better than from the
-    /// fraction.
+    /// Receives the fraction of the step that is done, 0 to 1, and the time that it will still take where a
+    /// better estimate than the fraction's is known.
     std::function<void(double fraction, std::optional<double> seconds_left)> advance;
-    std::function<bool()> stopped;  ///< asked between cells, and several times a second within a reference
+    std::function<bool()> stopped;  ///< called between cells, and several times a second within a reference
 };
 
-/// Measures what is missing in settings.output and makes tables, figures and plots. Nothing where it was
-/// stopped; the same call goes on from there. Settings must have passed check_settings(). Throws Error where
-/// a scene has nothing to compare, or a given reference does not fit.
+/// Measures the cells that are missing in settings.output and makes tables, figures and plots. Returns
+/// nothing if it was stopped; the same call resumes. Settings must have passed check_settings(). Throws Error
+/// if a scene has nothing to compare, or a given reference does not fit.
 std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
                                   const CompareSettings& settings, const CompareObserver& observer);
 
-/// Names for files, one a scene: its own name in letters, digits, '.', '_' and '-', numbered where two are
-/// alike.
+/// Names for files, one per scene: the scene's own name in letters, digits, '.', '_' and '-', with a number
+/// if two scenes have the same name.
 std::vector<std::string> unique_names(std::span<const Scene> scenes);
 
 }  // namespace nearlight::core

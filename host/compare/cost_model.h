@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// How long the cells that are left will take.
+// SPDX-License-Identifier: Apache-2.0 Estimates how long the remaining cells will take.
 #pragma once
 
 #include <map>
@@ -11,12 +10,13 @@
 
 namespace nearlight::core {
 
-/// The time of a cell is taken to be in proportion to VPLs × receivers; all cells of a comparison have the
-/// same receivers. Each method has its own rate, learnt from what was measured of it, or else from all.
+/// Assumes that the time of a cell is proportional to VPLs × receivers; all cells of a comparison have the
+/// same receivers. The rate of a method comes from its own measured cells, or from all methods' where it has
+/// none.
 class CostModel {
   public:
     void add(const CellId& cell, double seconds);
-    /// Nothing as long as nothing was measured.
+    /// Estimated seconds for the cells; empty before anything was measured.
     [[nodiscard]] std::optional<double> seconds(std::span<const CellId> cells) const;
 
   private:

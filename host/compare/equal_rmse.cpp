@@ -12,9 +12,9 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-/// How far beyond what was measured the fits are trusted.
+/// Factor beyond the measured counts up to which the fits are trusted.
 constexpr double kTrustedFactor = 2.0;
-/// How far beyond it they still say something.
+/// Factor beyond the largest measured count up to which the fits give at least an order of magnitude.
 constexpr double kHopelessFactor = 100.0;
 
 struct Fits {

@@ -41,7 +41,7 @@ class Album {
     std::string scene_;
 };
 
-/// Whose errors show where a picture is hard.
+/// The method whose errors decide the crops.
 Method hard_method(const CompareSettings& settings) {
     const Method rival{SamplerKind::instant_radiosity, std::nullopt};
     if (std::ranges::find(settings.methods, rival) != settings.methods.end()) {

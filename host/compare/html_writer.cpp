@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Each on a line of its own, so that the page can be read.
+/// Whether the element starts a new line of the source, which keeps the page readable.
 bool is_block(const std::string& tag) {
     constexpr std::string_view kInline[] = {"b", "span", "code", "td", "th", "a"};
     return std::ranges::find(kInline, tag) == std::end(kInline);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// HTML with everything escaped and every element closed.
+// SPDX-License-Identifier: Apache-2.0 Writes HTML in which all text is escaped and every element is closed.
 #pragma once
 
 #include <filesystem>
@@ -15,20 +14,20 @@ using HtmlAttributes = std::vector<std::pair<std::string, std::string>>;
 
 class HtmlWriter {
   public:
-    /// Starts a page with a title and a style sheet, which must not hold "</".
+    /// Starts a page with a title and a style sheet, which must not contain "</".
     HtmlWriter(const std::string& title, std::string_view style);
 
     HtmlWriter& open(const std::string& tag, const HtmlAttributes& attributes = {});
     /// Ends the element that was opened last.
     HtmlWriter& close();
     HtmlWriter& text(std::string_view text);
-    /// An element with nothing but text in it.
+    /// Adds an element that contains only text.
     HtmlWriter& element(const std::string& tag, std::string_view text, const HtmlAttributes& attributes = {});
-    /// The file itself becomes part of the page. `media_type` as "image/png".
+    /// Embeds the contents of the file in the page. `media_type` is for example "image/png".
     HtmlWriter& image(const std::filesystem::path& file, const std::string& media_type,
                       const std::string& description, HtmlAttributes attributes = {});
 
-    /// Ends all that is open. The page is complete then.
+    /// Closes all open elements and returns the complete page.
     [[nodiscard]] std::string finish();
 
   private:
@@ -38,9 +37,9 @@ class HtmlWriter {
     std::vector<std::string> open_;
 };
 
-/// For text and attribute values.
+/// Escapes text for use in elements and attribute values.
 std::string escaped(std::string_view text);
-/// [RFC 4648]
+/// Encodes bytes as Base64 [RFC 4648].
 std::string base64(std::string_view bytes);
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What is compared: a sampler, and for close-range sampling a policy with it.
+// SPDX-License-Identifier: Apache-2.0 The methods that are compared: a sampler, and for close-range sampling
+// a policy.
 #pragma once
 
 #include <optional>
@@ -13,22 +13,22 @@ namespace nearlight::core {
 
 struct Method {
     SamplerKind sampler = SamplerKind::close_range;
-    std::optional<Policy> policy;  ///< of close-range only
+    std::optional<Policy> policy;  ///< set for close-range sampling only
 
     bool operator==(const Method&) const = default;
 };
 
-/// "close-range:partition", "instant-radiosity".
+/// Name of the method, for example "close-range:partition" or "instant-radiosity".
 std::string to_string(const Method& method);
-/// The same in letters, digits and '-', for names of files.
+/// Name of the method in letters, digits and '-', for names of files.
 std::string file_stem(const Method& method);
 
-/// Close-range sampling with the policy that `nearlight render` takes where none is given.
+/// Close-range sampling with the default policy of `nearlight render`.
 Method default_method();
-/// Every sampler there is, close-range with each of its policies; the default method first.
+/// All samplers, close-range sampling with each of its policies. The default method is first.
 std::vector<Method> all_methods();
-/// A name as to_string() gives it, or `close-range` for the default method. Throws
-/// Error(ErrorKind::invalid_argument) that lists the names.
+/// The method with a name of to_string(), or the default method for `close-range`. Throws
+/// Error(ErrorKind::invalid_argument), which lists the names, for any other name.
 Method parse_method(std::string_view name);
 
 }  // namespace nearlight::core

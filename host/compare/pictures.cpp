@@ -24,7 +24,7 @@ bool overlap(const Crop& a, const Crop& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-/// Sums over all rectangles that begin at the top left corner, (width + 1) × (height + 1).
+/// Table of the sums over all (width + 1) × (height + 1) rectangles that begin at the top left corner.
 class SummedAreas {
   public:
     SummedAreas(std::span<const double> values, int width, int height)
@@ -180,19 +180,19 @@ std::vector<Crop> hardest_crops(const Image& picture, const Image& reference, st
     std::vector<Crop> crops;
     while (crops.size() < count) {
         Crop best;
-        double most = -1.0;
+        double max_sum = -1.0;
         Crop crop{0, 0, std::max(1, width / 4), std::max(1, height / 4)};
         for (crop.y = 0; crop.y + crop.height <= height; ++crop.y) {
             for (crop.x = 0; crop.x + crop.width <= width; ++crop.x) {
                 const bool free =
                     std::ranges::none_of(crops, [&](const Crop& other) { return overlap(crop, other); });
-                if (free && sums.over(crop) > most) {
-                    most = sums.over(crop);
+                if (free && sums.over(crop) > max_sum) {
+                    max_sum = sums.over(crop);
                     best = crop;
                 }
             }
         }
-        if (most < 0.0) {
+        if (max_sum < 0.0) {
             break;
         }
         crops.push_back(best);

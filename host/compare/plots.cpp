@@ -20,7 +20,7 @@ namespace {
 
 enum class Drawing { done, no_gnuplot, failed };
 
-/// Runs gnuplot on a script in the script's folder, silently.
+/// Runs gnuplot on a script, in the script's folder and without output.
 Drawing run_gnuplot(const std::filesystem::path& script) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -42,7 +42,8 @@ Drawing run_gnuplot(const std::filesystem::path& script) {
     return done ? Drawing::done : Drawing::failed;
 }
 
-/// Error bars on a logarithmic axis: what reaches 0 is cut off at a tenth.
+/// A line of data with an error bar. On a logarithmic axis, a bar that reaches 0 is cut off at a tenth of the
+/// value.
 std::string data_line(const EqualVplsRow& row) {
     const RmseEstimate& rmse = row.rmse;
     const double low = std::isfinite(rmse.low) ? std::max(rmse.low, 0.1 * rmse.value) : rmse.value;
@@ -51,11 +52,13 @@ std::string data_line(const EqualVplsRow& row) {
                        row.generate_seconds + row.gather_seconds, rmse.value, low, high);
 }
 
-/// Readable on white, also for most who see few colours [Okabe and Ito, Color Universal Design, 2008].
+/// Colours that are readable on white, also for most people with colour blindness [Okabe and Ito, Color
+/// Universal Design, 2008].
 constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
                              "#e69f00", "#333333", "#7b3294", "#8c510a"};
 
-/// 1, 2 and 5 times each power of ten between both, for an axis that may not hold a whole decade.
+/// Tics at 1, 2 and 5 times each power of ten between both bounds, for an axis that may be shorter than a
+/// decade.
 std::string tics_between(double low, double high) {
     std::string tics;
     for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
@@ -69,7 +72,8 @@ std::string tics_between(double low, double high) {
     return "(" + tics + ")";
 }
 
-/// Left to itself, gnuplot widens logarithmic axes to whole decades, and labels nothing else.
+/// The axes' ranges and tics. By default gnuplot widens logarithmic axes to whole decades and labels only
+/// those.
 std::string axes(bool over_seconds, const CompareSettings& settings, std::span<const EqualVplsRow> rows) {
     constexpr double kFar = 1e300;
     double x_low = kFar, x_high = 0, y_low = kFar, y_high = 0;

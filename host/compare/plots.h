@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Convergence, drawn by gnuplot: RMSE over VPLs and over seconds, both axes logarithmic.
+// SPDX-License-Identifier: Apache-2.0 Plots of convergence, drawn by gnuplot: RMSE over VPLs and over
+// seconds, on logarithmic axes.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,17 @@ namespace nearlight::core {
 
 struct Plot {
     std::string title;
-    std::filesystem::path script;  ///< holds its own data; `gnuplot FILE` in its folder draws it again
-    std::filesystem::path svg{};   ///< empty where gnuplot is missing or failed
-    std::filesystem::path png{};
+    std::filesystem::path script;  ///< contains its data; `gnuplot FILE` in its folder draws the plot again
+    std::filesystem::path svg{};   ///< empty if gnuplot is missing or failed
+    std::filesystem::path png{};   ///< empty if gnuplot is missing or failed
 };
 
-/// Writes the scripts to `folder` and runs them; warns once where gnuplot is not there.
+/// Writes the scripts to `folder` and runs them. Warns once if gnuplot is missing.
 std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& settings,
                              std::span<const EqualVplsRow> rows, const std::filesystem::path& folder);
 
-/// The script of one plot; `stem` names the files it writes. `over_seconds`: over generate + gather instead
-/// of VPLs.
+/// The gnuplot script of one plot, which writes files with the name `stem`. The horizontal axis is the number
+/// of VPLs, or with `over_seconds` the seconds of generate + gather.
 std::string plot_script(const std::string& title, const std::string& stem, bool over_seconds,
                         const CompareSettings& settings, std::span<const EqualVplsRow> rows);
 

@@ -19,14 +19,15 @@
 namespace nearlight::core {
 namespace {
 
-/// Samples a pixel of a pass of path tracing; a whole number of the path tracer's batches.
+/// Samples per pixel of a pass of path tracing; a multiple of the path tracer's batch size.
 constexpr std::size_t kPassSamples = 256;
-/// Passes of path tracing are rounded up to whole batches, and enough of them to tell the noise.
+/// Samples per pixel of a pass of path tracing are rounded up to a multiple of this: whole batches, and
+/// enough of them to estimate the noise.
 constexpr std::size_t kSampleUnit = 16;
-/// Passes of a reference of VPLs, from whose differences its noise is learnt.
+/// Number of passes of a reference of VPLs, whose differences give an estimate of its noise.
 constexpr std::size_t kVplPasses = 8;
 
-/// Sums over passes.
+/// Sums of values, squares and variances over passes.
 class PassSums {
   public:
     explicit PassSums(const ReferenceSpec& spec)
@@ -47,7 +48,7 @@ class PassSums {
         ++passes_;
         own_known_ = own_known_ && has_own;
     }
-    /// NaN where it is not known.
+    /// Variance of the mean of value `i`; NaN if it is not known.
     [[nodiscard]] double variance(std::size_t i) const {
         if (own_known_) {
             return own_[i] / (samples_ * samples_);
@@ -65,7 +66,7 @@ class PassSums {
     bool own_known_ = true;
 };
 
-/// Unknown where a single value's variance is.
+/// The mean noise of the picture; unknown if the variance of any value is.
 ReferenceNoise noise_of(const Image& picture, std::span<const double> variances) {
     ReferenceNoise noise{.known = true};
     for (std::size_t i = 0; i < variances.size(); ++i) {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// The truth that pictures are compared with: the indirect light of a scene, and how noisy that is.
+// SPDX-License-Identifier: Apache-2.0 The reference that pictures are compared with: the indirect light of a
+// scene, with its noise.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,9 @@ inline constexpr double kRelativeErrorFloor = 0.01;
 
 struct ReferenceNoise {
     bool known = false;
-    double mean_variance = 0;  ///< of the picture's values, mean over pixels and R, G, B; 0 where not known
-    double mean_relative_variance = 0;  ///< variance ÷ (value² + kRelativeErrorFloor), mean
+    double mean_variance =
+        0;  ///< variance of the picture's values, mean over pixels and R, G, B; 0 if not known
+    double mean_relative_variance = 0;  ///< mean of variance ÷ (value² + kRelativeErrorFloor); 0 if not known
 };
 
 struct Reference {
@@ -29,33 +30,33 @@ struct Reference {
     float display_scale = 1.0f;  ///< see display_scale() in pictures.h
     std::string method;          ///< method_name()
     bool path_traced = true;
-    std::size_t samples = 0;  ///< a pixel where path-traced, else VPLs
-    std::string file{};       ///< that was given; empty where it was made
-    double seconds = 0;       ///< that making it took in this run; 0 where all was there
+    std::size_t samples = 0;  ///< samples per pixel if path-traced, otherwise VPLs
+    std::string file{};       ///< the file that was given; empty if the reference was made
+    double seconds = 0;       ///< seconds that this run took to make it; 0 if everything was stored
 };
 
-/// "1024 samples a pixel", "300000 VPLs".
+/// The reference's samples in words, such as "1024 samples a pixel" or "300000 VPLs".
 std::string samples_text(const Reference& reference);
 
-/// A hash of the picture's bits: errors against other references are other errors.
+/// A hash of the picture's bits, because errors against different references cannot be compared.
 std::uint64_t identity(const Reference& reference);
 
-/// Makes pass `index` of so many samples: channels R, G, B and, where its own noise is known, variance.R, .G,
-/// .B. Nothing where it was stopped.
+/// Makes pass `index` with `samples` samples. It has the channels R, G, B and, if its noise is known,
+/// variance.R, .G, .B. Empty if it was stopped.
 using PassMaker = std::function<std::optional<Image>(std::size_t index, std::size_t samples)>;
 
-/// A reference of `samples` in passes: those in the store are used, others made and stored at once, so that
-/// nothing but the pass at hand is lost when it is stopped (and then there is no reference), and a longer one
-/// goes on from a shorter. Where passes do not know their noise, it is taken from how they differ.
+/// Makes a reference of `samples` samples from passes. Stored passes are reused and new ones are stored at
+/// once, so a stop, after which the result is empty, loses only the unfinished pass, and a longer reference
+/// extends a shorter one. If passes do not know their noise, it is estimated from their differences.
 std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t samples,
                                         const ReferenceStore& store, const PassMaker& make_pass);
 
-/// Samples of each pass of a reference: the pass size of such references, and what is left; rounded up to a
-/// multiple of 16 where paths are traced.
+/// The numbers of samples of the passes of a reference. All but the last are equal. With path tracing they
+/// are rounded up to a multiple of 16.
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples);
 
-/// A picture made by `nearlight reference`. Throws Error(ErrorKind::file) where it is none, or not of this
-/// scene, size, clamp radius and depth.
+/// Loads a picture made by `nearlight reference`. Throws Error(ErrorKind::file) if the file is not such a
+/// picture, or has another scene, size, clamp radius or depth.
 Reference load_reference(const std::filesystem::path& file, const ReferenceSpec& spec);
 
 }  // namespace nearlight::core

@@ -14,7 +14,7 @@
 namespace nearlight::core {
 namespace {
 
-/// To be changed when the references of an earlier version would come out differently.
+/// Change this when a change of the program changes references.
 constexpr const char* kFormat = "reference 1";
 
 std::string description(const ReferenceSpec& spec) {

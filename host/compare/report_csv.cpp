@@ -9,7 +9,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Names hold neither commas nor quotes: those of scenes are fit for files (unique_names).
+/// The fields that name scene and method. They contain neither commas nor quotes, because unique_names()
+/// makes scene names usable for files.
 std::string names_of(const SceneComparison& scene, const Method& method) {
     return fmt::format("{},{},{}", scene.facts.name, to_string(method.sampler),
                        method.policy ? to_string(*method.policy) : "");

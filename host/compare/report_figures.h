@@ -8,9 +8,9 @@
 namespace nearlight::core {
 
 void write_plots(HtmlWriter& html, const SceneComparison& scene);
-/// Where the VPLs are.
+/// Writes the figures that show the positions of VPLs.
 void write_vpl_figures(HtmlWriter& html, const SceneComparison& scene);
-/// What becomes of the picture, a row a count.
+/// Writes the pictures of all methods with their error maps, one row per count.
 void write_method_figures(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings);
 
 }  // namespace nearlight::core

@@ -8,7 +8,8 @@
 
 namespace nearlight::core {
 
-/// Reads the figures and plots that the comparison names. Throws Error(ErrorKind::file) where one is gone.
+/// The text of the page. Reads the figures and plots that the comparison names, and throws
+/// Error(ErrorKind::file) if one is missing.
 std::string comparison_html(const Comparison& comparison, const CompareSettings& settings);
 
 }  // namespace nearlight::core

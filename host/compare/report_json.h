@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// compare.json, which scripts rely on: fields may be added, none changed. Numbers that do not exist are null:
-// intervals of one seed, what `never` needs, policies of samplers without any.
+// SPDX-License-Identifier: Apache-2.0 Writes compare.json. Scripts rely on its fields, so fields may be added
+// but not changed. Values that do not exist are null: intervals of one seed, the needs of a method with the
+// reach `never`, and policies of samplers that have none.
 #pragma once
 
 #include <string>

@@ -19,7 +19,8 @@ std::string row(std::initializer_list<std::string> cells) {
     return text + "\n";
 }
 
-/// The name in the first column, numbers to the right.
+/// The header of a table whose first column has names, aligned left, and whose other columns have numbers,
+/// aligned right.
 std::string header(std::initializer_list<std::string> cells) {
     std::string rule = "| --- |";
     for (std::size_t i = 1; i < cells.size(); ++i) {
@@ -28,7 +29,7 @@ std::string header(std::initializer_list<std::string> cells) {
     return row(cells) + rule + "\n";
 }
 
-/// Small enough for a table, and from the folder of the report.
+/// The picture in its small size, with its path relative to the report's folder.
 std::string image(const PictureFile& file, const std::string& title) {
     return fmt::format("![{}](pictures/{})", title, file.small.filename().string());
 }

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// The comparison as Markdown, for documents and discussions: report.md, which refers to pictures/ beside it.
+// SPDX-License-Identifier: Apache-2.0 Writes report.md, the comparison as Markdown for documents and
+// discussions. It refers to the pictures in pictures/ beside it.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace nearlight::core {
 
-/// Tables of equal VPLs and equal RMSE a scene, positions of VPLs, and pictures with error maps at the
-/// smallest count. Headings begin at the second level.
+/// The text of report.md. Each scene has tables of equal VPLs and equal RMSE, the positions of VPLs, and
+/// pictures with error maps at the smallest count. Headings begin at the second level.
 std::string comparison_markdown(const Comparison& comparison, const CompareSettings& settings);
 
 }  // namespace nearlight::core

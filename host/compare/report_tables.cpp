@@ -28,7 +28,7 @@ void write_header(HtmlWriter& html, std::initializer_list<const char*> columns) 
     html.close().close().open("tbody");
 }
 
-/// The sampler and its policy, in two cells.
+/// Writes the sampler and its policy into two cells.
 void write_method(HtmlWriter& html, const Method& method) {
     html.element("td", to_string(method.sampler), kName);
     html.element("td", method.policy ? to_string(*method.policy) : "–", kName);
@@ -64,7 +64,7 @@ void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row
     html.close();
 }
 
-/// Geometric mean of the ratios of one method; how many there are not, if any.
+/// Geometric mean of the ratios of one method, and the number of ratios that do not exist.
 class RatioMean {
   public:
     void add(double ratio) {

@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Seeds of references are far from those that anybody gives.
+/// First seed of references, far from the seeds that users give.
 constexpr uint kReferenceSeed = 0x5eed0000u;
 
 /// Copies `count` neighbouring channels out of finished rows.
@@ -91,16 +91,16 @@ void SceneBench::check(const FirstLook& found) const {
     if (!found.surface) {
         throw Error(ErrorKind::file,
                     scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
-                        "turn it to the scene");
+                        "turn it towards the scene");
     }
     if (facts_.max_depth < 3) {
         throw Error(ErrorKind::file,
                     scene + " has a depth of " + std::to_string(facts_.max_depth) +
-                        ", which leaves no indirect light to compare; take 3 or more",
+                        ", which leaves no indirect light to compare; use 3 or more",
                     "max_depth");
     }
     if (!found.close_vpls) {
-        say_warning(scene + ": nothing that light reaches is close (range " + std::to_string(facts_.range) +
+        say_warning(scene + ": no light reaches the close range (range " + std::to_string(facts_.range) +
                     "), so close-range sampling is instant radiosity here");
     }
 }

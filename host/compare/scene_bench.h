@@ -14,26 +14,26 @@
 
 namespace nearlight::core {
 
-/// What was done once for the scene, in this run.
+/// Seconds of the work that is done once per scene and run.
 struct SetupSeconds {
     double build_bvh = 0;
-    double compile = 0;  ///< kernels; what the driver or the cache had ready takes no time
+    double compile = 0;  ///< compiling kernels; about 0 for kernels in the driver's cache or ours
 };
 
-/// What is the same for all methods.
+/// Facts about a scene that are the same for all methods.
 struct SceneFacts {
-    std::string name;    ///< unique in the comparison, fit for names of files
+    std::string name;    ///< unique in the comparison, and usable in names of files
     std::string source;  ///< the scene's file
     std::uint64_t hash = 0;
     std::size_t triangles = 0;
-    float range = 0;         ///< of the close range, scene units
+    float range = 0;         ///< range of the close range, scene units
     float clamp_radius = 0;  ///< scene units
-    uint max_depth = 0;      ///< as Mitsuba counts
-    SceneCamera camera{};    ///< at the size of the comparison
+    uint max_depth = 0;      ///< in Mitsuba's counting
+    SceneCamera camera{};    ///< with the picture size of the comparison
     SetupSeconds setup{};
 };
 
-/// A picture of indirect light and what it took.
+/// A picture of indirect light, and the report of rendering it.
 struct Shot {
     Image indirect;
     RenderReport report;
@@ -42,23 +42,23 @@ struct Shot {
 class SceneBench {
   public:
     /// Compiles, builds the tree and renders a first picture with all light, from which the range and the
-    /// clamp radius are decided once for all. Refers to device and scene. Throws Error(ErrorKind::file) where
-    /// nothing emits light or nothing is in view.
+    /// clamp radius of all methods follow. All arguments must outlive this object. Throws
+    /// Error(ErrorKind::file) if nothing emits light or nothing is in view.
     SceneBench(Device& device, const Scene& scene, const std::string& name, const CompareSettings& settings,
                const std::optional<std::filesystem::path>& reference_file);
 
     [[nodiscard]] const SceneFacts& facts() const { return facts_; }
-    /// Direct and indirect light, R, G, B.
+    /// The picture with direct and indirect light, R, G, B.
     [[nodiscard]] const Image& overview() const { return overview_; }
     /// Distance of the first surface from the camera for each pixel, scene units; 0: none.
     [[nodiscard]] const std::vector<float>& depths() const { return depths_; }
 
-    /// How far it is, 0 to 1; false stops.
+    /// Receives the fraction that is done, 0 to 1. It returns false to stop.
     using Progress = std::function<bool(double fraction)>;
-    /// The indirect light alone. The first shot of a method is preceded by one that is thrown away, which
-    /// pays for what drivers do only once. Nothing where `progress` stopped it.
+    /// Renders the indirect light alone; empty if `progress` stopped it. Before the first shot of a method,
+    /// another one is made and thrown away, because drivers do some work only the first time.
     std::optional<Shot> shoot(const Method& method, uint vpls, uint seed, const Progress& progress);
-    /// The VPLs that such a shot gathers.
+    /// The VPLs that a shot with the same arguments gathers.
     VplSet sample(const Method& method, uint vpls, uint seed);
 
     /// Makes passes of this scene's reference.
@@ -67,8 +67,8 @@ class SceneBench {
 
   private:
     struct FirstLook {
-        bool surface = false;     ///< the camera sees something diffuse
-        bool close_vpls = false;  ///< what is close is lit
+        bool surface = false;     ///< whether the camera sees a diffuse surface
+        bool close_vpls = false;  ///< whether light reaches the close range
     };
     FirstLook look();
     void check(const FirstLook& found) const;
@@ -84,7 +84,7 @@ class SceneBench {
     SceneFacts facts_;
     Image overview_;
     std::vector<float> depths_;
-    std::map<std::string, bool> warm_;  ///< methods that had their first shot
+    std::map<std::string, bool> warm_;  ///< names of the methods that had their first shot
 };
 
 }  // namespace nearlight::core

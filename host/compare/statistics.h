@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// Means with confidence, and straight lines through logarithms.
+// SPDX-License-Identifier: Apache-2.0 Means with confidence intervals, and straight lines through logarithms.
 //
 // Everything that depends on chance is measured with several seeds; seeds are independent. A mean over n
 // seeds has the 95 % interval mean ± t·s/√n, with s the sample standard deviation and t the 0.975 quantile of
@@ -14,34 +13,35 @@ namespace nearlight::core {
 
 struct Interval {
     double mean = 0;
-    double half_width = 0;  ///< of the 95 % interval; NaN where there is one value only
+    double half_width = 0;  ///< of the 95 % interval; NaN for a single value
 };
-/// NaN for no values.
+/// Mean and 95 % interval of the values; both NaN for no values.
 Interval mean_interval(std::span<const double> values);
-/// The middle value, or the mean of both in the middle; NaN for no values.
+/// The middle value, or the mean of the two middle values; NaN for no values.
 double median(std::span<const double> values);
 
-/// Root of the mean of squared errors, one a seed.
+/// The root of the mean of squared errors, of which there is one per seed.
 struct RmseEstimate {
-    double value = 0;       ///< √max(0, mean)
-    double half_width = 0;  ///< of `value`, by the derivative of the root: half width of the mean ÷ (2·value)
-    double low = 0;         ///< roots of the ends of the interval of the mean, which may be a little lopsided
-    double high = 0;
+    double value = 0;  ///< √max(0, mean)
+    double half_width =
+        0;  ///< of the interval about `value`: half width of the mean ÷ (2·value), by the root's derivative
+    double low = 0;   ///< root of the lower end of the mean's interval
+    double high = 0;  ///< root of the upper end of the mean's interval
 };
-/// The squared errors may have had the reference's own noise subtracted, and then be negative.
+/// Estimates the RMSE. Squared errors from which the reference's noise was subtracted may be negative.
 RmseEstimate rmse_estimate(std::span<const double> squared_errors);
 
-/// y = exp(intercept) · x^slope, by least squares in the logarithms.
+/// The power law y = exp(intercept) · x^slope, fitted by least squares in the logarithms.
 struct PowerLaw {
     double intercept = 0;
     double slope = 0;
 
     [[nodiscard]] double at(double x) const;
-    /// The x at which the law reaches y; of no use where the slope is 0.
+    /// The x at which the law reaches y. The slope must not be 0.
     [[nodiscard]] double inverse(double y) const;
 };
-/// Pairs with a number that is not positive and finite are left out. Nothing where fewer than two different x
-/// remain.
+/// Fits a power law. Pairs with a number that is not positive and finite are left out. Empty if fewer than
+/// two different x remain.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 
 }  // namespace nearlight::core

@@ -11,7 +11,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kBiasThatCounts = 0.02;
-/// A reference whose noise is more than this part of an RMSE is a poor judge of it.
+/// Maximum noise of a reliable reference, as a fraction of the RMSE that is measured with it.
 constexpr double kNoiseThatCounts = 1.0 / 3.0;
 
 template <typename Value>
@@ -28,8 +28,8 @@ double bias_floor(std::span<const Cell* const> cells) {
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval error =
             mean_interval(column(cells, [c](const Cell& cell) { return cell.error.mean_error[c]; }));
-        const double least = std::isnan(error.half_width) ? 0.0 : std::abs(error.mean) - error.half_width;
-        squares += std::pow(std::max(0.0, least), 2) / 3.0;
+        const double min_error = std::isnan(error.half_width) ? 0.0 : std::abs(error.mean) - error.half_width;
+        squares += std::pow(std::max(0.0, min_error), 2) / 3.0;
     }
     return std::sqrt(squares);
 }
@@ -113,7 +113,7 @@ std::vector<Curve> curves_of(const CompareSettings& settings, std::span<const Eq
         const EqualVplsRow& row = rows[i];
         curve.points.push_back(
             {row.gathered_vpls, row.rmse.value, row.generate_seconds + row.gather_seconds});
-        curve.biased = is_biased(row);  // the last, of the largest count, tells most surely
+        curve.biased = is_biased(row);  // the last row, with the largest count, decides
         curve.floor = row.bias_floor;
     }
     return curves;

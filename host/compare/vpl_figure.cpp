@@ -10,10 +10,11 @@
 namespace nearlight::core {
 namespace {
 
-/// Dots are drawn into a picture at least about so wide.
+/// Approximate minimum width (pixels) of the picture that dots are drawn into.
 constexpr int kDrawingWidth = 640;
 constexpr float kDimming = 0.45f;
-/// A VPL lies on its surface, but not in the middle of the pixel whose depth is known.
+/// Maximum ratio of a visible VPL's distance to the depth of its pixel, which is known at the pixel's centre
+/// only.
 constexpr float kDepthTolerance = 1.02f;
 
 struct Pen {
@@ -45,7 +46,7 @@ void draw_disc(Image& picture, float center_x, float center_y, const Pen& pen) {
     }
 }
 
-/// Whether nothing is in front of the point, as far as the depths around its pixel tell.
+/// Whether nothing is in front of the point, according to the depths around its pixel.
 bool is_visible(const FilmPoint& point, std::span<const float> depths, int width, int height) {
     float farthest = 0.0f;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -71,7 +72,7 @@ std::optional<FilmPoint> project(const SceneCamera& camera, Vec3 point) {
     const auto height = static_cast<float>(camera.height);
     const float half_side = static_cast<float>(std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0));
     const float pixels_per_unit =
-        0.5f * width / half_side / local.z;  // the same both ways: pixels are square
+        0.5f * width / half_side / local.z;  // pixels are square, so it holds for both axes
     const FilmPoint film{0.5f * width - local.x * pixels_per_unit, 0.5f * height - local.y * pixels_per_unit,
                          length(local)};
     const bool inside = film.x >= 0.0f && film.x < width && film.y >= 0.0f && film.y < height;
@@ -86,7 +87,7 @@ VplDots draw_vpls(const Image& overview, std::span<const float> depths, const Sc
     for (float& value : dots.picture.values) {
         value = std::min(value, 1.0f);
     }
-    for (const bool front : {false, true}) {  // hidden ones first, so that they hide nothing
+    for (const bool front : {false, true}) {  // hidden VPLs come first, so that they cover no visible ones
         for (const Vpl& vpl : vpls) {
             const std::optional<FilmPoint> point = project(camera, vpl.position);
             if (!point || is_visible(*point, depths, overview.width, overview.height) != front) {
