@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# embed_kernels(TARGET FILES …): puts each kernel source, byte for byte, into a generated C++ file, and a
-# registry over all of them. Editing a kernel rebuilds only its own file.
+# embed_kernels(TARGET FILES …): puts each kernel source, byte for byte, into a generated C++ file, and makes a
+# registry of them all. Editing a kernel rebuilds only its own file.
 
 function(embed_kernels target)
   cmake_parse_arguments(ARG "" "" "FILES" ${ARGN})

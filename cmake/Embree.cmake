@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Target `embree`, version 4 or else 3. Their headers lie in different folders, so sources are told which one it is.
+# The target `embree` is version 4, or else version 3. Their headers are in different folders, so a definition tells
+# sources which version it is.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` puts where. Component Development: the library with its headers, its CMake package and its
-# pkg-config file. Component Runtime: the program, which needs nothing of these.
+# What `cmake --install` installs. The component Development is the library with its headers, its CMake package and its
+# pkg-config file. The component Runtime is the program, which does not need the library.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/nearlight")
@@ -19,13 +19,13 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/nearlight-config-version
 install(FILES "${PROJECT_BINARY_DIR}/nearlight-config.cmake" "${PROJECT_BINARY_DIR}/nearlight-config-version.cmake"
   DESTINATION "${package_dir}" COMPONENT Development)
 
-# pkg-config finds the prefix from the place of its file, so that an installed copy can be moved.
+# pkg-config derives the prefix from the place of its file, so that an installed copy can be moved.
 file(RELATIVE_PATH NEARLIGHT_PC_TO_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 configure_file("${PROJECT_SOURCE_DIR}/cmake/nearlight.pc.in" "${PROJECT_BINARY_DIR}/nearlight.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
   COMPONENT Development)
 
-# Both the program and the library load it.
+# Both the program and the library load the image module.
 foreach(component Development Runtime)
   install(TARGETS nearlight_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
 endforeach()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every target of nearlight shares: warnings, sanitizers, include root.
+# What all targets of nearlight share: warnings, sanitizers and the include root.
 
 add_library(nearlight_options INTERFACE)
 target_compile_options(nearlight_options INTERFACE
@@ -10,33 +10,32 @@ target_compile_options(nearlight_options INTERFACE
 if(NEARLIGHT_SANITIZE)
   target_compile_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # The sanitizer's own dlopen() does the program's, and looks along the program's run path only if that is of
-  # the old kind.
+  # The sanitizer replaces dlopen(), and its version searches the program's run path only if that is a DT_RPATH.
   target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
-# Modules that programs load when they need them, found by their run path.
+# Programs load their modules when they need them, and find them by their run path.
 set(NEARLIGHT_MODULE_DIR "${PROJECT_BINARY_DIR}/modules")
 set(CMAKE_BUILD_RPATH "${NEARLIGHT_MODULE_DIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/nearlight")
 
-# Most of a build goes into headers (opencl.hpp, CLI11, json.hpp, gtest.h). Several sources in one compilation read
-# them, and instantiate their templates, once.
+# Most of the time of a build goes into headers (opencl.hpp, CLI11, json.hpp, gtest.h). Several sources in one
+# compilation read them and instantiate their templates only once.
 function(nearlight_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEARLIGHT_UNITY} UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
 
-# The shared library (host/library) takes rooms in, and shows nothing of them.
+# The shared library (host/library) contains rooms, and exports none of their symbols.
 function(nearlight_for_shared_library target)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# For code that runs once and not long.
+# This is for code that runs once and for a short time.
 set(NEARLIGHT_COLD_OPTIONS $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
 
-# nearlight_library(NAME [COLD] SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/. COLD: nobody waits for
-# its own code, so compile it quickly.
+# nearlight_library(NAME [COLD] SOURCES … PUBLIC … PRIVATE …): a static library of one room of host/. COLD: its speed
+# does not matter, so it is compiled quickly.
 function(nearlight_library name)
   cmake_parse_arguments(ARG "COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
@@ -53,7 +52,8 @@ function(nearlight_library name)
   endif()
 endfunction()
 
-# nearlight_test(NAME SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest binary, each case a ctest.
+# nearlight_test(NAME SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest binary, of
+# which each case is a test of ctest.
 function(nearlight_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
   if(NOT ARG_TIMEOUT)

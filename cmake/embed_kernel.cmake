@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Script mode: writes INPUT as a string constant SYMBOL to OUTPUT, every byte escaped and in pieces that the
-# compiler joins, so that no byte and no length can upset it.
+# In script mode this writes INPUT as the string constant SYMBOL to OUTPUT. Every byte is escaped, and the constant is
+# in pieces that the compiler joins, so that every content and every length compiles.
 file(READ "${INPUT}" text HEX)
 string(LENGTH "${text}" hex_length)
 set(body "")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program `nearlight`: options → command → exit code, and the only place where errors end.
+// The program `nearlight`: it runs the command that the options name, and turns errors into messages and exit
+// codes.
 #include <cstdio>
 #include <exception>
 #include <new>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Whether tracers agree, hit by hit, and whether single precision excuses
-// disagreements.
+// SPDX-License-Identifier: Apache-2.0
+// Whether tracers agree, hit by hit, and whether single precision excuses disagreements.
 #pragma once
 
 #include <span>
@@ -20,11 +20,12 @@ struct TracerAnswer {
 struct Disagreement {
     std::string tracer;
     std::size_t packet = 0, lane = 0, vpl = 0;
-    Vec3 from{}, to{};         ///< VPL, receiver
-    bool is_culling = false;   ///< one traces the pair and the other culls it; otherwise they differ about a hit
+    Vec3 from{}, to{};  ///< VPL, receiver
+    bool is_culling =
+        false;  ///< one traces the pair and the other culls it; otherwise they differ about a hit
     bool tracer_says = false;  ///< the tracer found a hit; if is_culling: it traced the pair
-    double distance = 0.0;     ///< from the segment to the nearest edge, m; if is_culling: the smaller |cosine|
-    bool excused = false;      ///< single precision explains it: the distance is small enough
+    double distance = 0.0;  ///< from the segment to the nearest edge, m; if is_culling: the smaller |cosine|
+    bool excused = false;   ///< single precision explains it: the distance is small enough
 };
 
 /// How one tracer compares with the reference.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Measures how long our trees and Embree's take to build, and how many
-// steps rays take through them.
+// SPDX-License-Identifier: Apache-2.0
+// Measures how long our trees and Embree's take to build, and how many steps rays take through them.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace nearlight::core {
 
 struct BuildBenchConfig {
     std::size_t vpl_count = 32;  ///< VPLs of the segments on which steps are counted
-    int width = 512;             ///< receivers: pixels of a picture of this size, from every tile_stride-th tile
+    int width = 512;  ///< receivers: pixels of a picture of this size, from every tile_stride-th tile
     int height = 512;
     int tile_stride = 16;
     int repeats = 5;
@@ -36,9 +36,9 @@ struct BuiltTree {
 
 struct BuildBenchResult {
     std::size_t triangles = 0;
-    std::vector<BuiltTree> trees;  ///< our fast and quality trees, then Embree's medium and high
-    double ratio_seconds = 0.0;    ///< our quality ÷ Embree's high: median of the ratios of all repeats
-    double ratio_ray_steps = 0.0;  ///< our quality ÷ Embree's high, nodes and triangles together
+    std::vector<BuiltTree> trees;     ///< our fast and quality trees, then Embree's medium and high
+    double ratio_seconds = 0.0;       ///< our quality ÷ Embree's high: median of the ratios of all repeats
+    double ratio_ray_steps = 0.0;     ///< our quality ÷ Embree's high, nodes and triangles together
     double ratio_packet_steps = 0.0;  ///< as ratio_ray_steps, for packets
 };
 

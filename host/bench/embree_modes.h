@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The ways to trace rays with Embree.
+// SPDX-License-Identifier: Apache-2.0
+// The ways to trace rays with Embree.
 #pragma once
 
 #include <string>

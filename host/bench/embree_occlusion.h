@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Embree on the segments that a gather traces, used in the fastest way it
-// offers.
+// SPDX-License-Identifier: Apache-2.0
+// Embree on the segments that a gather traces, used in the fastest way it offers.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@
 namespace nearlight::core {
 
 struct OcclusionResult {
-    Seconds seconds;  ///< inside Embree's calls only; wall time is summed over threads and divided by their number
+    Seconds seconds;  ///< inside Embree's calls only; wall time is summed over threads and divided by their
+                      ///< number
     std::uint64_t rays = 0;
     PairMask occluded;  ///< empty unless `keep_answers` was set
 };

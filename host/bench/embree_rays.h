@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Closest hits of given rays by Embree, used in the fastest way it
-// offers.
+// SPDX-License-Identifier: Apache-2.0
+// Closest hits of given rays by Embree, used in the fastest way it offers.
 #pragma once
 
 #include <memory>

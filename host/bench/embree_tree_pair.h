@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Embree's trees of both qualities. Like embree.h, it is for .cpp files.
+// SPDX-License-Identifier: Apache-2.0
+// Embree's trees of both qualities. Like embree.h, it is for .cpp files.
 #pragma once
 
 #include <span>

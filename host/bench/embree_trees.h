@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Embree's trees: how long they take to build, and the trees themselves
-// in our layout.
+// SPDX-License-Identifier: Apache-2.0
+// Embree's trees: how long they take to build, and the trees themselves in our layout.
 #pragma once
 
 #include <span>

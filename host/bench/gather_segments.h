@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The set of shadow rays of a gather, which any tracer can be given
-// without the renderer around it.
+// SPDX-License-Identifier: Apache-2.0
+// The set of shadow rays of a gather, which any tracer can be given without the renderer around it.
 #pragma once
 
 #include <cstdint>

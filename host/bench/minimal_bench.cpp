@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE] needs nothing but a
-// compiler and OpenCL. On every OpenCL device (or on those that $NEARLIGHT_DEVICE names) it compares both
-// gather kernels with the host's traversal in a generated room, pair by pair, and times them. Then it renders
-// a whole picture with every kernel.
+// SPDX-License-Identifier: Apache-2.0
+// nearlight-bench-minimal [TRIANGLES] [VPLS] [SIDE] needs nothing but a compiler and OpenCL. On every OpenCL
+// device (or on those that $NEARLIGHT_DEVICE names) it compares both gather kernels with the host's traversal
+// in a generated room, pair by pair, and times them. Then it renders a whole picture with every kernel.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Times of benchmarks. Processor time is the one to trust on a machine
-// with other load.
+// SPDX-License-Identifier: Apache-2.0
+// Times of benchmarks. Processor time is the one to trust on a machine with other load.
 #pragma once
 
 #include <ctime>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Files of segments, which other programs can replay. docs/bench.md
-// describes the format.
+// SPDX-License-Identifier: Apache-2.0
+// Files of segments, which other programs can replay. docs/bench.md describes the format.
 #pragma once
 
 #include <filesystem>

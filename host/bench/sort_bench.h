@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Measures the radix sort and the prefix sum, the host's libraries and
-// plain copying side by side.
+// SPDX-License-Identifier: Apache-2.0
+// Measures the radix sort and the prefix sum, the host's libraries and plain copying side by side.
 #pragma once
 
 #include <string>

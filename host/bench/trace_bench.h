@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Measures our traversal, as the camera pass and the light tracer use it,
-// and Embree's on the same rays.
+// SPDX-License-Identifier: Apache-2.0
+// Measures our traversal, as the camera pass and the light tracer use it, and Embree's on the same rays.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Finds the tunables that make a device fastest, by trying values.
+// SPDX-License-Identifier: Apache-2.0
+// Finds the tunables that make a device fastest, by trying values.
 #pragma once
 
 #include <string>

@@ -9,22 +9,22 @@ namespace nearlight::core {
 namespace {
 
 struct SettingAdvice {
-    std::string_view setting;  ///< Error::setting()
+    std::string_view setting;  ///< as in Error::setting()
     std::string_view text;
 };
 
 constexpr std::array kAdvice{
     SettingAdvice{"cache_dir", "use --cache-dir"},
-    SettingAdvice{"clamp_fraction", "take --clamp-radius or --clamp-fraction"},
+    SettingAdvice{"clamp_fraction", "use --clamp-radius or --clamp-fraction"},
     SettingAdvice{"device", "use --device"},
     SettingAdvice{"kernel_dir", "check --kernel-dir"},
-    SettingAdvice{"reference_files", "take --reference or --reference-vpls"},
+    SettingAdvice{"reference_files", "use --reference or --reference-vpls"},
     SettingAdvice{"segments", "`nearlight bench gather --dump` writes such a file"},
     SettingAdvice{"size", "give a --size of at least 1x1"},
     SettingAdvice{"strict", "without --strict it is a warning"},
 };
 
-/// Most options are called as the setting is.
+/// The option of a setting that has no advice of its own: most options have the setting's name.
 std::string option_of(std::string_view setting) {
     std::string option = "--" + std::string(setting);
     std::ranges::replace(option, '_', '-');

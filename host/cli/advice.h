@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library says what failed in terms of its own; here those become options of the program.
+// Adds the program's options to the library's messages, which know only settings.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace nearlight::core {
 
-/// What the error says and, where an option helps, which one: "…; check --kernel-dir".
+/// The error's message, with advice if an option helps: "…; check --kernel-dir".
 std::string with_advice(const Error& error);
 
 }  // namespace nearlight::core

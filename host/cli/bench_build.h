@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight bench build: our trees beside Embree's.
+// `nearlight bench build` compares our trees with Embree's.
 #pragma once
 
 #include "host/cli/command.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight bench PART: how fast the parts are, beside the best that others offer.
+// `nearlight bench PART` compares the speed of a part with the best alternatives.
 #pragma once
 
 #include "host/cli/command.h"

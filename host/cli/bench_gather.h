@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight bench gather: one set of shadow rays, through our kernels and through Embree in all its modes.
+// `nearlight bench gather` traces one set of shadow rays with our kernels and with all modes of Embree.
 #pragma once
 
 #include "host/cli/command.h"

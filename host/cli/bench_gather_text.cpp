@@ -6,7 +6,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::uint64_t kMaxLines = 10;  // of a tracer
+constexpr std::uint64_t kMaxLines = 10;  // disagreements per tracer
 
 std::string line_of(const Disagreement& item) {
     const std::string says =
@@ -39,7 +39,7 @@ std::string table(const GatherBenchResult& result) {
     return text;
 }
 
-/// What a tracer differs about, and what follows for it.
+/// The disagreements of a tracer, and the conclusion.
 std::string differences_of(const TracerFigures& tracer, const GatherBenchResult& result) {
     std::string text;
     std::uint64_t lines = 0;

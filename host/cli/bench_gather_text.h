@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `nearlight bench gather` prints on a terminal.
+// The text that `nearlight bench gather` prints on a terminal.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace nearlight::core {
 
-/// A count in millions, as both outputs of the command state it.
+/// A count in millions, the unit of the command's text and JSON.
 constexpr double millions(std::uint64_t count) {
     return static_cast<double>(count) * 1e-6;
 }
 
-/// The tracers, what they differ about (ten rays of each, and how many more), and the ratios last. `name` is
-/// that of the segments.
+/// A table of the tracers, their disagreements (ten rays of each, and the number of others), and the ratios.
+/// `name` is the name of the segments.
 std::string gather_bench_text(const std::string& name, BvhQuality bvh, const GatherBenchResult& result);
 
 }  // namespace nearlight::core

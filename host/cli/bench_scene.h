@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene of a bench: a file, or one that is made up.
+// The scene of a benchmark: a file, or a generated one.
 #pragma once
 
 #include "host/cli/scene_options.h"
 
 namespace nearlight::core {
 
-/// SCENE, which need not be given.
+/// Adds the optional positional SCENE, -D and --strict.
 void add_bench_scene_options(CLI::App& command, SceneOptions& options);
 
-/// "spheres:N" is a made-up room of N triangles; anything else is a file. Error(usage) where N is no number
-/// of triangles, or no scene was given.
+/// Makes the scene. "spheres:N" is a generated room of N triangles; anything else is a file. Throws
+/// Error(ErrorKind::invalid_argument) if N is not a number of triangles, or no scene was given.
 Scene make_bench_scene(const SceneOptions& options);
 
 }  // namespace nearlight::core

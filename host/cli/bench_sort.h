@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight bench sort: radix sort and prefix sum, beside the host's libraries and the memory's speed.
+// `nearlight bench sort` compares radix sort and prefix sum with the host's libraries and the memory's speed.
 #pragma once
 
 #include "host/cli/command.h"

@@ -34,13 +34,13 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-std::string unknown(const char* kind, const std::string& word, const std::vector<std::string>& candidates) {
-    const std::string nearest = nearest_word(word, candidates);
+std::string unknown(const char* kind, const std::string& word, const std::vector<std::string>& words) {
+    const std::string nearest = nearest_word(word, words);
     return std::string("unknown ") + kind + " '" + word + "'" +
            (nearest.empty() ? "" : ", did you mean '" + nearest + "'?");
 }
 
-/// The command that the line names, or the part of it; the program itself if none.
+/// The command or the part that the line names; the program itself if it names none.
 const CLI::App& named_command(const CLI::App& app) {
     const CLI::App* command = &app;
     for (auto next = command->get_subcommands(); !next.empty(); next = command->get_subcommands()) {
@@ -49,13 +49,14 @@ const CLI::App& named_command(const CLI::App& app) {
     return *command;
 }
 
-/// "nearlight bench gather"
+/// The command with those that it belongs to, such as "nearlight bench gather".
 std::string full_name(const CLI::App& command) {
     const CLI::App* const parent = command.get_parent();
     return (parent != nullptr ? full_name(*parent) + " " : std::string()) + command.get_name();
 }
 
-/// What is wrong with the line. A word that nothing knows explains more than whatever misses because of it.
+/// Describes what is wrong with the line. An unknown word comes first, because it often causes the other
+/// errors.
 std::string describe(const CLI::ParseError& error, const CLI::App& app, const CLI::App& command) {
     const std::vector<std::string> extras = app.remaining(true);
     const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
@@ -72,7 +73,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
     return error.what();
 }
 
-/// One line: what is wrong, and where to read more.
+/// An error of one line, which says what is wrong and where to read more.
 Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     const CLI::App& command = named_command(app);
     std::string text = describe(error, app, command);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame of the command line. To add a command `foo`:
+// The framework of the command line. To add a command `foo`:
 //  1. foo_command.h declares `void add_foo_command(CommandLine& line);`
 //  2. foo_command.cpp has a struct FooOptions with defaults and an `ExitCode run_foo(const FooOptions&, const
 //     GlobalOptions&)`; add_foo_command() makes the options shared, calls line.add_command("foo", "what it
@@ -17,11 +17,11 @@
 
 namespace nearlight::core {
 
-/// What every command takes, besides --help and --version.
+/// The options of every command besides --help and --version.
 struct GlobalOptions {
-    bool json = false;     ///< one JSON object on standard output, nothing else there; see output.h
-    bool quiet = false;    ///< errors only
-    bool verbose = false;  ///< debug messages too
+    bool json = false;     ///< standard output gets one JSON object and nothing else; see output.h
+    bool quiet = false;    ///< log only errors
+    bool verbose = false;  ///< log debug messages too
 };
 
 class CommandLine {
@@ -29,30 +29,31 @@ class CommandLine {
     using Run = std::function<ExitCode(const GlobalOptions&)>;
 
     CommandLine();
-    /// A command that takes the global options; declare its own on what this returns. `run` is called once
-    /// the whole line is known to be right.
+    /// Adds a command that takes the global options. The caller declares the command's own options on the
+    /// returned object. `run` is called after the whole line has been checked.
     CLI::App& add_command(const std::string& name, const std::string& description, Run run);
-    /// A command that only names its parts, as `bench` does.
+    /// Adds a command that only groups its parts, like `bench`.
     CLI::App& add_command_group(const std::string& name, const std::string& description);
-    /// The same as add_command() for `part` of such a group.
+    /// Adds a command as add_command() does, but as a part of `group`.
     CLI::App& add_part(CLI::App& group, const std::string& part, const std::string& description, Run run);
-    /// Parses the line and runs its command. Throws Error(ErrorKind::invalid_argument) with a hint for a
-    /// wrong line, and whatever the command throws.
+    /// Parses the line and runs its command. Throws Error(ErrorKind::invalid_argument) with a hint if the
+    /// line is wrong, and what the command throws.
     ExitCode run(int argc, const char* const* argv);
 
   private:
     CLI::App app_;
     GlobalOptions global_;
-    Run run_;  ///< of the command that the line names
+    Run run_;  ///< runs the command that the line names
 };
 
 struct ImageSize {
     int width = 0;
     int height = 0;
 };
-/// "640x480"; each side from 1 to 65536. Throws Error(ErrorKind::invalid_argument).
+/// Parses a size such as "640x480"; each side is from 1 to 65536 pixels. Throws
+/// Error(ErrorKind::invalid_argument).
 ImageSize parse_size(const std::string& text);
-/// The option --size, which leaves `size` alone where it is not given.
+/// Adds the option --size, without which `size` is unchanged.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
 
 }  // namespace nearlight::core

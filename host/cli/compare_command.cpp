@@ -20,7 +20,7 @@ namespace {
 
 struct CompareOptions {
     std::vector<std::filesystem::path> scenes;
-    SceneOptions scene;  ///< what holds for all of them
+    SceneOptions scene;  ///< options that apply to all scenes
     DeviceChoice device;
     ImageSize size;
     std::optional<std::string> samplers;  ///< empty: all
@@ -30,7 +30,7 @@ struct CompareOptions {
     CompareSettings settings;
 };
 
-/// The lists as they were typed become settings; everything is checked.
+/// Makes settings from the options, and checks them.
 CompareSettings settled(const CompareOptions& options) {
     CompareSettings settings = options.settings;
     settings.program_version = NEARLIGHT_VERSION;
@@ -75,7 +75,7 @@ std::vector<Scene> load_scenes(const CompareOptions& options) {
     return scenes;
 }
 
-/// Wrong files are found before any work is done for them.
+/// Finds wrong files before any work is done.
 void check_files(const CompareSettings& settings) {
     for (const std::filesystem::path& file : settings.reference_files) {
         read_metadata(file);
@@ -98,7 +98,7 @@ std::string with_interval(const RmseEstimate& rmse) {
            (std::isfinite(rmse.half_width) ? fmt::format(" ± {:.2g}", rmse.half_width) : "");
 }
 
-/// For those who look at the terminal only.
+/// The table of equal VPLs for the terminal.
 std::string to_table(const Comparison& comparison) {
     std::string text;
     for (const SceneComparison& scene : comparison.scenes) {

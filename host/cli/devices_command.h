@@ -5,7 +5,7 @@
 
 namespace nearlight::core {
 
-/// `nearlight devices`: what OpenCL offers here, what is used, and why.
+/// `nearlight devices` lists the OpenCL devices, which of them are used, and why.
 void add_devices_command(CommandLine& line);
 
 }  // namespace nearlight::core

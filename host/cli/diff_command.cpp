@@ -29,7 +29,7 @@ std::string name_of(const std::string& layer) {
     return layer.empty() ? "(picture)" : layer;
 }
 
-/// The layers that were asked for, or all that both pictures have.
+/// The layers that the options name, or else all layers that both pictures have.
 std::vector<std::string> layers_to_compare(const DiffOptions& options, const Image& a, const Image& b) {
     if (!options.layers.empty()) {
         return options.layers;

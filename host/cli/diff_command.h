@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight diff A B [-o MAP]: how far two pictures are apart, layer by layer.
+// `nearlight diff A B [-o MAP]` measures the difference between two pictures, layer by layer.
 #pragma once
 
 #include "host/cli/command.h"

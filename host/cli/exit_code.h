@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exit codes of the program, a part of its command-line contract.
+// The exit codes of the program, which scripts rely on.
 #pragma once
 
 #include "nearlight/error.h"
@@ -8,7 +8,7 @@ namespace nearlight::core {
 
 enum class ExitCode {
     done = 0,
-    runtime = 1,        ///< anything that has no code of its own
+    runtime = 1,        ///< any error without a code of its own
     usage = 2,          ///< unknown option, bad value
     file = 3,           ///< scene or image file: missing, broken, unwritable
     no_device = 4,      ///< no usable OpenCL device
@@ -17,7 +17,7 @@ enum class ExitCode {
     interrupted = 130,  ///< Ctrl-C; the partial image was saved
 };
 
-/// The code that main() returns for an Error of that kind.
+/// The code that main() returns for an Error of the given kind.
 constexpr ExitCode exit_code(ErrorKind kind) {
     switch (kind) {
         case ErrorKind::failure:

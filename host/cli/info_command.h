@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight info SCENE: what was read, what was approximated, how much memory it takes.
+// `nearlight info SCENE` shows what was read, what was approximated, and how much memory it takes.
 #pragma once
 
 #include "host/cli/command.h"

@@ -7,7 +7,7 @@
 namespace nearlight::core {
 namespace {
 
-// A signal handler reaches nothing but the process's own state.
+// This is global because a signal handler can reach only global state.
 std::atomic<bool> interrupt_seen{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

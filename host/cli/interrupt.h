@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C: finish what is at hand, save, and leave with ExitCode::interrupted.
+// Handling of Ctrl-C: commands finish the current step, save, and exit with ExitCode::interrupted.
 #pragma once
 
 namespace nearlight::core {
 
-/// From now on a first SIGINT or SIGTERM only makes interrupted() true; a second one ends the program.
-/// For commands that look at interrupted() several times a second.
+/// After this call a first SIGINT or SIGTERM only makes interrupted() true; a second one ends the program. A
+/// command that calls this must check interrupted() several times a second.
 void catch_interrupts();
+/// Whether a SIGINT or SIGTERM came since catch_interrupts().
 [[nodiscard]] bool interrupted();
 
 }  // namespace nearlight::core

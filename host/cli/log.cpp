@@ -19,7 +19,7 @@ spdlog::level::level_enum log_level(MessageLevel level) {
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>("nearlight",
                                                    std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-    // Plain lines: the level is named only where it says something.
+    // Lines have a time only in verbose mode.
     logger->set_pattern(verbosity == Verbosity::verbose ? "[%T.%e] %^%l%$: %v" : "%^%l%$: %v");
     logger->set_level(verbosity == Verbosity::quiet     ? spdlog::level::err
                       : verbosity == Verbosity::verbose ? spdlog::level::debug

@@ -8,9 +8,9 @@ namespace nearlight::core {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// Sets up the process's logger on standard error, where the messages of all rooms (host/base/message.h) go
-/// from now on: quiet shows errors only, verbose also debug messages. Commands write with spdlog::info(),
-/// warn() and debug().
+/// Sets up the process's logger on standard error, which also receives the messages of all rooms
+/// (host/base/message.h). `quiet` shows errors only, `verbose` also debug messages. Commands write with
+/// spdlog::info(), warn() and debug().
 void set_up_log(Verbosity verbosity);
 
 }  // namespace nearlight::core

@@ -8,7 +8,7 @@
 namespace nearlight::core {
 
 void print_json(const nlohmann::ordered_json& result) {
-    // File names may hold bytes that are not UTF-8, which JSON must not.
+    // File names may contain bytes that are not UTF-8, and JSON must not.
     std::cout << result.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
 }
 

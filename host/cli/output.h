@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Standard output: results only.
+// Writes results to standard output.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,11 +7,11 @@
 
 namespace nearlight::core {
 
-/// The result of a command under --json: one object. Numbers that JSON cannot hold become null.
+/// Prints the result of a command under --json. NaN and infinity become null.
 void print_json(const nlohmann::ordered_json& result);
-/// A piece of text for people.
+/// Prints text for people.
 void print(std::string_view text);
-/// Throws Error(ErrorKind::failure) if something did not arrive, say on a full disk.
+/// Throws Error(ErrorKind::failure) if output could not be written, for example because a disk is full.
 void check_standard_output();
 
 }  // namespace nearlight::core

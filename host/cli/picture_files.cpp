@@ -11,7 +11,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Names of layers, with commas between them.
+/// The names of the layers, separated by commas.
 std::string listed(std::span<const FilmLayer> layers) {
     std::string list;
     for (const FilmLayer& layer : layers) {
@@ -120,7 +120,8 @@ Metadata camera_metadata(const SceneCamera& camera) {
     const Mat4 world_to_camera = inverse(camera.to_world);
     const double tan_x = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
     const double tan_y = tan_x * camera.height / camera.width;
-    // NDC: x and y in [0, 1] from the top left corner after division by w = z. The camera's +X points left.
+    // In NDC, x and y are in [0, 1] from the top left corner after division by w = z. The camera's +X points
+    // left.
     Mat4 projection{{-0.5 / tan_x, 0, 0.5, 0, 0, -0.5 / tan_y, 0.5, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
     return {{"worldToCamera", transposed(world_to_camera)},
             {"worldToNDC", transposed(projection * world_to_camera)}};

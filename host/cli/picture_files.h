@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that a renderer's rows go to: any number of EXRs and PNGs at once.
+// Writes rendered rows to any number of EXR and PNG files at once.
 #pragma once
 
 #include <span>
@@ -15,36 +15,37 @@ namespace nearlight::core {
 
 struct PictureOptions {
     std::vector<std::string> outputs;
-    std::vector<std::string> layers;  ///< of EXR files; empty: all
-    float exposure = 0.0f;            ///< of PNG files, stops
+    std::vector<std::string> layers;  ///< layers of EXR files; empty: all
+    float exposure = 0.0f;            ///< exposure of PNG files, in stops
 };
 
-/// -o, --layers and --exposure.
+/// Adds -o, --layers and --exposure.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// Finds out before any work starts whether the outputs can be written. Throws
-/// Error(ErrorKind::invalid_argument) for an unknown extension or layer, Error(ErrorKind::file) for a folder
-/// that does not exist or cannot be written.
+/// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
+/// for an unknown extension or layer, and Error(ErrorKind::file) for a folder that does not exist or cannot
+/// be written to.
 void check_outputs(const PictureOptions& options);
 
-/// worldToCamera and worldToNDC in OpenEXR's row-vector convention, as other renderers write them.
+/// The attributes worldToCamera and worldToNDC, in OpenEXR's row-vector convention like those of other
+/// renderers.
 Metadata camera_metadata(const SceneCamera& camera);
 
-/// Nothing appears under the final names before commit().
+/// The output files of one picture. They appear under their final names only with commit().
 class PictureFiles {
   public:
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
     void open(int width, int height, const Metadata& metadata);
-    /// Rows with the channels of layer_channels().
+    /// Writes rows with the channels of layer_channels().
     void write_rows(std::span<const float> rows);
-    /// Rows that are missing become black.
+    /// Completes the files; missing rows become black.
     void commit(double render_seconds);
 
   private:
     struct File {
         ImageWriter writer;
-        std::vector<FilmLayer> layers;  ///< those that go there
+        std::vector<FilmLayer> layers;  ///< layers that the file gets
     };
 
     PictureOptions options_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kUpdateInterval{100};
-/// A guess from less than this is no better than none.
+/// Minimum time after which an estimate of the time left is shown; earlier ones are too inaccurate.
 constexpr double kFirstEstimateSeconds = 1.0;
 
 std::string minutes_and_seconds(double seconds) {

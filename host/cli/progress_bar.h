@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line that tells how far a long step is.
+// A line that shows the progress of a long step.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,14 @@
 
 namespace nearlight::core {
 
-/// "gathering  42 %  [########............]  0:12 left"; the time appears once it can be told: from
-/// `seconds_left` where the caller knows it, else from the fraction and the time that it took.
+/// A line such as "gathering 42 % [########............] 0:12 left". The time left is `seconds_left` if that
+/// is given, otherwise an estimate from `fraction` and `elapsed_seconds`, which is absent at first.
 std::string progress_line(std::string_view label, double fraction, double elapsed_seconds,
                           std::optional<double> seconds_left = std::nullopt);
 
-/// On standard error if that is a terminal, at most ten times a second, gone at the end. Elsewhere a debug
-/// message at each tenth of the way. Nothing with --quiet. For one thread.
+/// Shows a line on standard error if that is a terminal, updates it at most ten times a second, and removes
+/// it at the end. Elsewhere it logs a debug message at each tenth. With --quiet it shows nothing. Only one
+/// thread may use it.
 class ProgressBar {
   public:
     ProgressBar(std::string label, const GlobalOptions& global);
@@ -25,11 +26,11 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Another step begins: its name, and the clock starts anew.
+    /// Begins another step with the name `label`, and restarts the clock.
     void start(std::string label);
-    /// `fraction` of the step is done, 0 to 1. Cheap enough to call at any rate.
+    /// Shows that `fraction` of the step, 0 to 1, is done. It may be called at any rate.
     void update(double fraction, std::optional<double> seconds_left = std::nullopt);
-    /// Takes the line away, so that other text can be written; the next update() brings it back.
+    /// Removes the line, so that other text can be written. The next update() shows it again.
     void clear();
 
   private:

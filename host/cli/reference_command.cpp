@@ -38,11 +38,11 @@ struct ReferenceOptions {
     int threads = 0;
 };
 
-/// What came out of it.
+/// The result of the command.
 struct Outcome {
     Image image;
-    int samples_before = 0;      ///< per pixel
-    double earlier_seconds = 0;  ///< of rendering those
+    int samples_before = 0;      ///< samples per pixel of the picture that was resumed
+    double earlier_seconds = 0;  ///< rendering time of samples_before
     double load_seconds = 0;
     double render_seconds = 0;
     bool stopped = false;
@@ -79,7 +79,7 @@ void write_outputs(const ReferenceOptions& options, const Image& image, const Me
     }
 }
 
-/// Root of the mean variance of the picture's pixels; a statement about noise, not about pixels.
+/// The picture's noise: the root of the mean variance of its pixels.
 double noise(const Image& image) {
     const auto first = static_cast<std::size_t>(image.find_channel("variance.R"));
     double sum = 0;
@@ -116,15 +116,15 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
             {"outputs", outputs}};
 }
 
-/// Hours of rendering must not end at a path that cannot be written.
+/// Finds out before hours of rendering whether the outputs can be written.
 void check_outputs(const std::vector<std::filesystem::path>& outputs) {
     for (const std::filesystem::path& output : outputs) {
         ImageWriter not_committed(output, 1, 1, {"R", "G", "B"});
-        not_committed.write_rows(std::array{0.0f, 0.0f, 0.0f});  // or libpng complains
+        not_committed.write_rows(std::array{0.0f, 0.0f, 0.0f});  // prevents a warning of libpng
     }
 }
 
-/// The first output that keeps all layers.
+/// The output to resume from: the first one that keeps all layers.
 const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
     const auto found = std::ranges::find(options.outputs, ".exr", &std::filesystem::path::extension);
     if (found == options.outputs.end()) {
@@ -133,7 +133,7 @@ const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
     return *found;
 }
 
-/// Goes on from the stored reference, if there is one: its batches and, at least, its samples.
+/// Loads the stored reference, if there is one, and sets its batch size and at least its number of samples.
 std::optional<StoredReference> resume(const ReferenceOptions& options, const Scene& scene,
                                       PathTracerSettings& settings, Outcome& outcome) {
     std::optional<StoredReference> stored =
@@ -148,7 +148,8 @@ std::optional<StoredReference> resume(const ReferenceOptions& options, const Sce
     return stored;
 }
 
-/// Fills in the outcome; every few minutes the picture so far goes into the outputs.
+/// Renders the picture and fills in the outcome. Every few minutes the unfinished picture is written to the
+/// outputs.
 void trace(const ReferenceOptions& options, const GlobalOptions& global, const Scene& scene,
            const PathTracerSettings& settings, const StoredReference* stored, Outcome& outcome) {
     const Stopwatch watch;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight reference SCENE -o OUT --spp N: the path-traced picture that every sampler converges to.
+// `nearlight reference SCENE -o OUT --spp N` makes the path-traced picture to which every sampler converges.
 #pragma once
 
 #include "host/cli/command.h"

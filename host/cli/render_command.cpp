@@ -32,17 +32,18 @@ struct RenderOptions {
     std::string close_fraction = "auto";
     std::string range = "auto";
     std::string clamp_radius = "auto";
-    std::optional<double> seconds;  ///< of the whole command
-    int threads = 0;                ///< 0: one a core
+    std::optional<double> seconds;  ///< time limit of the whole command
+    int threads = 0;                ///< 0: one per core
 };
 
 const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
-/// A picture of 2^30 pixels with all layers is a file of up to 64 GiB; more is a slip of the finger.
+/// Maximum number of pixels. With 2^30 pixels and all layers a file has up to 64 GiB; a larger size is
+/// probably a typing error.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 
-/// The option takes one of the names only, and says so.
+/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
 template <typename Choice>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
                         const std::map<std::string, Choice>& choices, const std::string& description) {
@@ -61,7 +62,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& va
     return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
 }
 
-/// "auto", or a number in [low, high].
+/// Parses "auto", which gives nothing, or a number in [low, high].
 std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low,
                                     float high) {
     if (text == "auto") {
@@ -94,7 +95,7 @@ RenderSettings settled(const RenderOptions& options) {
     return settings;
 }
 
-/// What is asked for, yet worth a word; refuses pictures that no file system would thank for.
+/// Warns about questionable requests, and refuses pictures of more than kMaxPixels.
 void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.view.width.value_or(scene.camera.width);
     const int height = settings.view.height.value_or(scene.camera.height);
@@ -121,7 +122,7 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
     }
 }
 
-/// Device time of each kernel, for those who look for where it goes.
+/// Logs the device time of each kernel.
 void tell_kernel_times(Device& device) {
     spdlog::debug("kernels on {}:", device.entry().label());
     for (const auto& [kernel, total] : device.profiler().totals()) {
@@ -144,7 +145,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
-    // Devices start and kernels compile while the scene is read; what is wrong with the scene is told first.
+    // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
         auto opened = open_devices(choice, list_devices());
@@ -155,7 +156,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const Scene scene = load_scene(options.scene);
     const double load_seconds = loading.seconds();
     check_request(scene, settings);
-    // For the files' metadata; nobody should wait for it.
+    // The hash is for the files' metadata and is computed in the background.
     auto hash = std::async(std::launch::async, [&] { return scene_hash(scene); });
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
 

@@ -5,7 +5,7 @@
 
 namespace nearlight::core {
 
-/// `nearlight render SCENE -o OUT`: a picture by virtual point lights.
+/// `nearlight render SCENE -o OUT` renders a picture with virtual point lights.
 void add_render_command(CommandLine& line);
 
 }  // namespace nearlight::core

@@ -13,7 +13,7 @@
 namespace nearlight::core {
 namespace {
 
-/// What `text` says of each device, without repeats.
+/// The results of `text` for all devices, separated by commas and without duplicates.
 template <typename Text>
 std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
     std::vector<std::string> parts;
@@ -25,7 +25,7 @@ std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Te
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Of all finished bands.
+/// The share of one device in all finished bands.
 double share_of(const BandShare& one, std::span<const BandShare> all) {
     uint total = 0;
     for (const BandShare& share : all) {

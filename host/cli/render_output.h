@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `nearlight render` says of its picture: in the file, as JSON, and to the user.
+// The facts about its picture that `nearlight render` puts into the file, into JSON and on the terminal.
 #pragma once
 
 #include <memory>
@@ -14,26 +14,26 @@
 
 namespace nearlight::core {
 
-/// The EXR's `nearlight:…` entries and those of its camera.
+/// The EXR's attributes `nearlight:…` and those of its camera.
 Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
                          const View& view, const std::vector<std::unique_ptr<Device>>& devices);
 
-/// When the first rows of the picture came: how long one waits for a first answer.
+/// The time of the first finished rows of the picture.
 struct FirstRows {
     double seconds = 0.0;            ///< since the command began
-    double processor_seconds = 0.0;  ///< of all threads, since the process began; the loader's too
+    double processor_seconds = 0.0;  ///< of all threads since the process began, including the loader's
 
-    /// The first call counts.
+    /// Records the times; only the first call has an effect.
     void note(const Stopwatch& since_begin);
 };
 
-/// What `render --json` prints.
+/// The object that `render --json` prints.
 nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
                                    double load_seconds, const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices);
 
-/// Which device made how much of the picture, where there were several.
+/// Logs the share of the picture that each device made, if there were several.
 void tell_shares(const RenderReport& report);
 
 }  // namespace nearlight::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options by which a command takes its scene.
+// The options by which a command chooses its scene.
 #pragma once
 
 #include <filesystem>
@@ -18,18 +18,19 @@ struct SceneOptions {
     bool strict = false;
 };
 
-/// The positional SCENE, -D and --strict.
+/// Adds the positional SCENE, -D and --strict.
 void add_scene_options(CLI::App& command, SceneOptions& options);
-/// -D and --strict alone, for commands that take several scenes.
+/// Adds -D and --strict alone, for commands that take several scenes.
 void add_shared_scene_options(CLI::App& command, SceneOptions& options);
 
-/// --bvh fast|quality; `quality` holds the default.
+/// Adds --bvh fast|quality; `quality` has the default.
 void add_bvh_option(CLI::App& command, BvhQuality& quality);
 
-/// Throws Error(ErrorKind::invalid_argument) for a definition without a name or a '='.
+/// Makes the loader's options. Throws Error(ErrorKind::invalid_argument) for a definition without a name or a
+/// '='.
 LoadOptions load_options(const SceneOptions& options);
 
-/// Reads the scene and tells its notes as warnings.
+/// Reads the scene and logs its notes as warnings.
 Scene load_scene(const SceneOptions& options);
 
 }  // namespace nearlight::core

@@ -139,7 +139,7 @@ Json json_notes(const Scene& scene) {
 
 MemoryEstimate estimate_memory(const Scene& scene) {
     constexpr std::uint64_t kTrianglesPerLeaf = 2;
-    constexpr std::uint64_t kTrianglesPerCut = 20;  // that stand in one leaf more
+    constexpr std::uint64_t kTrianglesPerCut = 20;  // one in so many is cut and is in two leaves
     const std::uint64_t triangles = scene.triangles.size();
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
@@ -160,7 +160,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
                      {"textures", textures},
                      {"environment", environment * sizeof(Vec3)},
                      {"picture", pixels * NEARLIGHT_LAYER_CHANNELS * sizeof(float)}};
-    // The environment has RGBA pixels there, and a table to sample them by.
+    // On the device, the environment has RGBA pixels and a table for sampling them.
     estimate.device = {{"geometry", geometry},
                        {"trees", trees},
                        {"textures", textures},

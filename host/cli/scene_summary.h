@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `nearlight info` tells of a scene.
+// The summary of a scene that `nearlight info` prints.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace nearlight::core {
 
-/// Bytes by part; the parts are in the order in which they are told.
+/// Estimated bytes of each part, in the order in which they are printed.
 struct MemoryEstimate {
     using Parts = std::vector<std::pair<std::string, std::uint64_t>>;
     Parts host;
     Parts device;
 };
-/// Of a render at the scene's own size with the whole picture at once, one sample a pixel at a time;
-/// rendering in bands needs less. The trees are taken to have two triangles a leaf.
+/// Estimates the memory of a render at the scene's own size with the whole picture at once, one sample per
+/// pixel at a time. Rendering in bands needs less. The estimate assumes two triangles per leaf of the trees.
 MemoryEstimate estimate_memory(const Scene& scene);
 
-/// How many materials of each kind, kinds without any left out: "diffuse", "coated", "metal", "glass", "thin
-/// glass".
+/// The number of materials of each kind that occurs: "diffuse", "coated", "metal", "glass", "thin glass".
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene);
 
+/// The summary as JSON.
 nlohmann::ordered_json scene_summary_json(const Scene& scene);
-/// The same for people, several lines.
+/// The summary as text of several lines.
 std::string scene_summary_text(const Scene& scene);
 
 }  // namespace nearlight::core

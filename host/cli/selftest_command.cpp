@@ -52,7 +52,7 @@ void print_row(const CheckResult& check) {
     }
 }
 
-/// A device that cannot even be opened fails like a check, so that the others are still tested.
+/// Tests one device. A device that cannot be opened fails like a check, so that the others are still tested.
 DeviceReport test_device(const DeviceEntry& entry, const DeviceOptions& options, bool print_rows) {
     if (print_rows) {
         print(fmt::format("{} ({})\n  {:<16} {:>9} {:>11}\n", entry.name, entry.platform, "kernel", "cases",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight selftest: every kernel against its CPU or Embree oracle, on this machine's devices.
+// `nearlight selftest` compares every kernel with its oracle on the host, on this machine's devices.
 #pragma once
 
 #include "host/cli/command.h"

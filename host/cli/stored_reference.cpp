@@ -27,7 +27,7 @@ std::string to_text(const Metadata::mapped_type& value) {
                     "; use the scene and options that it was made with, or give another output");
 }
 
-/// What `stored` has under `name`; refuses where it has nothing of that type.
+/// The attribute `name` of type T. Throws Error(ErrorKind::file) if there is none.
 template <typename T>
 T attribute(const std::filesystem::path& file, const Metadata& stored, const std::string& name) {
     const auto found = stored.find(name);
@@ -37,7 +37,7 @@ T attribute(const std::filesystem::path& file, const Metadata& stored, const std
     return std::get<T>(found->second);
 }
 
-/// "nearlight:clampRadius is 0.1, not 0", one for each difference.
+/// The differences in words, such as "nearlight:clampRadius is 0.1, not 0".
 std::vector<std::string> differences(const Metadata& stored, const Metadata& wanted) {
     std::vector<std::string> found;
     for (const auto& [name, value] : wanted) {
@@ -56,12 +56,12 @@ int min_samples(const Image& image, const std::filesystem::path& file) {
     if (channel < 0) {
         refuse(file, "it has no channel count.X");
     }
-    float fewest = image.at(0, 0, static_cast<std::size_t>(channel));
+    float min_count = image.at(0, 0, static_cast<std::size_t>(channel));
     for (std::size_t i = static_cast<std::size_t>(channel); i < image.values.size();
          i += image.channel_count()) {
-        fewest = std::min(fewest, image.values[i]);
+        min_count = std::min(min_count, image.values[i]);
     }
-    return static_cast<int>(fewest);
+    return static_cast<int>(min_count);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference picture in a file, which `nearlight reference --resume` goes on from.
+// A reference picture in a file, which `nearlight reference --resume` continues.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,19 @@
 
 namespace nearlight::core {
 
-/// What shapes the expectation and the random numbers of a reference, as its file tells it: all settings but
-/// the number of samples, and the size.
+/// The attributes of a reference's file that determine its expectation and its random numbers: its size and
+/// all settings except the number of samples.
 Metadata reference_identity(const PathTracerSettings& settings, const Scene& scene);
 
 struct StoredReference {
     Image image;
     int batch_size = 0;
-    int samples = 0;           ///< per pixel, at least
-    float render_seconds = 0;  ///< that it took
+    int samples = 0;           ///< minimum number of samples per pixel
+    float render_seconds = 0;  ///< rendering time so far
 };
 
-/// Empty where there is no such file. Throws Error(ErrorKind::file) saying what is different where it was
-/// made with other settings than `wanted` (see completed()), or is no reference at all.
+/// Reads a reference to resume; empty if the file does not exist. Throws Error(ErrorKind::file), which names
+/// the differences, if it was made with other settings than `wanted` (see completed()) or is not a reference.
 std::optional<StoredReference> read_stored_reference(const std::filesystem::path& file,
                                                      const PathTracerSettings& wanted, const Scene& scene);
 

@@ -6,7 +6,7 @@
 
 namespace nearlight::core {
 
-// Optimal string alignment distance, row by row.
+// This computes the optimal string alignment distance row by row.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);
@@ -29,15 +29,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return current[b.size()];
 }
 
-std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
-    // A third of the letters may be wrong; beyond that a suggestion misleads.
+std::string nearest_word(std::string_view word, std::span<const std::string> words) {
+    // At most a third of the letters may be wrong, because a suggestion misleads beyond that.
     std::size_t best_distance = word.size() / 3 + 1;
     std::string best;
-    for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
+    for (const std::string& known : words) {
+        const std::size_t distance = edit_distance(word, known);
         if (distance < best_distance || (distance == best_distance && best.empty())) {
             best_distance = distance;
-            best = candidate;
+            best = known;
         }
     }
     return best;

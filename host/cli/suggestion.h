@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "Did you mean …?"
+// Suggestions for misspelt words ("did you mean …?").
 #pragma once
 
 #include <span>
@@ -8,10 +8,11 @@
 
 namespace nearlight::core {
 
-/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+/// The minimum number of insertions, deletions, replacements and swaps of neighbours that turn one word into
+/// the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`, or an empty string if none is near enough to be what was meant.
-std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+/// The word of `words` nearest to `word`, or an empty string if none is near enough.
+std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
 }  // namespace nearlight::core

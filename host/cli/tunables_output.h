@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tunables, for people and for programs.
+// Tunables as JSON and as text.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,10 +9,11 @@
 
 namespace nearlight::core {
 
-/// {"source": "…", "is_tuned": …, "packet_width": …, …}
+/// The object {"source": "…", "is_tuned": …, "packet_width": …, …}.
 nlohmann::ordered_json to_json(const ChosenTunables& chosen);
+/// The object {"packet_width": …, …}.
 nlohmann::ordered_json to_json(const Tunables& tunables);
-/// "packet_width 256, local_size 8, …"
+/// The text "packet_width 256, local_size 8, …".
 std::string to_text(const Tunables& tunables);
 
 }  // namespace nearlight::core

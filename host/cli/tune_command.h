@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nearlight tune: finds how work is best divided for a device, and keeps it for all further runs.
+// `nearlight tune` finds the best tunables of a device and stores them for all later runs.
 #pragma once
 
 #include "host/cli/command.h"

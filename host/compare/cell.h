@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The smallest piece of a comparison: one picture and its measurements.
+// SPDX-License-Identifier: Apache-2.0
+// The smallest piece of a comparison: one picture and its measurements.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 A folder of measured cells, from which a stopped comparison resumes.
+// SPDX-License-Identifier: Apache-2.0
+// A folder of measured cells, from which a stopped comparison resumes.
 #pragma once
 
 #include <filesystem>

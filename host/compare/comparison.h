@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The comparison of samplers: scenes × methods × numbers of VPLs × seeds.
-// Only indirect light is compared, with one reference per scene.
+// SPDX-License-Identifier: Apache-2.0
+// The comparison of samplers: scenes × methods × numbers of VPLs × seeds. Only indirect light is compared,
+// with one reference per scene.
 #pragma once
 
 #include <functional>

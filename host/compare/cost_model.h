@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Estimates how long the remaining cells will take.
+// SPDX-License-Identifier: Apache-2.0
+// Estimates how long the remaining cells will take.
 #pragma once
 
 #include <map>

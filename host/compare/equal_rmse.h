@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The paper's table of equal RMSE: the VPLs and seconds that each method
-// needs to be as good as the baseline.
+// SPDX-License-Identifier: Apache-2.0
+// The paper's table of equal RMSE: the VPLs and seconds that each method needs to be as good as the baseline.
 //
 // log RMSE and log seconds (generate + gather) are fitted by straight lines over log VPLs, for each method.
 // For each RMSE that the baseline reached at a measured count, the lines give the VPLs and seconds that a

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The pictures of a report, as PNG files: the positions of VPLs (the
-// paper's figure 1), and the scene as each method renders it at each count (figures 2 to 4).
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of a report, as PNG files: the positions of VPLs (the paper's figure 1), and the scene as each
+// method renders it at each count (figures 2 to 4).
 #pragma once
 
 #include <filesystem>

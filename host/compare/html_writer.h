@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Writes HTML in which all text is escaped and every element is closed.
+// SPDX-License-Identifier: Apache-2.0
+// Writes HTML in which all text is escaped and every element is closed.
 #pragma once
 
 #include <filesystem>

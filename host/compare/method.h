@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The methods that are compared: a sampler, and for close-range sampling
-// a policy.
+// SPDX-License-Identifier: Apache-2.0
+// The methods that are compared: a sampler, and for close-range sampling a policy.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Formats numbers for the reports. A number that is not finite becomes a
-// dash.
+// SPDX-License-Identifier: Apache-2.0
+// Formats numbers for the reports. A number that is not finite becomes a dash.
 #pragma once
 
 #include <fmt/format.h>

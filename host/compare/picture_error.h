@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The errors of the indirect light of a picture against the reference.
+// SPDX-License-Identifier: Apache-2.0
+// The errors of the indirect light of a picture against the reference.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Operations on pictures, which are images with the channels R, G, B in
-// linear sRGB.
+// SPDX-License-Identifier: Apache-2.0
+// Operations on pictures, which are images with the channels R, G, B in linear sRGB.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Plots of convergence, drawn by gnuplot: RMSE over VPLs and over
-// seconds, on logarithmic axes.
+// SPDX-License-Identifier: Apache-2.0
+// Plots of convergence, drawn by gnuplot: RMSE over VPLs and over seconds, on logarithmic axes.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The reference that pictures are compared with: the indirect light of a
-// scene, with its noise.
+// SPDX-License-Identifier: Apache-2.0
+// The reference that pictures are compared with: the indirect light of a scene, with its noise.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 A folder of passes of references, which are found by their
-// ReferenceSpec.
+// SPDX-License-Identifier: Apache-2.0
+// A folder of passes of references, which are found by their ReferenceSpec.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The tables of all scenes as comma-separated values. The field of a
-// number that does not exist is empty.
+// SPDX-License-Identifier: Apache-2.0
+// The tables of all scenes as comma-separated values. The field of a number that does not exist is empty.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Writes compare.json. Scripts rely on its fields, so fields may be added
-// but not changed. Values that do not exist are null: intervals of one seed, the needs of a method with the
-// reach `never`, and policies of samplers that have none.
+// SPDX-License-Identifier: Apache-2.0
+// Writes compare.json. Scripts rely on its fields, so fields may be added but not changed. Values that do not
+// exist are null: intervals of one seed, the needs of a method with the reach `never`, and policies of
+// samplers that have none.
 #pragma once
 
 #include <string>

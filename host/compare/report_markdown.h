@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Writes report.md, the comparison as Markdown for documents and
-// discussions. It refers to the pictures in pictures/ beside it.
+// SPDX-License-Identifier: Apache-2.0
+// Writes report.md, the comparison as Markdown for documents and discussions. It refers to the pictures in
+// pictures/ beside it.
 #pragma once
 
 #include <string>

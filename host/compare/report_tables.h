@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Writes the tables as HTML: the summary, and the two tables of each
-// scene.
+// SPDX-License-Identifier: Apache-2.0
+// Writes the tables as HTML: the summary, and the two tables of each scene.
 #pragma once
 
 #include "host/compare/comparison.h"

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The settings of a comparison, and the parsing of its lists.
+// SPDX-License-Identifier: Apache-2.0
+// The settings of a comparison, and the parsing of its lists.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Means with confidence intervals, and straight lines through logarithms.
+// SPDX-License-Identifier: Apache-2.0
+// Means with confidence intervals, and straight lines through logarithms.
 //
 // Everything that depends on chance is measured with several seeds; seeds are independent. A mean over n
 // seeds has the 95 % interval mean ± t·s/√n, with s the sample standard deviation and t the 0.975 quantile of

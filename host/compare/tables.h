@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Makes the rows of the tables from cells.
+// SPDX-License-Identifier: Apache-2.0
+// Makes the rows of the tables from cells.
 #pragma once
 
 #include <span>

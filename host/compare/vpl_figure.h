@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The positions of VPLs as a picture: the paper's figure 1.
+// SPDX-License-Identifier: Apache-2.0
+// The positions of VPLs as a picture: the paper's figure 1.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Paths from the camera by way of mirrors, metals, coats and glass to the
-// receiver.
+// SPDX-License-Identifier: Apache-2.0
+// Paths from the camera by way of mirrors, metals, coats and glass to the receiver.
 #pragma once
 
 #include "host/reference/embree_scene.h"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The oracle of the close range: which triangles reach into it, found
-// without clipping polygons, and which points lie in it.
+// SPDX-License-Identifier: Apache-2.0
+// The oracle of the close range: which triangles reach into it, found without clipping polygons, and which
+// points lie in it.
 #pragma once
 
 #include "host/base/math.h"

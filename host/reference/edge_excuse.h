@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Decides which disagreements about a shadow ray single precision
-// explains.
+// SPDX-License-Identifier: Apache-2.0
+// Decides which disagreements about a shadow ray single precision explains.
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Embree 3 or 4, whichever the build found: its objects, released when
-// they go out of scope, and its ray queries, whose interface differs between the two versions. Only .cpp
-// files and embree_tree.h include this file, so that no other header includes Embree's.
+// SPDX-License-Identifier: Apache-2.0
+// Embree 3 or 4, whichever the build found: its objects, released when they go out of scope, and its ray
+// queries, whose interface differs between the two versions. Only .cpp files and embree_tree.h include this
+// file, so that no other header includes Embree's.
 #pragma once
 
 #if NEARLIGHT_EMBREE_MAJOR >= 4

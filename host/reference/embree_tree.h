@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Embree's device and its trees over triangles of a scene. Like embree.h,
-// it is for .cpp files.
+// SPDX-License-Identifier: Apache-2.0
+// Embree's device and its trees over triangles of a scene. Like embree.h, it is for .cpp files.
 #pragma once
 
 #include <mutex>

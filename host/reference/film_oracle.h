@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The film's oracle: samples of all kinds, and the layers that the film
-// must make of them, in double precision.
+// SPDX-License-Identifier: Apache-2.0
+// The film's oracle: samples of all kinds, and the layers that the film must make of them, in double
+// precision.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The work of a gather in a scene, made by plain host code: receivers and
-// VPLs as a renderer would have them, and the rays that find them.
+// SPDX-License-Identifier: Apache-2.0
+// The work of a gather in a scene, made by plain host code: receivers and VPLs as a renderer would have them,
+// and the rays that find them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Direct light in the reference path tracer: by sampling the scene's
-// lights, and by hitting them.
+// SPDX-License-Identifier: Apache-2.0
+// Direct light in the reference path tracer: by sampling the scene's lights, and by hitting them.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The lobes of a surface besides its Lambertian base, which only the
-// camera sees.
+// SPDX-License-Identifier: Apache-2.0
+// The lobes of a surface besides its Lambertian base, which only the camera sees.
 #pragma once
 
 #include "host/reference/sampling.h"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The reference: a path tracer that computes exactly what docs/method.md
-// defines, and shares no code with the kernels.
+// SPDX-License-Identifier: Apache-2.0
+// The reference: a path tracer that computes exactly what docs/method.md defines, and shares no code with the
+// kernels.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The sums that the reference path tracer keeps for each pixel while it
-// renders.
+// SPDX-License-Identifier: Apache-2.0
+// The sums that the reference path tracer keeps for each pixel while it renders.
 #pragma once
 
 #include <array>

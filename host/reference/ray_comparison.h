@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Compares two ray casters on the same rays: where they differ, and
-// whether single precision excuses it.
+// SPDX-License-Identifier: Apache-2.0
+// Compares two ray casters on the same rays: where they differ, and whether single precision excuses it.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Irradiance of receivers by plain loops and Embree: the oracle of the
-// gather kernels.
+// SPDX-License-Identifier: Apache-2.0
+// Irradiance of receivers by plain loops and Embree: the oracle of the gather kernels.
 #pragma once
 
 #include <span>

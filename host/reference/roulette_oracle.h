@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The oracle of the roulette, in double precision: the probability with
-// which a bundle of receivers asks about each VPL.
+// SPDX-License-Identifier: Apache-2.0
+// The oracle of the roulette, in double precision: the probability with which a bundle of receivers asks
+// about each VPL.
 #pragma once
 
 #include <span>

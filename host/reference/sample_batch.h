@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The random numbers of one batch of samples of a pixel.
+// SPDX-License-Identifier: Apache-2.0
+// The random numbers of one batch of samples of a pixel.
 #pragma once
 
 #include <array>

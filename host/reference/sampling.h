@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Sampling and reflection formulas of the reference path tracer, written
-// independently of those in the kernels.
+// SPDX-License-Identifier: Apache-2.0
+// Sampling and reflection formulas of the reference path tracer, written independently of those in the
+// kernels.
 #pragma once
 
 #include "host/base/math.h"

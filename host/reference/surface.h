@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The surface that a ray finds where it hits a triangle.
+// SPDX-License-Identifier: Apache-2.0
+// The surface that a ray finds where it hits a triangle.
 #pragma once
 
 #include "host/bvh/bvh.h"

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 A scene of any size for benchmarks that have no file.
+// SPDX-License-Identifier: Apache-2.0
+// A scene of any size for benchmarks that have no file.
 #pragma once
 
 #include "host/scene/scene.h"

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Triangles and rays of every awkward kind, for comparisons of ray
-// casters.
+// SPDX-License-Identifier: Apache-2.0
+// Triangles and rays of every awkward kind, for comparisons of ray casters.
 #pragma once
 
 #include <string>

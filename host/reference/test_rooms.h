@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Rooms in which the light is known.
+// SPDX-License-Identifier: Apache-2.0
+// Rooms in which the light is known.
 #pragma once
 
 #include "host/base/math.h"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 The checks: each kernel is compared with its own oracle. A check counts
-// cases and mismatches in `result`, and throws Error if it cannot run.
+// SPDX-License-Identifier: Apache-2.0
+// The checks: each kernel is compared with its own oracle. A check counts cases and mismatches in `result`,
+// and throws Error if it cannot run.
 #pragma once
 
 #include "host/cl/device.h"

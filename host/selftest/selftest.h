@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The comparison of every kernel with its oracle on the host, on one
-// device.
+// SPDX-License-Identifier: Apache-2.0
+// The comparison of every kernel with its oracle on the host, on one device.
 #pragma once
 
 #include <functional>

@@ -88,7 +88,7 @@ float Carving::distance(Vec3 p, const std::vector<const Part*>& parts) const {
     return roughness_ && std::abs(result) < 2.0f * roughness_reach_ ? result + roughness_(p) : result;
 }
 
-/// Walks through the grid one layer of nodes after the other, so that memory grows with a layer only.
+/// Goes through the grid one layer of nodes after the other, so that it holds only two layers in memory.
 class CarvingMesher {
   public:
     CarvingMesher(const Carving& carving, const Aabb& box, float cell)
@@ -123,7 +123,7 @@ class CarvingMesher {
 
   private:
     struct Block {
-        float fallback = 1.0f;  // where the surface is far away
+        float fallback = 1.0f;  // distance where the surface is far away
         std::vector<const Carving::Part*> parts;
     };
 
@@ -173,7 +173,7 @@ class CarvingMesher {
         return node_values_[static_cast<size_t>(dz)][at(x, y)];
     }
 
-    /// One vertex in each cell that the surface crosses, at the mean of the crossings of its edges.
+    /// Places one vertex in each cell that the surface crosses, at the mean of the crossings of its edges.
     void place_vertices(int z) {
         for (int y = 0; y + 1 < nodes_y_; ++y) {
             for (int x = 0; x + 1 < nodes_x_; ++x) {
@@ -216,7 +216,8 @@ class CarvingMesher {
         return {static_cast<float>(i & 1), static_cast<float>((i >> 1) & 1), static_cast<float>(i >> 2)};
     }
 
-    /// A quad across each edge that the surface crosses, of the vertices of the four cells around it.
+    /// Adds a quad across each edge that the surface crosses, from the vertices of the four cells around the
+    /// edge.
     void connect() {
         const auto& back = cell_vertices_[0];
         const auto& front = cell_vertices_[1];
@@ -254,7 +255,7 @@ class CarvingMesher {
     int blocks_x_ = 0, blocks_y_ = 0, blocks_z_ = 0, nodes_x_ = 0, nodes_y_ = 0;
     std::vector<Block> layer_;
     std::array<std::vector<float>, 2> node_values_;   // layers z and z + 1
-    std::array<std::vector<uint>, 2> cell_vertices_;  // of the cells before layer z and after it
+    std::array<std::vector<uint>, 2> cell_vertices_;  // vertices of the cells below layer z and above it
     Mesh mesh_;
 };
 

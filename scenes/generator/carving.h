@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sculpture by signed distances: solids blended into one another, and the surface made triangles.
+// Sculptures from signed distances: solids are blended into one another, and the surface becomes triangles.
 #pragma once
 
 #include <functional>
@@ -9,28 +9,31 @@
 
 namespace nearlight::core::scenes {
 
-/// Distance to a surface in metres, negative inside; may be off by a third, but not in its sign.
+/// Distance to a surface in metres, negative inside. It may be wrong by a third, but not in its sign.
 using Distance = std::function<float(Vec3)>;
 
 Distance solid_ellipsoid(Vec3 center, Vec3 radii);
-/// Two balls and the cone that touches both, its axis from a to b.
+/// Two balls about a and b and the cone that touches both.
 Distance solid_cone(Vec3 a, Vec3 b, float radius_a, float radius_b);
-/// A ball with a spiral groove about the axis through its centre, `turns` turns from the pole to the equator.
+/// A ball with a spiral groove about the axis through its centre. The groove makes `turns` turns from the
+/// pole to the equator.
 Distance solid_curl(Vec3 center, Vec3 axis, float radius, float turns);
 Distance solid_box(Vec3 center, Vec3 half, float rounding);
 
 class Carving {
   public:
-    /// Blends over about `blend` metres.
+    /// Adds a part, blended over about `blend` metres.
     void add(Distance part, float blend);
+    /// Cuts a part out, blended over about `blend` metres.
     void cut(Distance part, float blend);
-    /// Both sides of the plane x = 0: makes and adds the part for x and then for −x.
+    /// Adds a part on each side of the plane x = 0: calls `make` with 1 for x > 0, then with −1.
     void add_pair(const std::function<Distance(float side)>& make, float blend);
-    /// Roughness of the whole surface, added to the distance; smaller than `reach` everywhere.
+    /// Sets the roughness of the whole surface, which is added to the distance. It must be smaller than
+    /// `reach` everywhere.
     void set_roughness(Distance roughness, float reach);
 
-    /// Naive surface nets [Gibson, Constrained Elastic Surface Nets, MICCAI 1998] on a grid of cells of the
-    /// given size. The surface must lie within the box.
+    /// The surface as triangles, by naive surface nets [Gibson, Constrained Elastic Surface Nets, MICCAI
+    /// 1998] on a grid with cells of `cell` metres. The surface must lie within the box.
     [[nodiscard]] Mesh mesh(const Aabb& box, float cell) const;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measured Cornell box [Goral et al. 1984; data: Cornell University Program of Computer Graphics,
-// https://www.graphics.cornell.edu/online/box/data.html], millimetres there, metres here.
+// https://www.graphics.cornell.edu/online/box/data.html], converted from millimetres to metres.
 #include "scenes/generator/scenes.h"
 
 namespace nearlight::core::scenes {

@@ -9,7 +9,8 @@ Vec3 catmull_rom(Vec3 a, Vec3 b, Vec3 c, Vec3 d, float t) {
                    (3.0f * b - a - 3.0f * c + d) * (t * t * t));
 }
 
-/// Left of the direction of travel is outside for a profile that goes up on the right of the axis.
+/// The outward direction. It is to the left of the direction of travel, for a profile that goes up on the
+/// right of the axis.
 Vec3 outward(const Curve& curve, size_t index) {
     const Vec3 ahead = curve[std::min(index + 1, curve.size() - 1)];
     const Vec3 along = normalize(ahead - curve[index > 0 ? index - 1 : 0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study: a desk by the wall with what is used there; the rest of the room lies behind the camera.
+// A study: a desk by the wall with the things used there. The rest of the room is behind the camera.
 #include "scenes/generator/desk_pictures.h"
 #include "scenes/generator/desk_things.h"
 #include "scenes/generator/furniture.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kDeskTop = 0.75f;
 constexpr float kWall = -0.45f;  // z of the wall behind the desk; the desk's middle is the origin
-/// scene.xml has a point light here, in the opening of the shade.
+/// Position of the point light of scene.xml, in the opening of the shade.
 constexpr Vec3 kLampHead{-0.3f, 1.2f, 0.0f};
 
 std::vector<std::string> book_covers() {

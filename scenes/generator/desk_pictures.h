@@ -6,11 +6,11 @@
 
 namespace nearlight::core::scenes {
 
-/// Windows with text and a chart.
+/// The picture on the screen: windows with text and a chart.
 Bitmap make_screen_picture();
-/// Lines of words that nobody can read.
+/// A page with lines of illegible words.
 Bitmap make_printed_page(std::uint64_t seed, bool with_picture);
-/// Hills under an evening sky.
+/// A painting of hills under an evening sky.
 Bitmap make_painting();
 
 }  // namespace nearlight::core::scenes

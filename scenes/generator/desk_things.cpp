@@ -145,12 +145,12 @@ Model make_pencil_cup(Pcg32& random) {
     return cup;
 }
 
-/// Two leaves' height each side of the gutter, printed.
+/// An open book with a printed page on each side of the gutter.
 Model make_open_book() {
     Model book;
     for (const float side : {-1.0f, 1.0f}) {
         const auto page = [side](float u, float v) {
-            const float across = side > 0 ? u : 1.0f - u;  // from the gutter outwards
+            const float across = side > 0 ? u : 1.0f - u;  // 0 at the gutter, 1 at the outer edge
             const float rise =
                 0.018f * std::pow(std::sin(3.1f * std::clamp(across * 0.93f + 0.07f, 0.0f, 1.0f)), 0.6f) *
                     (1.0f - 0.55f * across) +

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands and lies on the desk; each thing stands on y = 0 and is centred in x and z unless said
-// otherwise.
+// The things on the desk. Unless its comment says otherwise, each stands on y = 0 and is centred in x and z.
 #pragma once
 
 #include "host/base/random.h"
@@ -8,21 +7,21 @@
 
 namespace nearlight::core::scenes {
 
-/// From the foot to a shade whose opening is about `head`, where a point light may hang free.
+/// A lamp from `foot` to a shade whose opening is about `head`, where there is room for a point light.
 Model make_desk_lamp(Vec3 foot, Vec3 head);
 Model make_monitor();
 Model make_keyboard();
 Model make_mouse();
-/// Upright, the point up.
+/// A pencil that stands upright, its point up.
 Model make_pencil(const std::string& paint, float length);
 Model make_pencil_cup(Pcg32& random);
 Model make_open_book();
 Model make_potted_plant(Pcg32& random);
-/// Five books, and an apple on top.
+/// Five books with an apple on top.
 Model make_book_stack(Pcg32& random);
-/// Four sheets, the top one a letter.
+/// Four sheets of paper, of which the top one is a letter.
 Model make_papers(Pcg32& random);
-/// A framed painting in the plane z = 0, centred; looks along +z.
+/// A framed painting in the plane z = 0, centred, that faces +z.
 Model make_picture(float width, float height);
 
 }  // namespace nearlight::core::scenes

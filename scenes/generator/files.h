@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the generator writes: meshes as binary PLY, bitmaps as binary PPM.
+// Writes the generator's files: meshes as binary PLY, bitmaps as binary PPM.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace nearlight::core::scenes {
 
-/// sRGB-encoded picture, top row first.
+/// An sRGB-encoded picture, top row first.
 struct Bitmap {
     int width = 0;
     int height = 0;
@@ -20,13 +20,15 @@ struct Bitmap {
 
     Bitmap() = default;
     Bitmap(int w, int h, Vec3 color);
-    /// Colour components in [0, 1]; places outside the picture are ignored.
+    /// Sets a pixel. Colour components are in [0, 1]; places outside the picture are ignored.
     void set(int x, int y, Vec3 color);
     void fill(int x, int y, int w, int h, Vec3 color);
 };
 
-/// Little-endian, 32-bit floats: position, normal and texture coordinates u, v (v = 0 is a bitmap's top row).
+/// Writes a mesh in little-endian order, with 32-bit floats for position, normal and texture coordinates u,
+/// v. The top row of a bitmap is at v = 0. Throws Error(ErrorKind::file).
 void write_ply(const std::filesystem::path& file, const Mesh& mesh);
+/// Writes a bitmap. Throws Error(ErrorKind::file).
 void write_ppm(const std::filesystem::path& file, const Bitmap& bitmap);
 
 }  // namespace nearlight::core::scenes

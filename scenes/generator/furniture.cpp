@@ -76,7 +76,7 @@ Model make_book(Vec3 size, const std::string& cover, BookFinish finish) {
 }
 
 Model make_standing_book(Vec3 size, const std::string& cover) {
-    // Spine to the front, then the pages' height upwards.
+    // The book is turned with its spine to the front, then with the height of its pages upwards.
     const Mat4 upright = translation(0, 0.5 * size.z, -0.5 * size.x) * rotation(0, 1, 0, 90) *
                          rotation(1, 0, 0, 90) * translation(0, -0.5 * size.y, 0);
     Model book;
@@ -165,7 +165,7 @@ Bitmap make_wood_grain(Vec3 light, Vec3 dark, int rings) {
     const auto to_unit = [](int i, int n) { return static_cast<float>(i) / static_cast<float>(n); };
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-            // A circle in x and in y makes the noise wrap around.
+            // The noise wraps around because x and y each go round a circle in it.
             const float u = 2.0f * kPi * to_unit(x, kWidth), v = to_unit(y, kHeight);
             const float warp =
                 fractal_noise({std::cos(u) * 0.6f, std::sin(u) * 0.6f, 3.0f * v * (1.0f - v)}, 3);

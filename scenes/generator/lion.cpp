@@ -21,7 +21,7 @@ void carve_body(Carving& lion) {
     lion.add(solid_cone({0, 0.5f, 0.06f}, kHead, 0.16f, 0.15f), 0.06f);
 }
 
-/// Toes in a row, each with a claw, at the front of a paw.
+/// Carves a row of toes with claws at the front of a paw.
 void carve_toes(Carving& lion, Vec3 paw, float width) {
     for (int toe = 0; toe < 4; ++toe) {
         const float place = (static_cast<float>(toe) - 1.5f) / 1.5f;
@@ -43,7 +43,7 @@ void carve_legs(Carving& lion) {
         const Vec3 hind{x * 0.25f, 0.04f, 0.0f};
         lion.add(solid_ellipsoid(hind, {0.062f, 0.045f, 0.11f}), 0.02f);
         carve_toes(lion, hind, 0.042f);
-        // A flame of hair at the elbow and one on the haunch.
+        // There is a flame of hair at the elbow and one on the haunch.
         for (int lock = 0; lock < 3; ++lock) {
             const float s = static_cast<float>(lock);
             lion.add(solid_curl({x * (0.255f - 0.005f * s), 0.27f - 0.06f * s, -0.2f + 0.055f * s},
@@ -84,7 +84,7 @@ void carve_mouth(Carving& lion) {
     }
 }
 
-/// A bulging eye with a drilled pupil between two lids.
+/// Carves a bulging eye with a drilled pupil between two lids.
 void carve_eye(Carving& lion, float x) {
     const Vec3 eye{x * 0.088f, 0.768f, 0.293f};
     lion.cut(solid_ellipsoid(eye + Vec3{0, 0, 0.02f}, {0.05f, 0.038f, 0.03f}), 0.012f);
@@ -126,7 +126,7 @@ void carve_face(Carving& lion) {
     }
 }
 
-/// Rows of curls over the back and the sides of the head and down the neck.
+/// Carves rows of curls over the back and the sides of the head and down the neck.
 void carve_mane(Carving& lion) {
     constexpr int kRows = 6;
     for (int row = 0; row < kRows; ++row) {
@@ -136,7 +136,7 @@ void carve_mane(Carving& lion) {
             const float around = kPi * (static_cast<float>(i) + (row % 2 == 1 ? 0.0f : 0.5f)) /
                                  static_cast<float>(count - (row % 2 == 1 ? 1 : 0));
             const Vec3 arch{std::cos(around) * 1.12f, std::sin(around), 0.0f};
-            // The arch over the head, leaning further back with each row.
+            // The arch of each row over the head leans further back than that of the row before.
             const float back = std::sin(tilt), up = std::cos(tilt);
             const Vec3 out = normalize({arch.x, arch.y * up - 0.28f * back * (1.0f - arch.y),
                                         -back * (0.25f + 0.75f * arch.y) + 0.18f * up});
@@ -159,7 +159,7 @@ void carve_mane(Carving& lion) {
     }
 }
 
-/// Collar with tassels and a bell at the chest.
+/// Carves a collar with tassels and a bell at the chest.
 void carve_collar(Carving& lion) {
     for (int i = 0; i <= 16; ++i) {
         const float around = kPi * (static_cast<float>(i) / 16.0f);
@@ -203,7 +203,7 @@ Mesh make_guardian_lion(float cell) {
     carve_collar(lion);
     carve_face(lion);
     carve_mane(lion);
-    // It sits flat, a little into what carries it.
+    // The lion's base is flat and reaches a little into the plinth.
     lion.cut([](Vec3 p) { return p.y + 0.004f; }, 0.004f);
     lion.set_roughness(chisel_marks, 0.006f);
     return lion.mesh({{-0.38f, -0.03f, -0.52f}, {0.38f, 1.02f, 0.5f}}, cell);

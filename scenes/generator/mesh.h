@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangle meshes of the scene generator. Metres, +Y up, counter-clockwise seen from outside.
+// Triangle meshes of the scene generator, in metres with +Y up. Triangles are counter-clockwise seen from
+// outside.
 #pragma once
 
 #include <array>
@@ -16,27 +17,29 @@ struct Mesh {
     std::vector<std::array<uint, 3>> triangles;
 
     uint add_vertex(Vec3 position, Vec3 normal, float u = 0.0f, float v = 0.0f);
-    /// Drops triangles with two corners at the same place (poles of lathes and tubes).
+    /// Adds a triangle unless two of its corners are at the same place, as at the poles of lathes and tubes.
     void add_triangle(uint a, uint b, uint c);
     void add_quad(uint a, uint b, uint c, uint d);
     Mesh& append(const Mesh& other);
 };
 
 Mesh operator+(Mesh a, const Mesh& b);
-/// Mirroring transforms keep the outside outside.
+/// The mesh transformed by the matrix. If the matrix mirrors, triangles are turned over so that their fronts
+/// stay outside.
 Mesh transformed(Mesh mesh, const Mat4& matrix);
 Mesh moved(Mesh mesh, Vec3 offset);
 Mesh turned(Mesh mesh, Vec3 axis, float degrees);
 Mesh scaled(Mesh mesh, Vec3 factors);
-/// One normal a triangle.
+/// The mesh with one normal per triangle.
 Mesh faceted(const Mesh& mesh);
-/// Area-weighted normals over all corners at the same place.
+/// The mesh with normals that are the area-weighted means over all corners at the same place.
 Mesh smoothed(Mesh mesh);
-/// Moves every vertex along its normal by `amplitude` times noise of the given frequency (1/m).
+/// The mesh with every vertex moved along its normal by `amplitude` (m) times noise of the given frequency
+/// (1/m).
 Mesh roughened(Mesh mesh, float amplitude, float frequency);
 Aabb bounds(const Mesh& mesh);
 
-/// An object of several materials: the meshes by the name of their part, which becomes the file name.
+/// An object of several materials. It has one mesh per part, and the part's name becomes the file name.
 class Model {
   public:
     Model() = default;
@@ -44,7 +47,7 @@ class Model {
 
     void add(const std::string& part, const Mesh& mesh) { parts_[part].append(mesh); }
     void add(const Model& other, const Mat4& placement = Mat4{});
-    /// Turned about the vertical, then moved.
+    /// Adds a model that is turned about the vertical, then moved.
     void place(const Model& other, Vec3 position, float degrees = 0.0f);
 
     [[nodiscard]] const std::map<std::string, Mesh>& parts() const { return parts_; }

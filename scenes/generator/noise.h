@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lattice noise: smooth, deterministic, the same on every machine that rounds as IEEE 754 says.
+// Lattice noise: smooth, deterministic, and the same on every machine with IEEE 754 arithmetic.
 #pragma once
 
 #include "host/base/math.h"
 
 namespace nearlight::core::scenes {
 
-/// In [-1, 1], one random value a lattice point of unit spacing, interpolated with zero slope there.
+/// Noise in [-1, 1] with one random value per point of a lattice of unit spacing, interpolated with zero
+/// slope at the points.
 float value_noise(Vec3 p);
-/// Sum of octaves, each of half the amplitude and twice the frequency; about [-1, 1].
+/// Noise in about [-1, 1]: a sum of octaves, each with half the amplitude and twice the frequency of the one
+/// before.
 float fractal_noise(Vec3 p, int octaves);
 
 }  // namespace nearlight::core::scenes

@@ -12,7 +12,7 @@ Mesh turn_vessel(std::initializer_list<Vec3> outside, float thickness) {
     return lathe(vessel(Curve(outside), thickness, 6), kSegments);
 }
 
-/// The liquid's surface: a flat disc, its rim inside the vessel's wall.
+/// The surface of a liquid: a flat disc whose rim is inside the vessel's wall.
 Mesh make_liquid(float radius, float height) {
     return moved(cylinder(radius, 0.004f, 0.0015f, kSegments), {0, height - 0.004f, 0});
 }
@@ -21,7 +21,7 @@ Mesh make_spout(std::initializer_list<Vec3> points, float root, float tip) {
     return tube(spline(Curve(points), 12), {{root, 0.75f * root, 0.6f * (root + tip), tip, tip}, 1.0f, 32});
 }
 
-/// Two parts of a vessel: what is below the height, and what is above.
+/// Adds a vessel as two parts, one below the height and one above.
 void add_dipped(Model& model, const Mesh& mesh, float height, const std::string& below,
                 const std::string& above) {
     const auto [low, high] = split(mesh, [&](Vec3 p) { return p.y < height; });
@@ -230,7 +230,7 @@ Model make_gourd(const std::string& glaze, const std::string& trim) {
     return pot;
 }
 
-/// Leans on edge against the wall behind it (−z), on its rim.
+/// A plate that stands on its rim and leans against the wall behind it (−z).
 Model make_leaning_plate(const std::string& glaze, const std::string& trim) {
     Model plate(glaze,
                 turn_vessel({at(0.06f, 0), at(0.065f, 0.006f), at(0.1f, 0.016f), at(0.12f, 0.026f)}, 0.005f));

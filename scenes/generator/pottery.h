@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vessels; all stand on y = 0, about the y axis.
+// Vessels, which all stand on y = 0 about the y axis.
 #pragma once
 
 #include "scenes/generator/curves.h"
@@ -7,22 +7,23 @@
 
 namespace nearlight::core::scenes {
 
-/// A handle in the half plane z = 0, x > 0 through the points (distance from axis, height).
+/// A handle in the half plane z = 0, x > 0, through the points (distance from the axis, height).
 Mesh make_handle(std::span<const Vec3> points, float radius);
-/// Parts `glaze` and coffee.
+/// A mug with the parts `glaze` and coffee.
 Model make_mug(const std::string& glaze);
-/// Parts `glaze` and tea.
+/// A cup and saucer with the parts `glaze` and tea.
 Model make_cup_and_saucer(const std::string& glaze);
-/// The spout points to +x. Parts `glaze`, `trim` and spout_hole.
+/// A teapot whose spout points to +x. Its parts are `glaze`, `trim` and spout_hole.
 Model make_teapot(const std::string& glaze, const std::string& trim);
 Model make_sugar_bowl(const std::string& glaze, const std::string& trim);
-/// A tin with a lid and a coloured band. Parts `body`, `band`.
+/// A tin with a lid and a coloured band. Its parts are `body` and `band`.
 Model make_tea_caddy(const std::string& body, const std::string& band);
 
-/// What the potters of the showcase make.
+/// The kinds of pots in the showcase.
 enum class Pot { round_vase, bottle, bowl, amphora, jug, goblet, jar, tall_vase, gourd, plate };
 inline constexpr int kPotKinds = 10;
-/// About 0.2 m tall (bowl: wide), its lower part and its rim or rings of another part.
+/// A pot about 0.2 m tall (bowl: wide). Its lower part and its rim or rings are the part `trim`, the rest is
+/// `glaze`.
 Model make_pot(Pot kind, const std::string& glaze, const std::string& trim);
 /// A storage crock of the given height with a lid, two lugs and two painted rings.
 Model make_crock(float height, const std::string& glaze, const std::string& trim, bool lid);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes, each as meshes by part and bitmaps by name.
+// The scenes, each with its meshes by part and its bitmaps by name.
 #pragma once
 
 #include <map>

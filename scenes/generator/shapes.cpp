@@ -57,7 +57,8 @@ void add_box_face(Mesh& mesh, const BoxLattice& lattice, int axis, bool far_side
     }
 }
 
-/// Quads between rings of `segments` + 1 vertices each, the last of a ring at the place of the first.
+/// Adds quads between rings of `segments` + 1 vertices each. The last vertex of a ring is at the place of the
+/// first.
 void connect_rings(Mesh& mesh, size_t rings, int segments) {
     const auto stride = static_cast<uint>(segments + 1);
     for (uint ring = 0; ring + 1 < rings; ++ring) {
@@ -89,7 +90,7 @@ float interpolate(const std::vector<float>& values, float t) {
     return values[index] * (1.0f - rest) + values[next] * rest;
 }
 
-/// Centre, radius and lean of the normal of one ring of a tube.
+/// One ring of a tube: its centre, its radius and the lean of its normals.
 struct TubeRing {
     Vec3 center, forward;
     float radius;
@@ -123,7 +124,8 @@ std::vector<TubeRing> tube_rings(const Curve& curve, const TubeShape& shape) {
     return rings;
 }
 
-/// The surface moved along its normals, which point away from the middle of the sheet.
+/// Adds one side of a sheet: the surface moved along its normals, which point away from the middle of the
+/// sheet.
 void add_sheet_side(Mesh& mesh, const std::function<Vec3(float, float)>& surface, int u_steps, int v_steps,
                     float offset) {
     constexpr float h = 1e-3f;
@@ -139,7 +141,7 @@ void add_sheet_side(Mesh& mesh, const std::function<Vec3(float, float)>& surface
     }
 }
 
-/// A strip between the upper edge from a to b and the lower one, with a normal of its own.
+/// Adds a strip, with its own normal, between the upper edge from a to b and the lower edge.
 void add_sheet_rim(Mesh& mesh, uint a, uint b, uint below) {
     const std::array<Vertex, 4> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[below + b],
                                         mesh.vertices[below + a]};
@@ -152,7 +154,7 @@ void add_sheet_rim(Mesh& mesh, uint a, uint b, uint below) {
     mesh.add_quad(first, first + 1, first + 2, first + 3);
 }
 
-/// The triangles with only the vertices that they use.
+/// A mesh of the triangles with only the vertices that they use.
 Mesh compacted(const std::vector<Vertex>& vertices, const std::vector<std::array<uint, 3>>& triangles) {
     constexpr uint kUnused = ~0u;
     std::vector<uint> renumbered(vertices.size(), kUnused);

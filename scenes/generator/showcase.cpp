@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A gallery of ceramics: a display cabinet full of pots, crocks under and beside it, more in the hall behind.
+// A gallery of ceramics: a display cabinet full of pots, with crocks under and beside it and more in the hall
+// behind.
 #include "scenes/generator/furniture.h"
 #include "scenes/generator/pottery.h"
 #include "scenes/generator/scenes.h"
@@ -64,7 +65,7 @@ struct ShelfPlan {
     int first_color;
 };
 
-/// Glaze and trim.
+/// Pairs of glaze and trim.
 std::vector<std::array<std::string, 2>> glazes() {
     return {{"glaze_cobalt", "glaze_cream"},     {"glaze_celadon", "glaze_iron"},
             {"glaze_red", "glaze_cream"},        {"glaze_cream", "glaze_cobalt"},

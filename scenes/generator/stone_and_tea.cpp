@@ -12,7 +12,7 @@ namespace {
 constexpr float kTable = 0.76f;
 constexpr float kLionScale = 0.55f;
 
-/// The lion on its plinth of three courses, about 0.6 high.
+/// The lion on its plinth of three courses, about 0.6 m high.
 Model make_statue(float detail) {
     Model statue;
     statue.add("plinth", box({0.42f, 0.035f, 0.52f}, 0.006f, 3));
@@ -127,7 +127,7 @@ Model make_chest(Vec3 size) {
     return chest;
 }
 
-/// A cloth on a rod, its border and ornament of golden rings.
+/// A cloth on a rod, with a border and an ornament of golden rings.
 Model make_hanging(float width, float height) {
     Model hanging("hanging", moved(box({width, height, 0.05f}, 0.015f), {0, 0, 0}));
     hanging.add("brass",

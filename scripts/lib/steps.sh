@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# For scripts to source, with `set -o pipefail`: run a command with its output in a log, and show on one line how far it is.
+# Functions for scripts, which source this file with `set -o pipefail`. They run a command with its output in a log,
+# and show its progress on one line.
 
 progress_title=
 trap 'echo "$progress_title interrupted" >&2; exit 130' INT
@@ -8,8 +9,9 @@ minutes_and_seconds() { # SECONDS
     printf '%d:%02d' $(($1 / 60)) $(($1 % 60))
 }
 
-# progress_line COUNT TOTAL FIRST SECONDS: " 34 %  [########................]  1:20 left". The estimate of the time left
-# supposes that all counted things take equally long; FIRST of them were done when SECONDS began. It is shown after 2 s.
+# progress_line COUNT TOTAL FIRST SECONDS: prints a line such as " 34 % [######..........] 1:20 left". The estimate of
+# the time left assumes that all counted things take equally long; FIRST of them were done when SECONDS began. It is
+# shown after 2 s.
 progress_line() {
     local bar left=
     printf -v bar '%*s' $((24 * $1 / $2)) ''
@@ -20,7 +22,7 @@ progress_line() {
     printf '%3d %%  [%s]%s' $((100 * $1 / $2)) "${bar// /.}" "$left"
 }
 
-# count_line LINE: sets `count` and `total` of the caller where a line of output tells them.
+# count_line LINE: sets `count` and `total` of the caller if a line of output contains them.
 count_line() {
     if [[ $1 =~ ^\[([0-9]+)/([0-9]+)\] || $1 =~ ^\ *([0-9]+)/([0-9]+)\ Test\ +# ]]; then # ninja, ctest
         count=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]}
@@ -33,8 +35,8 @@ count_line() {
     fi
 }
 
-# show_progress TITLE <OUTPUT: on a terminal one line that is updated every second, elsewhere one for every tenth. Before
-# the first count nothing is drawn, so that sudo can ask for a password.
+# show_progress TITLE <OUTPUT: shows on a terminal one line that is updated every second, elsewhere one line for every
+# tenth. Nothing is drawn before the first count, so that sudo can ask for a password.
 show_progress() {
     local title=$1 part line='' count=0 total=0 start='' first=0 tenth=0 shown
     trap '' INT # The output goes on until the command has stopped.
@@ -60,7 +62,7 @@ show_progress() {
     [ ! -t 1 ] || printf '\r\033[K'
 }
 
-# run_logged LOG TITLE COMMAND…: returns the command's status.
+# run_logged LOG TITLE COMMAND…: runs the command and returns its status.
 run_logged() {
     local log=$1 start=$SECONDS status=0 warnings
     progress_title=$2
@@ -77,7 +79,8 @@ run_logged() {
     return "$status"
 }
 
-# run_step LOG TITLE COMMAND…: as run_logged, but where the command fails, shows the end of the log and exits with its status.
+# run_step LOG TITLE COMMAND…: runs the command like run_logged; if it fails, shows the end of the log and exits with
+# its status.
 run_step() {
     local status=0
     run_logged "$@" || status=$?
