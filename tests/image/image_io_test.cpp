@@ -3,70 +3,17 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
-#include <fstream>
 
 #include "host/base/random.h"
 #include "host/image/color.h"
-#include "nearlight/error.h"
+#include "tests/image/image_checks.h"
 #include "tests/image/temporary_folder.h"
 
 namespace nearlight::core {
 namespace {
 
+using namespace image_checks;
 namespace fs = std::filesystem;
-
-Image noise(int width, int height, std::vector<std::string> channels) {
-    Image image = make_image(width, height, std::move(channels));
-    Pcg32 random(7);
-    for (float& value : image.values) {
-        value = random.uniform() * 4.0f - 1.0f;
-    }
-    return image;
-}
-
-const std::vector<std::string> kLayers{"R", "G", "B", "indirect.R", "indirect.G", "indirect.B", "depth.Z"};
-
-std::string read_text(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-/// The message of the Error that `action` throws with code `code`.
-template <typename Action>
-std::string error_of(ErrorKind code, Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), code) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
-}
-
-/// Values of channels by name: a file may order them in its own way.
-void expect_same(const Image& a, const Image& b) {
-    ASSERT_EQ(a.width, b.width);
-    ASSERT_EQ(a.height, b.height);
-    ASSERT_EQ(a.channel_count(), b.channel_count());
-    for (std::size_t c = 0; c < a.channel_count(); ++c) {
-        const int other = b.find_channel(a.channels[c]);
-        ASSERT_GE(other, 0) << a.channels[c];
-        for (int y = 0; y < a.height; ++y) {
-            for (int x = 0; x < a.width; ++x) {
-                ASSERT_EQ(a.at(x, y, c), b.at(x, y, static_cast<std::size_t>(other)))
-                    << a.channels[c] << " at " << x << ", " << y;
-            }
-        }
-    }
-}
 
 TEST(ImageIo, ExrKeepsEveryChannelBitForBit) {
     const TemporaryFolder folder;
@@ -258,149 +205,6 @@ TEST(ImageIo, BrokenBytesNeverBreakTheReader) {
             }
         }
     }
-}
-
-TEST(ImageIo, RowsInAnyPortions) {
-    const TemporaryFolder folder;
-    const Image image = noise(9, 23, kLayers);
-    const std::size_t row = 9 * kLayers.size();
-    for (const char* name : {"a.exr", "a.png"}) {
-        ImageWriter writer(folder / name, 9, 23, kLayers);
-        std::size_t written = 0;
-        for (const std::size_t count : {1u, 0u, 3u, 7u, 12u}) {
-            writer.write_rows(std::span(image.values).subspan(written * row, count * row));
-            written += count;
-        }
-        writer.commit();
-        write_image(folder / (std::string("whole-") + name), image);
-        expect_same(read_image(folder / (std::string("whole-") + name)), read_image(folder / name));
-    }
-}
-
-TEST(ImageIo, MissingRowsAreZero) {
-    const TemporaryFolder folder;
-    Image image = noise(5, 8, {"R", "G", "B"});
-    ImageWriter writer(folder / "a.exr", 5, 8, image.channels);
-    writer.write_rows(std::span(image.values).first(5 * 3 * 3));
-    writer.commit();
-    std::fill(image.values.begin() + 5 * 3 * 3, image.values.end(), 0.0f);
-    expect_same(image, read_image(folder / "a.exr"));
-}
-
-TEST(ImageIo, PartialOrTooManyRowsAreRefused) {
-    const TemporaryFolder folder;
-    ImageWriter writer(folder / "a.exr", 2, 2, {"R", "G", "B"});
-    const std::vector<float> values(2 * 3 * 3);
-    error_of(ErrorKind::failure, [&] { writer.write_rows(std::span(values).first(7)); });
-    error_of(ErrorKind::failure, [&] { writer.write_rows(values); });
-}
-
-TEST(ImageIo, OldFileSurvivesUntilCommit) {
-    const TemporaryFolder folder;
-    const Image old_image = noise(8, 8, {"R", "G", "B"});
-    write_image(folder / "a.exr", old_image);
-    {
-        ImageWriter abandoned(folder / "a.exr", 3, 3, {"R", "G", "B"});
-        abandoned.write_rows(std::vector<float>(3 * 3 * 2));
-        EXPECT_EQ(folder.file_count(), 2u);
-    }
-    EXPECT_EQ(folder.file_count(), 1u);
-    expect_same(old_image, read_image(folder / "a.exr"));
-    const Image new_image = noise(3, 5, {"R", "G", "B"});
-    write_image(folder / "a.exr", new_image);
-    EXPECT_EQ(folder.file_count(), 1u);
-    expect_same(new_image, read_image(folder / "a.exr"));
-}
-
-TEST(ImageIo, MovedWriterOwnsTheFile) {
-    const TemporaryFolder folder;
-    ImageWriter writer(folder / "a.exr", 1, 1, {"R", "G", "B"});
-    ImageWriter other(folder / "b.exr", 1, 1, {"R", "G", "B"});
-    other = std::move(writer);
-    EXPECT_EQ(folder.file_count(), 1u);
-    other.commit();
-    EXPECT_TRUE(fs::exists(folder / "a.exr"));
-    EXPECT_EQ(folder.file_count(), 1u);
-}
-
-TEST(ImageIo, UnwritablePlacesAreErrors) {
-    const TemporaryFolder folder;
-    const Image image = noise(2, 2, {"R", "G", "B"});
-    EXPECT_NE(
-        error_of(ErrorKind::file, [&] { write_image(folder / "none/a.exr", image); }).find("No such file"),
-        std::string::npos);
-    write_text(folder / "file", "");
-    error_of(ErrorKind::file, [&] { write_image(folder / "file/a.exr", image); });
-    fs::create_directory(folder / "folder.exr");
-    error_of(ErrorKind::file, [&] { write_image(folder / "folder.exr", image); });
-    EXPECT_EQ(folder.file_count(), 2u);
-    error_of(ErrorKind::invalid_argument, [&] { write_image(folder / "a.gif", image); });
-    error_of(ErrorKind::invalid_argument, [&] { write_image(folder / "a", image); });
-    error_of(ErrorKind::file, [&] { write_image(folder / "a.png", noise(2, 2, {"Y"})); });
-    EXPECT_EQ(folder.file_count(), 2u);
-}
-
-/// A limit on file sizes stands in for a full disk: writes fail in the same way.
-class SmallDisk {
-  public:
-    explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &old_limit_);
-        rlimit limit = old_limit_;
-        limit.rlim_cur = bytes;
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~SmallDisk() {
-        setrlimit(RLIMIT_FSIZE, &old_limit_);
-        std::signal(SIGXFSZ, old_handler_);
-    }
-    SmallDisk(const SmallDisk&) = delete;
-    SmallDisk& operator=(const SmallDisk&) = delete;
-
-  private:
-    rlimit old_limit_{};
-    void (*old_handler_)(int);
-};
-
-TEST(ImageIo, FullDiskIsAnErrorAtWhateverByteItFills) {
-    const TemporaryFolder folder;
-    const Image image = noise(40, 33, kLayers);
-    for (const char* name : {"a.exr", "a.png"}) {
-        write_image(folder / name, image);
-        const auto size = fs::file_size(folder / name);
-        const std::string old_text = read_text(folder / name);
-        for (const auto limit : {std::uintmax_t{0}, std::uintmax_t{100}, size / 2, size - 1}) {
-            const SmallDisk disk(limit);
-            error_of(ErrorKind::file, [&] { write_image(folder / name, image); });
-        }
-        EXPECT_EQ(read_text(folder / name), old_text);
-    }
-    EXPECT_EQ(folder.file_count(), 2u);
-}
-
-long peak_kilobytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-}
-
-TEST(ImageIo, StreamingKeepsMemoryLow) {
-    const TemporaryFolder folder;
-    constexpr int kWidth = 8192;
-    constexpr int kHeight = 512;
-    std::vector<std::string> channels;
-    for (int c = 0; c < 17; ++c) {
-        channels.push_back("layer" + std::to_string(c) + ".Y");
-    }
-    const std::vector<float> rows(16u * kWidth * channels.size(), 0.5f);
-    ImageWriter writer(folder / "big.exr", kWidth, kHeight, channels);
-    writer.write_rows(rows);
-    const long before = peak_kilobytes();
-    for (int y = 16; y < kHeight; y += 16) {
-        writer.write_rows(rows);
-    }
-    writer.commit();
-    // The whole picture has 285 MB.
-    EXPECT_LT(peak_kilobytes() - before, 80 * 1024);
 }
 
 }  // namespace
