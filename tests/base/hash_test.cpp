@@ -47,7 +47,7 @@ TEST(Hasher, TellsArraysApartThatAreSplitElsewhere) {
     EXPECT_EQ(hash_of({1, 2}, {3}), hash_of({1, 2}, {3}));
 }
 
-/// Neither half meets another's.
+/// No two hashes have the same upper or lower half.
 TEST(Hash128, DiffersForTextsThatHardlyDiffer) {
     const std::string text = "what is kept in a cache has a key";
     std::set<std::uint64_t> halves;

@@ -33,8 +33,8 @@ TEST(StudentT, TailsAreThoseOfTheTables) {
     EXPECT_EQ(student_t_tail(0.0, 5), 1.0);
 }
 
-// With one degree of freedom it is Cauchy's distribution, with two its integral is algebraic, and with a
-// great many it is the normal one.
+// With one degree of freedom Student's t is Cauchy's distribution, with two its integral is algebraic, and
+// with very many it is the normal distribution.
 TEST(StudentT, TailsAreThoseOfClosedForms) {
     for (const double t : {1e-6, 0.1, 1.0, 1.7, 3.0, 40.0, 1e5}) {
         const double cauchy = 2.0 / std::numbers::pi * std::atan2(1.0, t);

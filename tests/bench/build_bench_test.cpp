@@ -55,7 +55,7 @@ TEST(TreeSteps, CountWhatAPlainTraversalFinds) {
     const TreeSteps one = count_steps(bvh, vpls, receivers, 1);
     EXPECT_EQ(one.rays, rays);
     EXPECT_EQ(one.occluded, occluded_rays);
-    EXPECT_GT(one.nodes_per_packet, one.nodes_per_ray);  // a packet visits what any of its rays does
+    EXPECT_GT(one.nodes_per_packet, one.nodes_per_ray);  // a packet visits the nodes of all its rays
     const TreeSteps four = count_steps(bvh, vpls, receivers, 4);
     EXPECT_EQ(four.nodes_per_ray, one.nodes_per_ray);
     EXPECT_EQ(four.triangles_per_packet, one.triangles_per_packet);

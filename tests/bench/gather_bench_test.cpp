@@ -18,7 +18,7 @@
 namespace nearlight::core::test {
 namespace {
 
-/// What a camera sees of a room full of noisy spheres, and VPLs in it.
+/// Receivers that a camera sees in a room full of noisy spheres, and VPLs in the room.
 struct Workload {
     Scene scene;
     Bvh bvh;
@@ -39,7 +39,7 @@ constexpr float kClampRadius = 0.05f;
 
 class GatherBenchTest : public DeviceTest {
   protected:
-    /// One gather of the work; `pairs` says what became of each pair.
+    /// One gather of the work; `pairs` gets the result of each pair.
     static std::vector<IrradiancePacket> gather(Device& device, GatherKernel kernel, const Workload& work,
                                                 std::vector<GatherPair>& pairs) {
         const DeviceTree tree = upload_tree(device, work.bvh, kernel);
@@ -53,7 +53,7 @@ class GatherBenchTest : public DeviceTest {
     }
 };
 
-/// Receivers whose irradiance differs by more than rounding.
+/// Number of receivers whose irradiance differs by more than rounding.
 std::size_t count_different(const std::vector<IrradiancePacket>& a, const std::vector<IrradiancePacket>& b) {
     std::size_t count = 0;
     for (std::size_t p = 0; p < a.size(); ++p) {
@@ -72,7 +72,7 @@ TEST_F(GatherBenchTest, IrradianceAgreesWithTheReferenceGather) {
     on_each_device([&](Device& device) {
         for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
             std::vector<GatherPair> pairs;
-            // One ray at an edge in 1e5 changes one receiver.
+            // Of 1e5 rays, one may pass an edge and change a receiver.
             EXPECT_LE(count_different(gather(device, kernel, work, pairs), expected), 5u);
         }
     });
@@ -140,7 +140,7 @@ struct Answered {
     TracerAnswer truth;
 };
 
-/// A segment that stays away from all edges.
+/// Finds a segment that passes no edge closely.
 std::pair<std::size_t, std::uint64_t> clear_ray(const Answered& room) {
     for (std::size_t word = 0; word < room.segments.rays.size(); ++word) {
         const std::uint64_t lane = room.segments.rays[word] & -room.segments.rays[word];

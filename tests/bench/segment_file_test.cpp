@@ -21,7 +21,7 @@ void expect_refusal(const std::string& text, Action&& action) {
     EXPECT_TRUE(mentions(error, text));
 }
 
-constexpr std::size_t kHeaderBytes = 48;  // with the magic
+constexpr std::size_t kHeaderBytes = 48;  // including the magic number
 
 class SegmentFile : public testing::Test {
   protected:
@@ -123,7 +123,7 @@ TEST_F(SegmentFile, RefusesWrongContents) {
     expect_refusal("vertex", [&] { read_with(triangles_at() + 8, vertices); });
     expect_refusal("VPL", [&] { read_with(vpls_at() + 32, infinity); });
     expect_refusal("receiver", [&] { read_with(last_receiver, infinity); });
-    // 20 × 12 pixels in tiles of 8 × 8: the last has no receiver in its last lane.
+    // The picture has 20 × 12 pixels in tiles of 8 × 8, so the last tile has no receiver in its last lane.
     expect_refusal("not there", [&] { read_with(bytes_.size() - 8, ~std::uint64_t{0}); });
 }
 

@@ -88,7 +88,8 @@ TEST(BvhBuild, DegenerateAndHugeTriangles) {
     EXPECT_TRUE(std::isfinite(build_all(scene).sah_cost));
 }
 
-// Each plane parts the largest triangle from all others, so that a tree by cost alone would be a list.
+// Each plane separates the largest triangle from all others, so that a tree built by cost alone would be a
+// list.
 TEST(BvhBuild, DepthIsBoundedOnAGeometricSeries) {
     Scene scene = test::scene_of_one_material();
     for (int copy = 0; copy < 20; ++copy) {
@@ -99,7 +100,7 @@ TEST(BvhBuild, DepthIsBoundedOnAGeometricSeries) {
     }
     const Bvh bvh = build_all(scene, {.bin_count = 8, .max_leaf_triangles = 1});
     EXPECT_THAT(check_bvh(bvh, scene, all_ids(scene)), IsEmpty());
-    EXPECT_GT(bvh.depth, 30);  // the series does what it is for
+    EXPECT_GT(bvh.depth, 30);  // the series makes a deep tree
     EXPECT_LE(bvh.depth, NEARLIGHT_MAX_BVH_DEPTH);
 }
 
@@ -142,12 +143,13 @@ TEST(BvhBuild, CostOfTwoSeparateTriangles) {
     add_triangle(scene, {9, 0, 0}, {10, 0, 0}, {9, 1, 0});
     const BvhConfig config{.max_leaf_triangles = 4, .traversal_cost = 0.5f, .intersection_cost = 2.0f};
     const Bvh bvh = build_all(scene, config);
-    // Half areas: 1 each in a box of 10. One node, and each triangle with chance 1/10.
+    // The half areas are 1 each in a box of 10, so a ray visits one node and tests each triangle with
+    // probability 1/10.
     EXPECT_NEAR(bvh.sah_cost, 0.5 + 2 * 2.0 * 0.1, 1e-4);
 }
 
-/// Chance-weighted cost below a child, found from the leaves up: the half areas of boxes in units of the
-/// root's.
+/// Cost below a child, weighted by probability and summed from the leaves up. Half areas of boxes are in
+/// units of the root's.
 double cost_below(const Bvh& bvh, uint child, const Aabb& box, double root_area) {
     const double chance = box.half_area() / root_area;
     if (is_leaf(child)) {

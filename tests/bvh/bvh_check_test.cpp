@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker must see what it is there for.
+// The checker must find each kind of corruption.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Complaints about a sound tree after `corrupt` was at it.
+/// The checker's complaints about a sound tree after `corrupt` has changed it.
 std::vector<std::string> complaints_after(const std::function<void(Bvh&)>& corrupt) {
     const Scene scene = test::random_soup(200, 0.5f, 11);
     Bvh bvh = test::build_all(scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trees with cut triangles: sound, cheaper where they should be, and no ray falls between the parts.
+// Trees with cut triangles are sound and, where expected, cheaper, and no ray passes between the parts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -34,7 +34,7 @@ void expect_sound_and_small(const Scene& scene, const BvhConfig& config = kQuali
               1.0f + static_cast<float>(scene.triangles.size()) * (1.0f + config.max_duplication));
 }
 
-/// Two triangles that fill a wall, slanting, before a crowd of specks.
+/// Two slanting triangles that fill a wall in front of many specks.
 Scene huge_and_tiny() {
     Scene scene = random_soup(3000, 0.02f, 31);
     add_triangle(scene, {-6, -6, -6}, {6, -6, 5}, {6, 6, 6});
@@ -97,7 +97,7 @@ TEST(BvhQuality, NothingIsCutWhereNothingOverlaps) {
     EXPECT_EQ(build_all(scene, kQuality).triangles.size(), scene.triangles.size());
 }
 
-/// Both trees find the same distance: triangles are tested by the same code.
+/// Checks that both trees find the same distances, which the same code computes.
 void expect_same_hits(const Scene& scene, std::uint64_t seed) {
     const Bvh fast = build_all(scene);
     const Bvh quality = build_all(scene, {.quality = BvhQuality::quality, .max_duplication = 1.0f});
@@ -105,7 +105,7 @@ void expect_same_hits(const Scene& scene, std::uint64_t seed) {
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
         const Vec3 origin = random_point(random, 16.0f);
-        // Every other ray aims at a point of some triangle.
+        // Every other ray aims at a point on a triangle.
         const auto at =
             static_cast<std::size_t>(random.uniform() * static_cast<float>(scene.triangles.size()));
         const Triangle& triangle = scene.triangles[std::min(at, scene.triangles.size() - 1)];
@@ -134,7 +134,7 @@ TEST(BvhQuality, HitsAreThoseOfTheFastTree) {
 TEST(BvhQuality, ThreadsDoNotChangeTheResult) {
     Scene scene = random_soup(100000, 0.1f, 10);
     for (std::size_t i = 0; i < scene.vertices.size(); i += 50) {
-        scene.vertices[i].position *= 0.5f;  // long ones
+        scene.vertices[i].position *= 0.5f;  // makes triangles long
     }
     const auto build_with = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -179,7 +179,7 @@ TEST(ChildOrder, KeepsTheTreeSoundAndIsTheSameEachTime) {
     EXPECT_NEAR(sah_cost(bvh, {}), cost, 1e-9 * cost);
 }
 
-// Segments between two walls: a screen stops those on one side, specks stop none on the other.
+// Segments between two walls. A screen stops those on one side; specks on the other side stop none.
 TEST(ChildOrder, WhatOccludesComesFirst) {
     for (const float side : {-1.0f, 1.0f}) {
         SCOPED_TRACE(side);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traversal against a loop over all triangles in double precision.
+// Compares the traversal with a loop over all triangles in double precision.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ Double3 cross(Double3 a, Double3 b) {
 struct ExactHit {
     double t = kInfinity;
     uint triangle = ~0u;
-    double margin = kInfinity;  ///< how far the decision is from turning over, of all triangles seen
+    double margin = kInfinity;  ///< minimum over all triangles of the distance at which the decision changes
 };
 
 /// Cramer's rule for o + t·d = v0 + u·e1 + v·e2.
@@ -100,7 +100,7 @@ TEST(BvhTraverse, AxisAlignedRaysThroughAxisAlignedTriangles) {
     Pcg32 random(23);
     int hits = 0;
     for (int i = 0; i < 3000; ++i) {
-        // In every third ray the coordinates across lie in the planes of squares and on their edges.
+        // Every third ray has its transverse coordinates in the planes of squares and on their edges.
         const bool on_planes = i % 3 == 0;
         const auto coordinate = [&] {
             return on_planes ? std::floor(random.uniform() * 6) : random.uniform() * 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Large boxes find better places; the tree stays sound, and never grows too deep.
+// Reinsertion finds better places for large boxes. The tree stays sound and never becomes too deep.
 #include "host/bvh/reinsertion.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ BeforeAndAfter reinsert(const Scene& scene) {
     return {std::move(before), flatten(std::move(tree), scene, {})};
 }
 
-/// Specks all over a room, and its walls: each one rectangle, of two triangles, at a distance of 6.
+/// Specks throughout a room, and its walls. Each wall is a rectangle of two triangles at a distance of 6.
 Scene room() {
     Scene scene = random_soup(20000, 0.05f, 21);
     for (const float side : {-6.0f, 6.0f}) {
@@ -80,8 +80,8 @@ TEST(Reinsertion, LeavesHugeAndFlatScenesAlone) {
     }
 }
 
-/// A leaf a level, each smaller than the one above; at the bottom, far away, one that belongs at the top,
-/// which would bring the others down by a level.
+/// A tree with one leaf per level, each smaller than the one above. The lowest leaf is far away and belongs
+/// at the top, where it would push the others down by a level.
 SahTree chain(int depth) {
     SahTree tree;
     const auto box = [](int i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles to build trees over.
+// Sets of triangles for which tests build trees.
 #pragma once
 
 #include <cstddef>
@@ -64,7 +64,7 @@ inline Scene diagonals(int count, std::uint64_t seed) {
     return scene;
 }
 
-/// An n × n × n block of axis-aligned unit squares at whole coordinates, two triangles each.
+/// A cube of n × n × n axis-aligned unit squares at integer coordinates, of two triangles each.
 inline Scene aligned_squares(int n) {
     Scene scene = scene_of_one_material();
     for (int i = 0; i < n * n * n; ++i) {

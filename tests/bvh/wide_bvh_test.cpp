@@ -30,7 +30,7 @@ TEST(WideBvh, HoldsTheBinaryTree) {
 TEST(WideBvh, HoldsFlatBoxesAndFullLeaves) {
     const Bvh flat = test::build_all(test::aligned_squares(9));
     EXPECT_THAT(check_wide_bvh(widen(flat), flat), IsEmpty());
-    // Sixteen triangles a leaf fill four blocks.
+    // A leaf of sixteen triangles fills four blocks.
     const Bvh full = test::build_all(test::random_soup(3000, 5.0f, 4),
                                      {.max_leaf_triangles = 16, .traversal_cost = 100.0f});
     EXPECT_THAT(check_wide_bvh(widen(full), full), IsEmpty());
@@ -74,7 +74,7 @@ double surface(const WideNode& node, std::size_t i) {
         .half_area();
 }
 
-/// Surface of all nodes below the root.
+/// Sum of the surface areas of all nodes below the root.
 double surface_of_nodes(const WideBvh& wide) {
     double sum = 0.0;
     for (const WideNode& node : wide.nodes) {
@@ -85,7 +85,8 @@ double surface_of_nodes(const WideBvh& wide) {
     return sum;
 }
 
-/// The same of the tree in which a node takes over its child of the largest surface until it has eight.
+/// Sum of the surface areas of the nodes in the tree in which each node takes over its child of the largest
+/// surface until it has eight children.
 double greedy_surface(const Bvh& bvh, const CollapsePlan& plan, uint node) {
     const auto both = [&](uint of) {
         const BvhNode& n = bvh.nodes[of];
@@ -122,7 +123,7 @@ TEST(WideBvh, HasLessSurfaceThanTakingOverTheLargestChildren) {
     }
 }
 
-/// Complaints about a sound tree after `corrupt` was at it.
+/// The checker's complaints about a sound tree after `corrupt` has changed it.
 std::vector<std::string> complaints_after(const std::function<void(WideBvh&)>& corrupt) {
     const Bvh bvh = test::build_all(test::random_soup(200, 0.5f, 11));
     WideBvh wide = widen(bvh);

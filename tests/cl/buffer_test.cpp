@@ -18,7 +18,7 @@ using test::mentions;
 
 class BufferTest : public test::DeviceTest {};
 
-/// Holds back whatever is enqueued after it until open() or its end.
+/// Holds back everything that is enqueued after it until open() or its destruction.
 class Gate {
   public:
     explicit Gate(Device& device) : event_(device.context()) {
@@ -40,7 +40,7 @@ class Gate {
     bool is_open_ = false;
 };
 
-/// Counts buffers whose memory OpenCL has given up; outlives them, as their callbacks need.
+/// Counts the buffers whose memory OpenCL has released. It outlives them, because their callbacks use it.
 std::atomic<int> deleted_buffers{0};
 
 void count_when_deleted(const Buffer<uint>& buffer) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host and device see the same structs: sizes and offsets as kernels/layout_probe.cl finds them.
+// Checks that sizes and offsets of structs on the device, which kernels/layout_probe.cl finds, are those on
+// the host.
 #include <gtest/gtest.h>
 
 #include "host/cl/kernel.h"

@@ -60,7 +60,7 @@ void wait_for(const Program& program, const std::string& kernel) {
     static_cast<void>(program.kernel(kernel));
 }
 
-/// On a device that has compiled nothing yet, as a process that has just started has it.
+/// Uses a device that has compiled nothing yet, as in a process that has just started.
 uint run_answer(const Device& like, const Defines& defines = {}) {
     Device device(like.entry(),
                   {.kernel_dir = like.options().kernel_dir, .cache_dir = like.options().cache_dir});
@@ -81,7 +81,7 @@ TEST_F(ProgramTest, SecondBuildComesFromTheCache) {
     on_each_own_device([&](Device& device) {
         run_answer(device);
         ASSERT_EQ(cached_files().size(), 1u);
-        // A build that compiled would write the file anew.
+        // A build that compiled would write the file again.
         const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1000);
         std::filesystem::last_write_time(cached_files()[0], long_ago);
         EXPECT_EQ(run_answer(device), 42u);
@@ -115,7 +115,7 @@ TEST_F(ProgramTest, DamagedCacheFileIsRebuilt) {
     });
 }
 
-/// The key in a cache file: what lies between the line with its length and the checksum.
+/// The key in a cache file, which is between the line with its length and the checksum.
 std::string key_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::string first_line;

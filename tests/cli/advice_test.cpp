@@ -26,7 +26,7 @@ TEST(Advice, IsLeftOutWhereNoOptionHelps) {
     EXPECT_EQ(with_advice(Error(ErrorKind::file, "room.obj:2: broken")), "room.obj:2: broken");
 }
 
-/// The help of the commands knows every option that is advised, whatever setting the rooms blame.
+/// Every option in the advice for any setting that the rooms name is in the help of a command.
 TEST(Advice, OptionsExist) {
     const std::string help = run_program("render --help").output + run_program("compare --help").output +
                              run_program("bench gather --help").output;

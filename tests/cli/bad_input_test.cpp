@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people and disks do wrong, through the real program: one clear line, the contract's exit code, and old
-// pictures left alone.
+// Mistakes of users and failures of disks, tried with the real program. Each must give one clear line and the
+// documented exit code, and leave old pictures alone.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -51,7 +51,7 @@ class BadInput : public testing::Test {
     std::filesystem::path good_scene() const { return write_scene(kRoom + kLamp); }
     [[nodiscard]] std::filesystem::path picture() const { return folder_ / "picture.png"; }
 
-    /// Renders a small picture, unless `more` wants another size, where an old one is. `before` is set in
+    /// Renders over an old picture. The new one is small unless `more` has another size. `before` stands in
     /// front of the program, as in `VAR=value`.
     ProgramResult render(const std::filesystem::path& scene, const std::string& more = "",
                          const std::string& before = "") {
@@ -81,7 +81,7 @@ class BadInput : public testing::Test {
     TemporaryFolder folder_;
 };
 
-/// Those that reach a device.
+/// The errors that need a device.
 class BadInputOnDevice : public BadInput {
   protected:
     void SetUp() override { NEARLIGHT_NEEDS_DEVICE(); }
@@ -162,7 +162,7 @@ TEST_F(BadInput, Outputs) {
     expect_error(render(scene, "-o " + quoted(folder_ / "none" / "x.png")), 3, "there is no folder");
     std::filesystem::create_directory(folder_ / "folder.png");
     expect_error(render(scene, "-o " + quoted(folder_ / "folder.png")), 3, "it is a folder");
-    if (geteuid() != 0) {  // nothing is read-only for root
+    if (geteuid() != 0) {  // root may write to read-only files
         std::filesystem::permissions(write("fixed.png", ""), std::filesystem::perms::owner_read);
         expect_error(render(scene, "-o " + quoted(folder_ / "fixed.png")), 3, "read-only");
     }
@@ -198,7 +198,7 @@ TEST_F(BadInputOnDevice, BrokenKernel) {
 
 TEST_F(BadInputOnDevice, MoreThanMemoryHolds) {
     expect_error(render(good_scene(), "--size 65536x65536"), 6, "use a smaller --size");
-    // One GiB; where the device is not PoCL's, its memory may well be enough.
+    // This is one GiB, which a device that is not PoCL's may have.
     const ProgramResult result =
         render(good_scene(), "--vpls 4000000 --direct-samples 1", "POCL_MEMORY_LIMIT=1");
     if (result.exit_code != 0) {

@@ -14,8 +14,8 @@ std::size_t count(const std::string& text, const std::string& part) {
     return found;
 }
 
-/// Embree with one ray and with 16, coherent or not, of which the coherent one is wrong for 400 of a million
-/// rays and the first hundred are itemised; and ours, which differs for one.
+/// The result for Embree with one ray and with 16, coherent or not, and for our kernel. The coherent one is
+/// wrong for 400 of a million rays, of which the first hundred are listed; our kernel differs for one ray.
 GatherBenchResult made_up_result() {
     GatherBenchResult result;
     result.after_culling = 1'000'000;

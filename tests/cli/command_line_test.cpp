@@ -13,7 +13,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// An error is one line that starts with the program's name, and leaves standard output alone.
+/// Checks that an error is one line that starts with the program's name, and that standard output is empty.
 void expect_error(const ProgramResult& result, int exit_code, const std::string& part) {
     EXPECT_EQ(result.exit_code, exit_code);
     EXPECT_EQ(result.output, "");

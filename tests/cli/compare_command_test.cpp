@@ -19,7 +19,7 @@ class Compare : public testing::Test {
     [[nodiscard]] std::string command(const std::string& options) const {
         return "compare " + quoted(scene_) + " -o " + quoted(output_) + " " + options;
     }
-    /// Small enough for a test.
+    /// Options of a comparison that is small enough for a test.
     static constexpr const char* kSmall = "--size 16x12 --vpls 20,60 --seeds 2 --reference-spp 32 ";
 
     TemporaryFolder folder_;
@@ -41,7 +41,7 @@ TEST_F(Compare, WritesAReportAndOneJsonObject) {
     for (const char* file : {"report.html", "equal_vpls.csv", "equal_rmse.csv"}) {
         EXPECT_GT(file_text(output_ / file).size(), 100u) << file;
     }
-    // All of it is found again, and the errors are the same.
+    // The second run reuses everything and has the same errors.
     const ProgramResult again = run_program(command(std::string(kSmall) + "--json"));
     const nlohmann::json second = nlohmann::json::parse(again.output);
     EXPECT_EQ(second.at("cells").at("measured"), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The number of threads that the driver uses does not show in the picture.
+// The picture does not depend on the number of threads that the driver uses.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,7 +14,7 @@
 namespace nearlight::core {
 namespace {
 
-/// image_hash of a render with so many threads of PoCL; other drivers take no notice.
+/// image_hash of a render with `threads` threads of PoCL; other drivers ignore the number.
 std::string hash_with_threads(const std::filesystem::path& scene, const std::filesystem::path& output,
                               const char* threads, int seed) {
     setenv("POCL_MAX_PTHREAD_COUNT", threads, 1);

@@ -9,7 +9,7 @@
 namespace nearlight::core {
 namespace {
 
-// Each in a process of its own: signals are the process's.
+// Each test runs in its own process, because signals affect the whole process.
 
 [[noreturn]] void interrupt_once(int signal) {
     catch_interrupts();

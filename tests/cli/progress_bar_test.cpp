@@ -42,7 +42,7 @@ TEST(ProgressBar, OddFractionsAreBounded) {
               progress_line("a", 0.0, 0.0));
 }
 
-/// A terminal in place of standard error, as long as it lives.
+/// Replaces standard error by a terminal during its lifetime.
 class Terminal {
   public:
     Terminal() : terminal_(posix_openpt(O_RDWR | O_NOCTTY)), old_errors_(dup(STDERR_FILENO)) {
@@ -61,7 +61,7 @@ class Terminal {
     Terminal& operator=(const Terminal&) = delete;
 
     [[nodiscard]] static bool works() { return isatty(STDERR_FILENO) == 1; }
-    /// What was written, if anything was. The kernel hands it on in pieces, so silence of a while means the
+    /// The text that was written. The operating system delivers it in pieces, so a long silence means its
     /// end.
     [[nodiscard]] std::string read_all() const {
         std::string text;
@@ -93,8 +93,8 @@ TEST(ProgressBar, OnTheTerminalItIsDrawnSeldomAndCleared) {
     const std::string text = terminal.read_all();
     EXPECT_TRUE(text.starts_with("\r" + progress_line("gathering", 0.25, 0.0) + "\033[K")) << text;
     EXPECT_TRUE(text.ends_with("\033[K\r\033[K")) << text;
-    // A thousand updates in a row take far less than the tenth of a second after which a line is drawn anew;
-    // a busy machine may stretch that, but not a hundredfold.
+    // A thousand updates take far less than a tenth of a second, after which a line is drawn again. On a busy
+    // machine they may take longer, but not a hundred times as long.
     EXPECT_LT(std::count(text.begin(), text.end(), '\r'), 100);
 }
 

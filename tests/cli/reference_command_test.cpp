@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Seen from above, as good as a single point.
+/// A scene whose camera looks from above at what is almost a single point.
 std::string floor_from_above() {
     return lit_floor({.max_depth = 2, .fov_degrees = 0.1f, .origin = "0, 0, 3", .width = 8, .height = 6});
 }
@@ -82,7 +82,7 @@ TEST_F(Reference, ResumingRefinesWhatIsThere) {
     const Image refined = read_image(output_);
     EXPECT_EQ(std::get<int>(read_metadata(output_).at("nearlight:samplesPerPixel")), 24);
 
-    // Where there is nothing yet, all is done at once, and comes to the same.
+    // Without an earlier picture, all samples are done at once, with the same result.
     std::filesystem::remove(output_);
     ASSERT_EQ(run_program(options + " --spp 24 --resume").exit_code, 0);
     const Image whole = read_image(output_);
@@ -97,7 +97,8 @@ TEST_F(Reference, ResumingRefinesWhatIsThere) {
 
 TEST_F(Reference, ResumingKeepsItsBatches) {
     ASSERT_EQ(run_program("reference --spp 16 " + files()).exit_code, 0);
-    ASSERT_EQ(run_program("reference --spp 33 --resume " + files()).exit_code, 0);  // alone: batches of 4
+    ASSERT_EQ(run_program("reference --spp 33 --resume " + files()).exit_code,
+              0);  // a new picture has batches of 4
     const Metadata metadata = read_metadata(output_);
     EXPECT_EQ(std::get<int>(metadata.at("nearlight:samplesPerBatch")), 1);
     EXPECT_EQ(std::get<int>(metadata.at("nearlight:samplesPerPixel")), 33);

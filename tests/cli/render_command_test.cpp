@@ -16,7 +16,7 @@
 namespace nearlight::core {
 namespace {
 
-/// Whether the channel is anything but zero somewhere.
+/// Whether the channel has a value other than zero.
 bool has_content(const Image& image, const std::string& name) {
     const auto channel = static_cast<std::size_t>(image.find_channel(name));
     for (std::size_t i = channel; i < image.values.size(); i += image.channel_count()) {
@@ -61,7 +61,7 @@ TEST_F(Render, TakesNoMoreThreadsThanItMay) {
     const nlohmann::json one = rendered("--threads 1", output_);
     const nlohmann::json plain = rendered("", output_);
     EXPECT_EQ(one["image_hash"], plain["image_hash"]);
-    if (one["device"].at(0).get<std::string>().starts_with("pthread")) {  // PoCL's
+    if (one["device"].at(0).get<std::string>().starts_with("pthread")) {  // a device of PoCL
         EXPECT_EQ(one["compute_units"], nlohmann::json::array({1}));
     }
     EXPECT_EQ(render("--threads -1", output_).exit_code, 2);
@@ -80,7 +80,7 @@ TEST_F(Render, BothTreesGiveTheSamePicture) {
         different +=
             std::abs(fast.values[i] - quality.values[i]) > 1e-4f * std::abs(quality.values[i]) + 1e-6f;
     }
-    // A ray through an edge that two triangles share may meet either.
+    // A ray through an edge that two triangles share may hit either of them.
     EXPECT_LE(different, fast.values.size() / 200);
 }
 
@@ -110,7 +110,7 @@ TEST_F(Render, PassesAreCountedInJsonAndInTheFile) {
     const Metadata metadata = read_metadata(output_);
     EXPECT_EQ(metadata.at("nearlight:passes"), Metadata::mapped_type{3});
     EXPECT_EQ(metadata.at("nearlight:vpls"), Metadata::mapped_type{static_cast<int>(gathered(three))});
-    // Same passes, same bits.
+    // The same passes must give the same bits.
     EXPECT_EQ(rendered("--passes 3", output_)["image_hash"], three["image_hash"]);
 }
 

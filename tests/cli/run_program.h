@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the real program, as a shell would.
+// Runs the real program in a shell.
 #pragma once
 
 #include <sys/wait.h>
@@ -25,8 +25,8 @@ inline std::string file_text(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// `arguments` are words of a shell command line, redirections included; so is what stands before the
-/// program, as in `VARIABLE=value`.
+/// Runs the program. `arguments`, and the text before the program, such as `VARIABLE=value`, are words of a
+/// shell command line and may have redirections.
 inline ProgramResult run_program(const std::string& arguments, const std::string& before = "") {
     const TemporaryFolder folder;
     const std::string command = before + " " + NEARLIGHT_PROGRAM + " >" + (folder / "output").string() +
@@ -36,13 +36,14 @@ inline ProgramResult run_program(const std::string& arguments, const std::string
             file_text(folder / "errors")};
 }
 
-/// Runs the program and presses Ctrl-C after `seconds`; if it had not `begun` by then, again and after twice
-/// as long, because how soon it begins depends on how busy the machine is.
+/// Runs the program and presses Ctrl-C after `seconds`. If it had not `begun` by then, it runs again with
+/// twice the time, because other load may delay it.
 template <typename Begun>
 ProgramResult run_interrupted(const std::string& arguments, double seconds, const Begun& begun) {
     constexpr double kMax = 128;
     for (;; seconds *= 2) {
-        // In the foreground, for else `timeout` interrupts its whole group too, and a second interrupt kills.
+        // The program must be in the foreground, because `timeout` would otherwise also interrupt its whole
+        // group, and a second interrupt ends the program.
         ProgramResult result = run_program(
             arguments, "timeout --foreground --preserve-status --signal=INT " + std::to_string(seconds));
         if (begun(result) || result.exit_code != 130 || seconds > kMax) {

@@ -34,7 +34,7 @@ TEST(SceneSummary, JsonTellsWhatIsThere) {
     EXPECT_EQ(json["lights"]["triangles"], 1);
     EXPECT_EQ(json["lights"]["points"], 0);
     EXPECT_TRUE(json["lights"]["environment"].is_null());
-    EXPECT_NEAR(json["lights"]["power"], 3.0 * 3.14159265, 1e-4);  // π times 3 m²
+    EXPECT_NEAR(json["lights"]["power"], 3.0 * 3.14159265, 1e-4);  // π times 3 m² of lamp
     EXPECT_EQ(json["bounds"]["max"].dump(), "[2.0,3.0,0.0]");
     EXPECT_EQ(json["camera"]["position"].dump(), "[0.0,0.0,5.0]");
     EXPECT_NEAR(json["camera"]["direction"][2], -1.0, 1e-6);

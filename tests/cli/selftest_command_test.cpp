@@ -35,7 +35,7 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
     }
 }
 
-/// A kernel that does not compute what it should is found: one with a planted fault, read from a folder.
+/// The selftest finds a wrong kernel: one with a planted fault, which is read from a folder.
 TEST(Selftest, ABrokenKernelFailsItsCheckAndNoOther) {
     NEARLIGHT_NEEDS_DEVICE();
     const TemporaryFolder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `render --device` with several devices, on two of PoCL's.
+// Tests `render --device` with two devices of PoCL.
 #include <gtest/gtest.h>
 
 #include <algorithm>

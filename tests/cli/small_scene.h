@@ -9,12 +9,12 @@ namespace nearlight::core {
 struct SmallView {
     int max_depth;
     float fov_degrees;
-    const char* origin;  ///< looks at the middle of the floor
+    const char* origin;  ///< position of the camera, which looks at the middle of the floor
     int width;
     int height;
 };
 
-/// A floor of 2 m × 2 m, 1 m below a point light of 1 W/sr; `more` is put into the scene.
+/// A floor of 2 m × 2 m, 1 m below a point light of 1 W/sr; `more` is added to the scene.
 inline std::string lit_floor(const SmallView& view, const std::string& more = {}) {
     const auto entry = [](const char* type, const char* name, auto value) {
         return std::string("<") + type + " name=\"" + name + "\" value=\"" + std::to_string(value) + "\"/>";
@@ -36,7 +36,7 @@ inline std::string lit_floor(const SmallView& view, const std::string& more = {}
            "\n</scene>";
 }
 
-/// The floor and a wall behind it, 64 × 48 pixels; `more` is put into the scene.
+/// The floor and a wall behind it, 64 × 48 pixels; `more` is added to the scene.
 inline std::string floor_and_wall(const std::string& more = {}) {
     return lit_floor({.max_depth = 5, .fov_degrees = 60, .origin = "0, -1, 3", .width = 64, .height = 48},
                      R"(<shape type="rectangle">

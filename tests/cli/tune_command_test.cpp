@@ -16,7 +16,7 @@ class Tune : public testing::Test {
         return run_program("tune --repeats 1 --triangles 500 --json --cache-dir " + quoted(folder_.path()) +
                            " " + options);
     }
-    /// What `devices` says of the first device.
+    /// The facts that `devices` prints about the first device.
     [[nodiscard]] nlohmann::json tunables_in_use() const {
         const ProgramResult result = run_program("devices --json --cache-dir " + quoted(folder_.path()));
         return nlohmann::json::parse(result.output)["devices"][0]["tunables"];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole bench on a small room: what is measured, what is found again, what is refused.
+// The whole comparison on a small room: which cells it measures, which it reuses, and which input it refuses.
 #include "host/compare/comparison.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ Scene corner() {
     return scene;
 }
 
-/// Goes on until so many cells were measured.
+/// An observer that stops after a number of cells.
 struct Stopper {
     std::size_t cells_left = 1000;
     bool measuring = false;
@@ -107,7 +107,7 @@ TEST_F(ComparisonTest, MeasuresOnlyWhatIsNew) {
         EXPECT_EQ(second->reused_cells, 8u);
         EXPECT_EQ(second->measured_cells, 10u);
         EXPECT_EQ(second->scenes[0].reference.seconds, 0.0);
-        more.max_depth = 4;  // other light, another reference: nothing of it is known
+        more.max_depth = 4;  // the light and the reference differ, so nothing is reused
         EXPECT_EQ(run(device, corner(), more)->reused_cells, 0u);
         std::filesystem::remove_all(more.output);
     });
@@ -172,7 +172,7 @@ TEST_F(ComparisonTest, TakesAReferenceThatFitsAndRefusesOthers) {
         CompareSettings given = settings("given");
         given.reference_files = {file};
         write(16, scene_hash(scene));
-        const auto comparison = run(device, scene, given);  // its clamp radius is adopted
+        const auto comparison = run(device, scene, given);  // the comparison uses the file's clamp radius
         EXPECT_EQ(comparison->scenes[0].facts.clamp_radius, 0.1f);
         EXPECT_EQ(comparison->scenes[0].reference.file, file.string());
         const auto refused = [&](const std::string& because) {

@@ -8,7 +8,7 @@
 namespace nearlight::core {
 namespace {
 
-/// RMSE = scale / √VPLs, seconds = a thousandth a VPL, times `slowness`.
+/// A curve with RMSE = scale / √VPLs and `slowness` thousandths of a second per VPL.
 Curve half_power(double scale, double slowness = 1.0) {
     Curve curve;
     for (const double vpls : {100.0, 400.0, 1600.0}) {
@@ -20,7 +20,7 @@ Curve half_power(double scale, double slowness = 1.0) {
 TEST(EqualRmse, ARivalTwiceAsWrongNeedsFourTimesTheVpls) {
     const auto groups = equal_rmse(std::vector{half_power(1.0), half_power(2.0, 0.5)}, 0);
     ASSERT_EQ(groups.size(), 3u);
-    EXPECT_DOUBLE_EQ(groups[0].rmse, 0.1);  // from the worst to the best
+    EXPECT_DOUBLE_EQ(groups[0].rmse, 0.1);  // groups go from the largest RMSE to the smallest
     EXPECT_DOUBLE_EQ(groups[2].rmse, 0.025);
     const EqualRmseRow& own = groups[0].rows[0];
     EXPECT_EQ(own.reach, Reach::measured);

@@ -53,7 +53,7 @@ TEST(Pictures, ScaleMakesBrightPartsBright) {
             picture.at(x, 0, c) = x < 97 ? 0.01f : 500.0f;
         }
     }
-    EXPECT_NEAR(display_scale(picture), 70.0f, 0.01f);  // lamps do not count
+    EXPECT_NEAR(display_scale(picture), 70.0f, 0.01f);  // the few pixels of lamps have no effect
     EXPECT_EQ(display_scale(make_picture(3, 3)), 1.0f);
 }
 
@@ -102,7 +102,7 @@ TEST(PictureError, IsThatOfDiff) {
 }
 
 TEST(PictureError, TheNoiseOfTheReferenceIsTakenOff) {
-    // The picture is right; the reference is off by ±0.1 and knows it.
+    // The picture is right. The reference is wrong by ±0.1, and its variance says so.
     Reference reference = reference_of(random_picture(64, 64, 3));
     const Image picture = reference.picture;
     for (std::size_t i = 0; i < reference.picture.values.size(); ++i) {

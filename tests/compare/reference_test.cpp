@@ -124,7 +124,7 @@ TEST(Reference, OfVplsLearnsItsNoiseFromItsPasses) {
     EXPECT_EQ(count, 8u);
     EXPECT_NEAR(reference->picture.values[3], 2.0, 1e-6);
     EXPECT_NEAR(reference->noise.mean_variance, 1.0 / 7.0,
-                1e-6);  // sample variance 8/7, of the mean of eight
+                1e-6);  // sample variance 8/7, divided by 8 for the mean
 }
 
 TEST(Reference, WithInfiniteVarianceHasUnknownNoise) {
@@ -135,7 +135,7 @@ TEST(Reference, WithInfiniteVarianceHasUnknownNoise) {
     EXPECT_EQ(reference->noise.mean_variance, 0.0);
 }
 
-/// A file as `nearlight reference` writes it.
+/// Writes a file like those of `nearlight reference`.
 class ReferenceFile : public testing::Test {
   protected:
     void write(const Metadata& changes = {}, int width = 2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON, CSV, HTML and Markdown of a comparison made by hand.
+// Tests the JSON, CSV, HTML and Markdown of a comparison with chosen numbers.
 #include "host/compare/report.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ std::string decoded(const std::string& text) {
     return bytes;
 }
 
-/// Encoded data may spell anything.
+/// The page without encoded data, which may contain any words.
 std::string without_pictures(std::string page) {
     const std::string mark = ";base64,";
     for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
@@ -219,8 +219,8 @@ TEST_F(Report, EveryPictureInTheHtmlDecodes) {
         EXPECT_EQ(image.width, 4);
         EXPECT_NEAR(image.at(1, 1, 0), 188.0 / 255.0, 1e-3);  // 0.5 in sRGB
     }
-    // Overview, VPLs; for each count the reference and its crop, and for each of two methods picture, error
-    // and crop.
+    // The pictures are the overview and the VPLs, and for each count the reference and its crop, and for each
+    // of two methods its picture, error map and crop.
     EXPECT_EQ(count, 2 + 2 * (2 + 2 * 3));
     const std::string svg = "src=\"data:image/svg+xml;base64,";
     const std::size_t begin = page.find(svg) + svg.size();

@@ -67,7 +67,7 @@ TEST(CompareLists, CropsAreFourNumbers) {
     }
 }
 
-/// What check_settings() says after a change of the defaults: the setting, and the message.
+/// The setting and the message of the Error that check_settings() throws after a change of the defaults.
 template <typename Change>
 std::string complaint(Change&& change) {
     CompareSettings settings;

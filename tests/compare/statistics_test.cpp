@@ -60,7 +60,7 @@ TEST(Statistics, APowerLawIsFoundExactly) {
 }
 
 TEST(Statistics, AFitThroughScatteredPointsIsTheOneOfLeastSquares) {
-    // Logarithms to base e: x = 0, 1, 2 and y = 0, 2, 1 have slope 1/2 and intercept 1/2.
+    // The natural logarithms x = 0, 1, 2 and y = 0, 2, 1 have slope 1/2 and intercept 1/2.
     const auto law = fit_power_law(std::array{1.0, std::exp(1.0), std::exp(2.0)},
                                    std::array{1.0, std::exp(2.0), std::exp(1.0)});
     ASSERT_TRUE(law);

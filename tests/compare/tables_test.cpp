@@ -89,7 +89,7 @@ TEST(Curves, ThePolicyOfThePaperIsKnownToBeBiased) {
 }
 
 TEST(NoiseRemark, SpeaksUpFromAThirdOfTheSmallestRmseOn) {
-    const auto rows = equal_vpls_rows(two_methods(), cells_with(1.0));  // the smallest is 0.05
+    const auto rows = equal_vpls_rows(two_methods(), cells_with(1.0));  // the smallest RMSE is 0.05
     Reference reference{.picture = {}, .method = "path tracing", .samples = 100};
     EXPECT_NE(noise_remark(reference, rows).find("unknown"), std::string::npos);
     reference.noise = {.known = true, .mean_variance = 0.016 * 0.016};

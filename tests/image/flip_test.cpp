@@ -40,7 +40,7 @@ Pixels checkerboard(int width, int height, int cell) {
     return pixels;
 }
 
-/// Mean of the (2·radius + 1)² pixels around each.
+/// The picture in which each pixel is the mean of the (2·radius + 1)² pixels around it.
 Pixels blurred(int width, int height, const Pixels& pixels, int radius) {
     Pixels result;
     for (int y = 0; y < height; ++y) {
@@ -115,7 +115,7 @@ TEST(Flip, GrowsWithBlurAndNoise) {
 }
 
 TEST(Flip, FinePatternsBlendAtAViewingDistance) {
-    // One pixel wide stripes of black and white, 67 to a degree, look almost like a shifted copy of
+    // Black and white stripes one pixel wide, at 67 pixels per degree, look almost like a shifted copy of
     // themselves.
     Pixels even;
     Pixels odd;
@@ -130,7 +130,7 @@ TEST(Flip, FinePatternsBlendAtAViewingDistance) {
 TEST(Flip, TinyPicturesAndBrightOnesAreFine) {
     EXPECT_NEAR(mean_flip(1, 1, {{0, 0, 0}}, {{1, 1, 1}}), 0.967, 2e-3);
     EXPECT_GT(mean_flip(1, 3, constant(3, {0, 0, 0}), constant(3, {1, 0, 0})), 0.3);
-    // Beyond white there is only white.
+    // Values above white count as white.
     EXPECT_EQ(mean_flip(3, 2, constant(6, {1, 1, 1}), constant(6, {50, 90, 7})), 0.0);
 }
 

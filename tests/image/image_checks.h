@@ -24,7 +24,8 @@ inline Image noise(int width, int height, std::vector<std::string> channels) {
     return image;
 }
 
-inline const std::vector<std::string> kLayers{"R", "G", "B", "indirect.R", "indirect.G", "indirect.B", "depth.Z"};
+inline const std::vector<std::string> kLayers{"R",          "G",          "B",      "indirect.R",
+                                              "indirect.G", "indirect.B", "depth.Z"};
 
 inline std::string read_text(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -35,7 +36,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// The message of the Error that `action` throws with code `code`.
+/// The message of the Error of kind `code` that `action` must throw.
 template <typename Action>
 std::string error_of(ErrorKind code, Action action) {
     try {
@@ -48,7 +49,7 @@ std::string error_of(ErrorKind code, Action action) {
     return {};
 }
 
-/// Values of channels by name: a file may order them in its own way.
+/// Compares the values of channels by name, because a file may order channels differently.
 inline void expect_same(const Image& a, const Image& b) {
     ASSERT_EQ(a.width, b.width);
     ASSERT_EQ(a.height, b.height);

@@ -115,7 +115,7 @@ TEST(ImageIo, AlphaIsNotMultiplied) {
     EXPECT_FLOAT_EQ(image.at(0, 0, 3), 0.2f);
 }
 
-/// What other programs write, in formats that we only read.
+/// Files as other programs write them, in formats that we only read.
 class Readable : public testing::TestWithParam<const char*> {
   protected:
     static void write_other(const fs::path& file, int width, int height) {

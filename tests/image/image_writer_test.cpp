@@ -94,7 +94,7 @@ TEST(ImageIo, UnwritablePlacesAreErrors) {
     EXPECT_EQ(folder.file_count(), 2u);
 }
 
-/// A limit on file sizes stands in for a full disk: writes fail in the same way.
+/// Simulates a full disk by a limit on file sizes, which makes writes fail in the same way.
 class SmallDisk {
   public:
     explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -23,7 +23,7 @@ TEST(Metrics, HandComputedValues) {
     const Image a = picture(2, 1, {1, 2, 3, 0, 0, 0});
     const Image b = picture(2, 1, {1, 1, 1, 0, 0.1f, 0});
     const ImageDifference difference = compare_images(a, b);
-    // Squared differences: 0, 1, 4, 0, 0.01, 0.
+    // The squared differences are 0, 1, 4, 0, 0.01 and 0.
     EXPECT_NEAR(difference.rmse, std::sqrt(5.01 / 6.0), 1e-6);
     EXPECT_NEAR(difference.relative_mse, (1.0 / 1.01 + 4.0 / 1.01 + 0.01 / 0.02) / 6.0, 1e-6);
     const double luminance_a = 0.2126 + 2 * 0.7152 + 3 * 0.0722;

@@ -9,7 +9,7 @@
 
 namespace nearlight::core {
 
-/// Made empty, removed with everything in it at the end.
+/// A folder that is created empty, and removed with its contents at the end.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

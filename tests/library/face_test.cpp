@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes, devices and sessions as a program of others uses them.
+// Tests scenes, devices and sessions as other programs use them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(LibraryScene, MissingFilesAreErrors) {
     EXPECT_THAT(error->what(), HasSubstr("nosuch.xml"));
 }
 
-/// One session for all cases, because each compiles kernels.
+/// One session serves all cases, because each session compiles kernels.
 class LibrarySession : public testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -123,7 +123,7 @@ TEST_F(LibrarySession, LightsCarryTheReflectedFlux) {
     EXPECT_NEAR(red, 0.5 * 2.0943951, 0.02);
 }
 
-/// At the picture's centre the camera sees the floor's centre, of radiance ρ·E/π.
+/// At the picture's centre the camera sees the floor's centre, whose radiance is ρ·E/π.
 TEST_F(LibrarySession, StepsAndOneCallMakeTheSamePicture) {
     const View view = session().look();
     const VplSet vpls = session().sample(view, {.vpl_count = 100});

@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Two pixels with a beauty and a depth.
+/// An image of two pixels with beauty and depth.
 Image two_pixels() {
     return {.width = 2,
             .height = 1,
@@ -66,7 +66,8 @@ TEST_F(ImageFiles, ExrKeepsEveryBit) {
     EXPECT_EQ(read.values, two_pixels().values);
 }
 
-/// By the sRGB curve of IEC 61966-2-1 after a doubling: 0.25 becomes 0.5, encoded as 188 of 255.
+/// Values are doubled, then encoded with the sRGB curve of IEC 61966-2-1: 0.25 becomes 0.5, which is encoded
+/// as 188 of 255.
 TEST_F(ImageFiles, PngIsToneMapped) {
     write_image(file("a.png"), two_pixels(), {.exposure = 1.0f});
     const Image read = read_image(file("a.png"));

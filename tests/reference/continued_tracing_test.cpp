@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Batches, seeds and pictures that are stopped, saved and continued.
+// Tests batches and seeds, and pictures that are stopped, saved and continued.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -60,7 +60,7 @@ TEST(PathTracer, StoppingKeepsTheMeanOfWhatIsThere) {
     EXPECT_NEAR(channel_mean(image, "R"), 1.5, 0.1);
 }
 
-/// Equal but for the rounding of the sums to floats, in all channels.
+/// Checks that pictures are equal in all channels except for rounding of the sums to floats.
 void expect_same_picture(const Image& a, const Image& b) {
     ASSERT_EQ(a.channels, b.channels);
     ASSERT_EQ(a.values.size(), b.values.size());
@@ -76,14 +76,14 @@ TEST(PathTracer, GoingOnGivesWhatAllSamplesAtOnceGive) {
         PathTracerSettings settings{.width = 9, .height = 7, .spp = 160, .max_depth = 4};
         settings.batch_size = batch_size;
         const Image whole = trace_paths(scene, settings);
-        settings.spp = 16;  // with the largest batches, one: its variance is not known yet
+        settings.spp = 16;  // one of the largest batches, whose variance is not known yet
         Image parts = trace_paths(scene, settings);
         for (const int spp : {48, 160}) {
             settings.spp = spp;
             parts = trace_paths(scene, settings, {}, {.earlier = &parts});
         }
         expect_same_picture(parts, whole);
-        settings.spp = 32;  // fewer than there are: nothing is lost
+        settings.spp = 32;  // fewer samples than the picture has, so all are kept
         expect_same_picture(trace_paths(scene, settings, {}, {.earlier = &parts}), whole);
     }
 }

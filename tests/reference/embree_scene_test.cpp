@@ -28,7 +28,8 @@ std::vector<RayQuery> rays_of_family(const Scene& scene, const std::string& name
     return std::ranges::find(families, name, &RayFamily::name)->rays;
 }
 
-/// Least distance between the line o + t·d and the segment a b, by ternary search (it is convex along b − a).
+/// Minimum distance between the line o + t·d and the segment a b, by ternary search, because the distance is
+/// convex along b − a.
 double line_to_segment(Vec3 o, Vec3 d, Vec3 a, Vec3 b) {
     const Vec3 unit = normalize(d);
     const auto distance = [&](double s) {
@@ -73,8 +74,8 @@ double cosine_to(const Scene& scene, uint id, Vec3 direction) {
     return std::abs(dot(normalize(n), normalize(direction)));
 }
 
-/// Embree must agree with brute force; where not, the nearer of the two triangles must be one that the ray
-/// touches at an edge. Each such tie is printed.
+/// Embree must agree with brute force, except where the ray touches the nearer of the two triangles at an
+/// edge. Each such tie is printed.
 void expect_agreement(const Scene& scene, const std::vector<RayQuery>& rays, double max_tie_fraction) {
     const EmbreeScene embree(scene);
     int ties = 0;

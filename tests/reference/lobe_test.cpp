@@ -27,7 +27,8 @@ Vec3 towards(double cosine) {
     return {static_cast<float>(std::sqrt(1 - cosine * cosine)), 0, static_cast<float>(cosine)};
 }
 
-/// ∫ D·G1(i)·G1(o)/(4 cosθo) dω of a GGX mirror, by quadrature over the half vector's definition.
+/// The integral ∫ D·G1(i)·G1(o)/(4 cosθo) dω of a GGX mirror, by quadrature from the definition of the half
+/// vector.
 double rough_mirror_albedo(double alpha, double cos_o) {
     constexpr int kSteps = 1500;
     const Vec3 o = towards(cos_o);
@@ -69,7 +70,7 @@ TEST(Lobe, RoughMetalReflectsItsDirectionalAlbedo) {
 }
 
 TEST(Lobe, SmoothMetalReflectsByFresnel) {
-    // Normal incidence: ((n − 1)² + k²) / ((n + 1)² + k²); copper-like.
+    // At normal incidence the reflectance is ((n − 1)² + k²) / ((n + 1)² + k²), here for a metal like copper.
     const Vec3 f = fresnel_conductor(1.0f, {0.2f, 0.9f, 1.1f}, {3.9f, 2.5f, 2.1f});
     EXPECT_NEAR(f.x, (0.64 + 15.21) / (1.44 + 15.21), 1e-4);
     EXPECT_NEAR(f.y, (0.01 + 6.25) / (3.61 + 6.25), 1e-4);
@@ -82,7 +83,7 @@ TEST(Lobe, GlassRefractsBySnellAndReflectsTotally) {
     EXPECT_EQ(fresnel_dielectric(0.5f, 1 / 1.5f), 1.0f);
     EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5f)), 1.5f),
                 0.5f * std::pow((1.5f * 1.5f - 1) / (1.5f * 1.5f + 1), 2.0f),
-                1e-5f);  // Brewster's angle: nothing of the parallel half
+                1e-5f);  // at Brewster's angle no parallel light is reflected
     Material glass = small_scenes::lambertian({0, 0, 0});
     glass.lobe = NEARLIGHT_LOBE_DIELECTRIC;
     Surface surface = flat_surface(glass);

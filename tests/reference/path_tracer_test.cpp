@@ -32,8 +32,8 @@ TEST(PathTracer, FurnaceSumsTheGeometricSeries) {
 }
 
 TEST(PathTracer, PointLightInASphereBouncesEvenly) {
-    // Inside a sphere every point sees every other alike: each bounce brings the irradiance of the last times
-    // ρ.
+    // Inside a sphere all pairs of points have the same geometry term, so each bounce brings ρ times the
+    // irradiance of the bounce before it.
     constexpr float kAlbedo = 0.5f;
     constexpr float kRadius = 2.0f;
     Scene scene;
@@ -85,7 +85,7 @@ TEST(PathTracer, ClampBoundsTheLastConnectionOnly) {
 }
 
 TEST(PathTracer, AreaLightLightsAsLambertsFormulaSays) {
-    // Irradiance below the corner of a rectangle a × b at height h, parallel to it.
+    // The irradiance of a surface parallel to a rectangle a × b, at height h below its corner.
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
     lamp.emission = {2, 2, 2};
@@ -136,7 +136,7 @@ TEST(PathTracer, EnvironmentLightsAsItsPixelsSay) {
 }
 
 TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
-    // Seen along +Z, +X is on the left. At 90° the film is 2 wide at z = 1.
+    // The camera looks along +Z, so +X is on the left. At 90° the film is 2 wide at z = 1.
     Scene scene;
     Material red = lambertian({0, 0, 0});
     red.emission = {1, 0, 0};
@@ -156,7 +156,7 @@ TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
     }
 }
 
-/// A wall that glows from x = 0.1 on to the left, which is inside a pixel of a picture 4 wide.
+/// A wall that glows to the left of x = 0.1, an edge that is inside a pixel of a picture 4 pixels wide.
 Scene glowing_edge() {
     Scene scene;
     Material glow = lambertian({0, 0, 0});
@@ -167,8 +167,8 @@ Scene glowing_edge() {
 }
 
 TEST(PathTracer, PixelCentersSeeOneSideOfAnEdge) {
-    // At 90° the film is 2 wide; +X is on the left, so the edge crosses column 1, x from 0.5 to 0, off its
-    // centre.
+    // At 90° the film is 2 wide and +X is on the left, so the edge crosses column 1 (x from 0.5 to 0) beside
+    // its centre.
     PathTracerSettings settings{.width = 4, .height = 4, .spp = 256};
     const Image blurred = trace_paths(glowing_edge(), settings);
     settings.pixel_centers = true;
@@ -184,7 +184,7 @@ TEST(PathTracer, PixelCentersSeeOneSideOfAnEdge) {
 }
 
 TEST(PathTracer, PixelCentersAreInTheMiddle) {
-    // A floor 1 below, met 2 ahead by the ray through the middle of the picture.
+    // The floor is 1 below the camera, and the ray through the middle of the picture meets it 2 ahead.
     Scene scene;
     add_quad(scene, {-9, -1, 0}, {0, 0, 9}, {18, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
     set_camera(scene, {0, 0, 0}, {0, -1, 2}, 40);

@@ -19,7 +19,7 @@ Scene half_wall() {
     return scene;
 }
 
-/// Lane 0 in front of the wall's end, lane 1 behind the wall, the rest absent.
+/// A packet with lane 0 in front of the wall's end, lane 1 behind the wall, and the other lanes absent.
 ReceiverPacket two_receivers() {
     ReceiverPacket packet{};
     packet.px[0] = packet.px[1] = 1.0f;
@@ -48,8 +48,8 @@ TEST(ReferenceGather, SumsTheBoundedTermOfWhatIsVisible) {
     EXPECT_NEAR(irradiance[0].g[0], 2 / (kPi * 4), 1e-6);
     EXPECT_NEAR(irradiance[0].b[0], 3 / (kPi * 4), 1e-6);
     EXPECT_EQ(irradiance[0].r[2], 0.0f);
-    // To lane 1 at (1, 0, 1) the segment from (−1, 0, −1) passes x = 0 exactly at the wall's edge; step
-    // aside.
+    // The segment from (−1, 0, −1) to lane 1 at (1, 0, 1) would pass exactly through the wall's edge, so it
+    // is moved.
     const std::vector<Vpl> behind{vpl_at({-1, 0, 0}, {1, 0, 0}, {1, 1, 1})};
     gather_reference(embree, behind, 0.0f, receivers, irradiance);
     EXPECT_EQ(irradiance[0].r[1], 0.0f);
@@ -111,7 +111,7 @@ Scene facing_squares() {
     return scene;
 }
 
-/// VPLs on a grid over the upper square: what the light sends there, reflected.
+/// VPLs on a grid over the upper square that stand for the light that the square reflects.
 std::vector<Vpl> grid_of_vpls(int side) {
     std::vector<Vpl> vpls;
     for (int i = 0; i < side * side; ++i) {

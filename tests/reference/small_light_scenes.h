@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes in which the light is known, for the tests of the path tracer.
+// Scenes in which the light is known, for tests of the path tracer.
 #pragma once
 
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core::small_scenes {
 
-/// Every surface has albedo ρ and emits radiance 1, so paths of each depth d bring exactly ρ^d.
+/// A scene in which every surface has albedo ρ and emits radiance 1, so paths of depth d bring exactly ρ^d.
 inline Scene furnace(float albedo) {
     Scene scene;
     Material wall = lambertian({albedo, albedo, albedo});

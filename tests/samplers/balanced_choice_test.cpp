@@ -11,8 +11,8 @@
 namespace nearlight::core {
 namespace {
 
-/// Candidates along a line, the third number of each without rhyme or reason; weights as complete's are, in
-/// proportion to the length of the row.
+/// Candidates along a line; the third number of each is random. Their weights, like those of the policy
+/// `complete`, are proportional to the length of the row.
 struct Line {
     explicit Line(std::size_t count) {
         Pcg32 random(5);
@@ -40,7 +40,7 @@ Choice draw(const Line& line, std::size_t wanted, std::uint64_t seed) {
     return choice.finish();
 }
 
-/// Mean square error of the sums of the three numbers over the drawn.
+/// Mean square error of the sums of the three numbers over the candidates that are drawn.
 template <typename Draw>
 double error_of_sums(const Line& line, const Draw& draw_once) {
     constexpr int kDraws = 200;
@@ -92,7 +92,7 @@ TEST(BalancedChoice, BringsWhatAllWouldBetterThanEquidistantPoints) {
     EXPECT_LT(balanced, 0.2 * systematic);
 }
 
-/// Mean square error of the sums over candidates [first, last), by draws of a fifth of all.
+/// Mean square error of the sums over candidates [first, last) when a fifth of all is drawn.
 double error_of_part(const Line& line, std::size_t first, std::size_t last, bool balanced) {
     constexpr int kDraws = 100;
     double error = 0;

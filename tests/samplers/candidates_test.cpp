@@ -36,7 +36,7 @@ TEST_F(CandidatesTest, ErrorsAreNotBelowThoseOfThePartsOfThePicture) {
                 square += std::pow(judged.rows[i * row_length + k], 2.0);
             }
             seen += square > 0 ? 1 : 0;
-            // (Σ c)² ≤ n Σ c² within each group, whose rows are divided by √n.
+            // Within each group, whose rows are divided by √n, (Σ c)² ≤ n Σ c² holds.
             EXPECT_LE(std::sqrt(square), 1.001 * judged.weights[i]) << "candidate " << i;
             EXPECT_GT(judged.weights[i], 0.0f) << "candidate " << i << " could never be chosen";
         }

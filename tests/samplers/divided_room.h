@@ -12,12 +12,12 @@
 namespace nearlight::core::test {
 
 inline constexpr float kRoomAlbedo = 0.6f;
-inline constexpr float kLightFlux = 4 * kPi;  ///< W, of each colour
+inline constexpr float kLightFlux = 4 * kPi;  ///< W in each colour channel
 
 inline constexpr float kBenchClampRadius = 0.1f;
 
 /// A closed box of one albedo, in two halves that a gap joins: the light is in one, the camera in the other.
-/// Walks cannot get lost, so the flux that is reflected at depth d is kLightFlux · kRoomAlbedo^d.
+/// No walk leaves the room, so the flux that is reflected at depth d is kLightFlux · kRoomAlbedo^d.
 inline Scene divided_room() {
     using namespace small_scenes;
     Scene scene;
@@ -37,7 +37,7 @@ inline Scene divided_room() {
     return scene;
 }
 
-/// What a sampler needs, and samples of it.
+/// A sampler's input, and functions that sample with it.
 class SamplingBench {
   public:
     SamplingBench(Device& device, const Scene& scene)
@@ -62,7 +62,7 @@ class SamplingBench {
     }
     [[nodiscard]] SamplerStages& stages() { return stages_; }
     [[nodiscard]] const PilotView& view() const { return view_; }
-    /// What each VPL of a set brings to the camera.
+    /// The luminance that each VPL of a set brings to the camera.
     [[nodiscard]] std::vector<float> contributions(const VplSet& set) {
         Buffer<float> contributions(device_, set.vpls.count());
         stages_.vpl_contribution.run(scene_.buffers, set.vpls.buffer(), set.vpls.count(), view_,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all samplers that look at the camera must do: keep the light that there is, give about as many VPLs as
-// are wanted, and live with scenes in which there is nothing to see.
+// Requirements on all samplers that consider the camera: they keep all light, make about as many VPLs as they
+// are asked for, and work in scenes in which nothing is visible.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -32,7 +32,7 @@ double total(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Mean power at each depth over many seeds is the flux that is known to be there.
+/// The mean power at each depth over many seeds is the known flux at that depth.
 void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count, uint seeds,
                       double max_error) {
     std::vector<std::vector<double>> power(kDepths);
@@ -45,7 +45,7 @@ void expect_all_light(SamplingBench& bench, SamplerKind sampler, uint vpl_count,
     for (uint depth = 1; depth <= kDepths; ++depth) {
         const double expected = test::kLightFlux * std::pow(test::kRoomAlbedo, depth);
         const test::Spread found = test::spread_of(power[depth - 1]);
-        // Walks are well spread, so that their number's rounding may be all the error there is.
+        // Walks are well spread, so the rounding of their number may be the only error.
         EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.003 * expected)
             << vpl_count << " VPLs, depth " << depth;
         EXPECT_LT(found.error, max_error * expected)
@@ -61,7 +61,7 @@ TEST_P(ImportanceSamplerTest, KeepsTheLightOfEachDepth) {
     });
 }
 
-/// So few VPLs tell little about the light as a whole, but enough about what they are chosen for.
+/// Few VPLs give a poor estimate of all light, but a good one of the light that they are chosen for.
 TEST_P(ImportanceSamplerTest, SmallBudgetsAreUnbiasedToo) {
     on_each_device([](Device& device) {
         SamplingBench bench(device, divided_room());
@@ -106,7 +106,7 @@ TEST_P(ImportanceSamplerTest, EvensOutWhatVplsBringToTheCamera) {
             }
             const double sum = total(contributions);
             return squares * static_cast<double>(contributions.size()) /
-                   (sum * sum);  // 1: all bring the same
+                   (sum * sum);  // 1: all VPLs bring the same
         };
         const double walks = unevenness(SamplerKind::instant_radiosity);
         EXPECT_GT(walks, 2.5);
@@ -128,7 +128,7 @@ TEST_P(ImportanceSamplerTest, SameSeedSameBits) {
     });
 }
 
-/// A camera that looks away from everything has no importons, and any set will do that carries the light.
+/// A camera that looks away from everything has no importons. Any set that carries the light is right then.
 TEST_P(ImportanceSamplerTest, SeesNothingAndStillKeepsTheLight) {
     Scene scene = divided_room();
     set_camera(scene, {0, 0, 10}, {0, 0, 20}, 40);
@@ -139,7 +139,7 @@ TEST_P(ImportanceSamplerTest, SeesNothingAndStillKeepsTheLight) {
     });
 }
 
-/// The light cannot reach what the camera sees: all contributions are 0, and so is the picture.
+/// No light reaches what the camera sees, so all contributions and the picture are 0.
 TEST_P(ImportanceSamplerTest, WhatNoLightReachesIsNoTrouble) {
     Scene scene = divided_room();
     add_quad(scene, {0.4f, -1, 0}, {0, 2, 0}, {0.6f, 0, 0}, 0);  // closes the gap

@@ -37,7 +37,7 @@ TEST(Resampling, KeepsTheExpectationOfAnySum) {
             }
         }
         for (std::size_t i = 0; i < weights.size(); ++i) {
-            // One shift more or less changes the mean by the factor over the number of shifts.
+            // One shift more or less changes the mean by the factor divided by the number of shifts.
             const double factor = chosen[i] > 0 ? mean_factor[i] * kShifts / chosen[i] : kShifts;
             EXPECT_NEAR(mean_factor[i], 1.0, 2.0 * factor / kShifts) << i << " of " << wanted;
         }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPiD = std::numbers::pi;
 
-/// Triangle 0 emits, 1 emits but has no area, 2 is dark.
+/// A scene in which triangle 0 emits, triangle 1 emits but has no area, and triangle 2 is dark.
 Scene area_light_scene(Vec3 radiance) {
     Scene scene;
     for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 0, 2}, Vec3{1, 0, 1}}) {
@@ -115,7 +115,7 @@ TEST(EmitterTable, EnvironmentPowerIsWhatEntersTheSceneSphere) {
     EXPECT_FLOAT_EQ(static_cast<float>(radius), std::sqrt(2.0f));
     scene.environment = sky(1, 1);
     scene.environment.radiance = {{2, 2, 2}};
-    // Irradiance π·2 on every point of the sphere from outside.
+    // Every point of the sphere receives the irradiance π·2 from outside.
     EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD * radius * radius * kPiD * 2, 1e-3);
     scene.environment = sky(6, 5);
     const EmitterTable table = build_emitter_table(scene);

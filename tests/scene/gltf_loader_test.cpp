@@ -110,7 +110,7 @@ TEST_F(GltfLoader, Lights) {
     expect_close(scene.delta_emitters[1].radiance, {2, 2, 2});
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].beam_angle, 0.2f);
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].cutoff_angle, 0.4f);
-    // At the middle of the scene, W/m².
+    // Irradiance at the middle of the scene, W/m².
     const Emitter& sun = scene.delta_emitters[2];
     const Vec3 to_middle = Vec3{0.5f, 0.5f, 0} - sun.position;
     EXPECT_NEAR(sun.radiance.x / dot(to_middle, to_middle), 10, 0.01);

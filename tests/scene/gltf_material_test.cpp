@@ -46,7 +46,7 @@ TEST_F(GltfLoader, EmissionIsARadiance) {
     expect_close(only_material().emission, {8, 4, 0});
 }
 
-/// Two rows, red above blue.
+/// A PNG file of two rows, red above blue.
 std::string flag_png(const SceneFiles& files) {
     write_image(files.path("red flag.png"), {1, 2, {"R", "G", "B"}, {1, 0, 0, 0, 0, 1}});
     std::ifstream stream(files.path("red flag.png"), std::ios::binary);
@@ -80,7 +80,7 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
     }
 }
 
-/// Where (u, v) of glTF, v downwards, looks up a texture; v downwards too.
+/// The place, with v downwards, at which glTF's (u, v), also with v downwards, looks up a texture.
 std::array<float, 2> looked_up(const Texture& t, float u, float v) {
     const float up = 1 - v;
     return {t.u_scale * u + t.u_shear * up + t.u_offset, 1 - (t.v_shear * u + t.v_scale * up + t.v_offset)};
@@ -97,7 +97,7 @@ TEST_F(GltfLoader, TextureTransforms) {
                {{"offset", {0.25, 0.5}}, {"scale", {2, 3}}, {"rotation", std::numbers::pi / 2}}}}}};
     gltf_.material()["pbrMetallicRoughness"]["metallicFactor"] = 0;
     const Texture texture = load().textures.at(0).parameters;
-    // Scaled, turned counter-clockwise as one sees it (to the right becomes upwards), then moved.
+    // The texture is scaled, then turned counter-clockwise as it appears (right becomes up), then moved.
     const auto origin = looked_up(texture, 0, 0);
     const auto right = looked_up(texture, 1, 0);
     const auto down = looked_up(texture, 0, 1);

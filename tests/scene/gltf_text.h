@@ -29,7 +29,7 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-/// A file in the making, all of whose numbers are in one buffer.
+/// A file to be built, with all numbers in one buffer.
 struct GltfText {
     json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0},
                  {"scenes", {{{"nodes", {0}}}}},  {"nodes", {{{"mesh", 0}, {"name", "thing"}}}},

@@ -166,7 +166,8 @@ TEST(Obj, MissingAndEmptyFiles) {
 }
 
 TEST(Mesh, SmoothNormalsAreWeightedByAngle) {
-    // A right-angled edge whose one side is cut into two triangles at the corner: both sides weigh the same.
+    // At a right-angled edge one side is cut into two triangles at the corner, and both sides have the same
+    // weight.
     const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
     const std::vector<std::array<uint, 3>> t{{0, 1, 2}, {0, 2, 3}, {0, 4, 1}};
     const std::vector<Vec3> n = smooth_normals(p, t);

@@ -197,7 +197,7 @@ TEST(MitsubaXml, UnknownPropertiesAreNotedOnceAndStrictRefusesThem) {
     const std::string body = shape("cube", "<float name='fizz' value='1'/>");
     const Scene scene = files.load_xml(body + body);
     EXPECT_TRUE(has_note(scene, "scene.xml:2: unknown property 'fizz' of shape 'cube' is ignored"));
-    EXPECT_EQ(scene.notes.size(), 3u);  // with: no light, no sensor
+    EXPECT_EQ(scene.notes.size(), 3u);  // including those about light and sensor
     EXPECT_TRUE(mentions(file_error([&] { files.load_xml(body, {.parameters = {}, .strict = true}); }),
                          "loading is strict"));
     EXPECT_TRUE(has_note(scene, "nothing in the scene emits light"));

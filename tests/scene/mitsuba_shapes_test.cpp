@@ -14,10 +14,10 @@ using namespace test;
 
 struct Hit {
     Vec3 normal;  // of the triangle's front
-    float u, v;   // v as Mitsuba counts it, from the top
+    float u, v;   // v counts from the top, as in Mitsuba
 };
 
-// The first triangle that holds the point `p`, up to `tolerance`.
+// The surface of the first triangle that contains the point `p`, up to `tolerance`.
 Hit surface_at(const Scene& scene, Vec3 p, float tolerance = 1e-3f) {
     for (const Triangle& triangle : scene.triangles) {
         const Vertex a = scene.vertices[triangle.v0];
@@ -139,7 +139,8 @@ TEST(MitsubaShape, InstancesAreCopies) {
     expect_near(bounds(scene).max, {6, 1, 1});
 }
 
-// Red at the top left, green at the top right, blue at the bottom left, white at the bottom right.
+// Writes a picture that is red at the top left, green at the top right, blue at the bottom left and white at
+// the bottom right.
 void write_corners(const SceneFiles& files) {
     Image image = make_image(2, 2, {"R", "G", "B"});
     image.values = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
@@ -176,17 +177,18 @@ TEST(MitsubaTexture, ObjIsUprightAndFlippableAndRectangleAsInMitsuba) {
 TEST(MitsubaTexture, ToUvAndOldScalesPlaceIt) {
     const SceneFiles files;
     write_corners(files);
-    // (u, v) = (0.75, 0.25) of the rectangle looks up (0.25, 0.25) in Mitsuba's coordinates: the top left.
+    // (u, v) = (0.75, 0.25) of the rectangle looks up (0.25, 0.25) in Mitsuba's coordinates, which is at the
+    // top left.
     const Scene moved = files.load_xml(
         shape("rectangle", textured("<transform name='to_uv'><translate x='-0.5'/></transform>")));
     expect_near(color_at(moved, {0.5f, -0.5f, 0}), {1, 0, 0}, 0.02f);
     const Scene turned = files.load_xml(
         shape("rectangle", textured("<transform name='to_uv'><rotate z='1' angle='90'/></transform>")));
-    // (0.25, 0.25) becomes (−0.25, 0.25): the top right.
+    // (0.25, 0.25) becomes (−0.25, 0.25), which is at the top right.
     expect_near(color_at(turned, {-0.5f, -0.5f, 0}), {0, 1, 0}, 0.02f);
     const Scene old = files.load_xml(
         shape("rectangle", textured("<float name='uscale' value='2'/><float name='voffset' value='0.5'/>")));
-    // (0.125, 0.25) becomes (0.25, 0.75): the bottom left.
+    // (0.125, 0.25) becomes (0.25, 0.75), which is at the bottom left.
     expect_near(color_at(old, {-0.75f, -0.5f, 0}), {0, 0, 1}, 0.02f);
 }
 

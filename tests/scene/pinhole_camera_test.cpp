@@ -33,12 +33,13 @@ TEST(PinholeCamera, LocalFrameHasXToTheLeftAndYUp) {
 }
 
 TEST(PinholeCamera, SeesAKnownPointWhereItIs) {
-    // From (10, 2, −3) looking along +X with +Y up, the world's −Z lies to the left.
+    // The camera is at (10, 2, −3) and looks along +X with +Y up, so the world's −Z is to the left.
     SceneCamera camera;
     camera.to_world = look_at({10, 2, -3}, {20, 2, -3}, {0, 1, 0});
     camera.fov_x_degrees = 2 * 45;
     const PinholeCamera pinhole = make_pinhole_camera(camera, 400, 300);
-    // 10 m ahead, 5 m to the left and 2.5 m up: half way to the left edge, a third of the way to the top.
+    // The point is 10 m ahead, 5 m to the left and 2.5 m up, so it is half way to the left edge and a third
+    // of the way to the top.
     expect_near(direction(pinhole, 100, 100), normalize(Vec3{20, 4.5f, -8} - Vec3{10, 2, -3}));
 }
 

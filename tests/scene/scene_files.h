@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small scene files for tests, in a folder that goes away with them.
+// Small scene files for tests, in a folder that is removed with them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class SceneFiles {
     std::filesystem::path folder_;
 };
 
-/// Runs `load`, which must throw an Error of code `file`, and returns its message.
+/// Runs `load`, which must throw Error(ErrorKind::file), and returns the message.
 template <typename Load>
 std::string file_error(Load load) {
     try {

@@ -15,7 +15,7 @@ void expect_color(Vec3 a, Vec3 b) {
     EXPECT_FLOAT_EQ(a.z, b.z);
 }
 
-/// One of everything.
+/// A scene with one item of each kind.
 Scene small_scene() {
     Scene scene;
     scene.name = "small";
@@ -111,8 +111,9 @@ TEST(Scene, HashDoesNotKnowNamesNotesPaddingAndWhatIsFilledInLater) {
     EXPECT_EQ(scene_hash(scene), before);
 }
 
-// Pins the function, so that hashes stored in files stay comparable. The number is from Python's xxhash,
-// which hashed six empty lengths, no environment, the identity twice, and the default camera and integrator.
+// Fixes the hash function, so that hashes stored in files remain comparable. The number is from Python's
+// xxhash, which hashed six empty lengths, no environment, the identity twice, and the default camera and
+// integrator.
 TEST(Scene, HashOfAnEmptySceneDoesNotChange) {
     EXPECT_EQ(scene_hash(Scene{}), 7623496442301609915ull);
 }

@@ -20,7 +20,7 @@ void expect_texel(Vec3 a, Vec3 b, float tolerance = 1e-6f) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// 2 × 2: top row black and white, bottom row red and blue; placed one to one.
+/// A texture of 2 × 2 texels without scaling: black and white in the top row, red and blue in the bottom row.
 Scene four_texels() {
     Scene scene;
     scene.images.push_back({"four", 2, 2, {kBlack, kWhite, kRed, kBlue}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views chosen against close-range sampling show what they are said to show.
+// Checks that the views chosen against close-range sampling have the properties that their READMEs state.
 #include <gtest/gtest.h>
 
 #include "host/base/random.h"
@@ -38,7 +38,7 @@ TEST(HardViews, WallIsOnePlaneLitFromBehindTheCamera) {
     EXPECT_GT(channel_mean(image, "indirect.R"), 0.3 * channel_mean(image, "direct.R"));
 }
 
-/// Share of the scene's area of which the camera sees the front or the back.
+/// Fraction of the scene's area whose front or back the camera sees.
 double visible_share(const Scene& scene) {
     const EmbreeScene embree(scene);
     const Mat4 to_camera = inverse(scene.camera.to_world);

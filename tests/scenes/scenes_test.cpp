@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes as they are made: sound meshes, as many triangles as promised, the same bytes every time.
+// Checks the generated scenes: sound meshes, the documented numbers of triangles, and the same bytes every
+// time.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -50,16 +51,15 @@ struct PlaceHash {
     }
 };
 
-/// Corners at the same place are one; each edge must be walked as often in one direction as in the other
-/// (rounding may have made an edge a point).
-/// Returns the number of edges that are not.
+/// Number of edges that occur in one direction more often than in the other. Corners at the same place count
+/// as one, and rounding may have made an edge a point.
 size_t count_open_edges(const Model& model) {
     std::unordered_map<std::array<float, 3>, std::uint32_t, PlaceHash> places;
     std::unordered_map<std::uint64_t, int> balance;
     for (const auto& [part, mesh] : model.parts()) {
         std::vector<std::uint32_t> place_of;
         for (const auto& vertex : mesh.vertices) {
-            // Adding zero makes −0 the same as 0.
+            // Adding zero turns −0 into 0.
             const Vec3 p = vertex.position + Vec3{0.0f, 0.0f, 0.0f};
             place_of.push_back(
                 places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size())).first->second);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparison of the renderer with the Embree path tracer on whole pictures, antialiased and with direct
-// light.
+// Compares the renderer with the reference path tracer on whole pictures, antialiased and with direct light.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,10 +13,11 @@
 
 namespace nearlight::core::test {
 
-/// Pictures are square, so many pixels wide.
+/// Width and height of the pictures, pixels.
 inline constexpr int kAgreementSize = 32;
 
-/// The layers direct and indirect of several seeds against a path-traced picture, as convergence.h says.
+/// Compares the layers direct and indirect of several seeds with a path-traced picture, as convergence.h
+/// explains.
 inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
                              Policy policy = Policy::complete) {
     constexpr uint kSeeds = 24;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer against the Embree path tracer, which shares no sampling code with it: same definition, same
-// picture.
+// Compares the renderer with the reference path tracer, which shares no sampling code with it. Both compute
+// the same definition and must make the same picture.
 #include <gtest/gtest.h>
 
 #include "tests/session/agreement.h"
@@ -14,7 +14,7 @@ using namespace small_scenes;
 
 constexpr float kClampRadius = 0.15f;
 
-/// A closed room, 2 × 2 × 2, with a red and a green wall and a block on the floor; no light yet.
+/// A closed room of 2 × 2 × 2 with a red and a green wall and a block on the floor, but without a light.
 Scene room() {
     Scene scene;
     const uint white = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
@@ -53,7 +53,7 @@ Scene room_with_area_light() {
 
 Scene room_with_window() {
     Scene scene = room();
-    // Without its ceiling, under a sky that is brighter on one side.
+    // The room has no ceiling and is under a sky that is brighter on one side.
     scene.triangles.erase(scene.triangles.begin() + 2, scene.triangles.begin() + 4);
     scene.environment = {.width = 2,
                          .height = 2,
@@ -94,7 +94,7 @@ TEST_F(Agreement, CompleteUnderSky) {
         test::expect_agreement(d, room_with_window(), SamplerKind::close_range, kClampRadius);
     });
 }
-/// No VPL sampler but this one has a picture without any bound.
+/// Among the samplers only this one makes a picture without a bounded geometry term.
 TEST_F(Agreement, LocalWithoutClamp) {
     on_each_device(
         [](Device& d) { test::expect_agreement(d, room_with_point_light(), SamplerKind::local, 0.0f); });

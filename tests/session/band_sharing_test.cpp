@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bands shared by workers that are no devices, and so can be slow, stop and fail as wanted.
+// Tests the sharing of bands among workers that are not devices, so that tests decide when they are slow,
+// stop or fail.
 #include "host/session/band_sharing.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ using namespace std::chrono_literals;
 
 constexpr uint kBands = 24;
 
-/// The one float of a band's rows says which band it is.
+/// A band's rows are one float, which is the number of the band.
 FinishedBand numbered(uint index) {
     return {.rows = {static_cast<float>(index)}, .local_lights = 1};
 }
@@ -35,7 +36,7 @@ BandWorker steady(const std::string& name, std::chrono::milliseconds pause = 0ms
             }};
 }
 
-/// Finishes `good` bands, then throws with the next in hand.
+/// A worker that finishes `good` bands, then throws in the next one.
 BandWorker failing_after(const std::string& name, uint good) {
     return {name, [good] {
                 return [left = good](uint index, const BandProgress&) mutable -> std::optional<FinishedBand> {
@@ -47,7 +48,7 @@ BandWorker failing_after(const std::string& name, uint good) {
             }};
 }
 
-/// The same worker, but it starts when all that share `gate` have.
+/// The given worker, which starts when all workers that share `gate` have started.
 BandWorker behind(std::latch& gate, const BandWorker& worker) {
     return {worker.name, [&gate, start = worker.start] {
                 gate.arrive_and_wait();
@@ -56,7 +57,7 @@ BandWorker behind(std::latch& gate, const BandWorker& worker) {
 }
 
 struct Result {
-    std::vector<uint> order;  ///< in which bands arrived
+    std::vector<uint> order;  ///< order in which bands arrived
     std::size_t local_lights = 0;
     BandOutcome outcome;
 };

@@ -21,7 +21,7 @@ double square(double x) {
     return x * x;
 }
 
-/// Means over a grid of blocks × blocks, of all three channels of a layer one after the other.
+/// Means of a layer over a grid of blocks × blocks, for its three channels one after the other.
 std::vector<double> block_means(const Image& image, const std::string& layer, int blocks_x, int blocks_y) {
     const int width = image.width / blocks_x;
     const int height = image.height / blocks_y;
@@ -41,7 +41,7 @@ std::vector<double> block_means(const Image& image, const std::string& layer, in
     return means;
 }
 
-/// What is known of a mean over renders, and of what it should be.
+/// A mean over renders and the expected value, with their variances.
 struct Comparison {
     std::vector<std::vector<double>> renders;  ///< [render][cell]
     std::vector<double> mean, variance;        ///< of the mean over renders
@@ -54,24 +54,24 @@ struct Comparison {
     }
     [[nodiscard]] double deviation(std::size_t cell) const {
         const double gap = mean[cell] - expected[cell];
-        // Both sum in single precision somewhere.
+        // This is for rounding, because both sides sum in single precision.
         const double rounding = 1e-5 * std::abs(expected[cell]);
         return std::copysign(std::max(0.0, std::abs(gap) - rounding), gap);
     }
-    /// [Welch 1947, Satterthwaite 1946]
+    /// Degrees of freedom of the difference [Welch 1947, Satterthwaite 1946].
     [[nodiscard]] double freedom(std::size_t cell) const {
         const double a = variance[cell];
         const double b = expected_variance[cell];
         const double total = a + b;
         return total > 0 ? total * total / (a * a / render_freedom + b * b / truth_freedom) : render_freedom;
     }
-    /// How likely chance alone deviates as much; 0 for what is not a number.
+    /// Probability that chance alone causes such a deviation; 0 if a value is not a number.
     [[nodiscard]] double tail(std::size_t cell) const {
         if (!std::isfinite(mean[cell])) {
             return 0.0;
         }
         const double gap = deviation(cell);
-        // Below four standard errors no distribution's tail is small enough to matter, and most cells are.
+        // Below four standard errors, as in most cells, the probability is too large to matter.
         return std::abs(gap) <= 4.0 * error(cell) ? 1.0 : student_t_tail(gap / error(cell), freedom(cell));
     }
 };
@@ -114,8 +114,8 @@ Comparison compare(std::span<const Image> renders, const Image& truth, const std
     return result;
 }
 
-/// At least the mean of the block that a pixel lies in: its own sample variance is far too small where the
-/// rare bright samples of a long-tailed distribution are missing.
+/// The variance of a pixel, but at least the mean of its block, because a pixel's own sample variance is far
+/// too small if the rare bright samples of a long-tailed distribution are missing.
 std::vector<double> steady_variances(const std::vector<double>& own, int width, int height) {
     const int block_width = width / kPoolBlocks;
     const int block_height = height / kPoolBlocks;
@@ -142,7 +142,7 @@ void reject(Verdict& verdict, const std::string& reason) {
     verdict.reason += (verdict.reason.empty() ? "" : "; ") + reason;
 }
 
-/// The least probable cell decides.
+/// The verdict on all cells; the least probable one decides.
 void judge_cells(const Comparison& cells, const std::string& name, Verdict& verdict) {
     const std::size_t count = cells.mean.size();
     std::size_t worst = 0;
@@ -158,18 +158,18 @@ void judge_cells(const Comparison& cells, const std::string& name, Verdict& verd
     }
 }
 
-/// Mean of z² − 1 over all pixels, and the spread it has without bias. z is in units of `steady`'s variances,
-/// while what is taken off is what the own variances, which are unbiased, let one expect.
+/// Mean of z² − 1 over all pixels, and its spread without bias. z is in units of the variances of `steady`,
+/// and the subtracted expectation follows from the pixels' own variances, which are unbiased.
 void judge_mean_square(const Comparison& pixels, const Comparison& steady, Verdict& verdict) {
     const std::size_t renders = pixels.renders.size();
     const std::size_t cells = pixels.mean.size();
     std::vector<double> weights(cells);
     double excess = 0;
-    double truth_spread = 0;  // variance of the excess, by the truth's own noise
+    double truth_spread = 0;  // variance of the excess due to the truth's noise
     for (std::size_t cell = 0; cell < cells; ++cell) {
         const double total = square(steady.error(cell));
         if (!(total > 1e-12 * square(pixels.expected[cell]))) {
-            continue;  // exact on both sides; judged as a pixel
+            continue;  // exact on both sides, so the test of pixels judges it
         }
         weights[cell] = 1.0 / total;
         excess += (square(pixels.deviation(cell)) - square(pixels.error(cell))) / total;
@@ -189,7 +189,7 @@ void judge_mean_square(const Comparison& pixels, const Comparison& steady, Verdi
     }
     const double n = static_cast<double>(renders);
     const double pair_mean = squared_products / (0.5 * n * (n - 1));
-    // Of n·(n − 1) products, which come in equal pairs.
+    // There are n·(n − 1) products, in equal pairs.
     const double spread = std::sqrt(2.0 * pair_mean / (n * (n - 1)) + truth_spread);
     const double t = student_t_quantile(kFalseAlarm / kTests, n - 1);
     const double bound = (t * t - 1.0) / std::numbers::sqrt2;

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether pictures of several seeds have the expectation that a path-traced picture shows: a function that
-// returns a verdict, so that tests can also show that it says no where it must.
+// Decides whether pictures of several seeds have the expectation that a path-traced picture shows. The
+// function returns a verdict, so that tests can also check that it refuses wrong pictures.
 //
 // One render is one observation. Its pixels share their VPLs and depend on each other, but renders of
-// different seeds do not; so all that is tested is means over renders, against Student's distribution with
+// different seeds do not. Therefore only means over renders are tested, against Student's distribution with
 // Welch's degrees of freedom (the path tracer's variance is estimated, too), Bonferroni-corrected for the
 // number of means:
-//  1. the mean over the whole picture, for each colour channel: a wrong normalisation;
-//  2. means over 4 × 4 and 8 × 8 blocks: light lost in a corner;
-//  3. each pixel: an edge that is wrong. Pixels that few paths light have a long-tailed distribution, whose
+//  1. the mean over the whole picture, for each colour channel, shows a wrong normalisation;
+//  2. means over 4 × 4 and 8 × 8 blocks show light lost in a corner;
+//  3. each pixel shows a wrong edge. Pixels that few paths light have a long-tailed distribution, whose
 //  sample
-//     variance is mostly too small; so a pixel's variance counts as no less than the mean of its block of 4 ×
-//     4;
-//  4. the mean over all pixels and channels of z², which is 1 where there is no bias: a small bias everywhere
-//  that no
-//     single pixel shows. Its spread is not that of χ², for pixels depend on each other; it is estimated from
-//     the products of pairs of renders [Chen and Qin, A two-sample test for high-dimensional data with
-//     applications to gene-set testing, 2010]. The bound is that of the worst dependence, all pixels moving
-//     as one.
+//     variance is mostly too small, so a pixel's variance counts as at least the mean of its block of 4 × 4;
+//  4. the mean over all pixels and channels of z², which is 1 without bias, shows a small bias everywhere
+//  that
+//     no single pixel shows. Its spread is not that of χ², because pixels depend on each other; it is
+//     estimated from the products of pairs of renders [Chen and Qin, A two-sample test for high-dimensional
+//     data with applications to gene-set testing, 2010]. The bound is that of the worst dependence, in which
+//     all pixels change together.
 // The five tests share the probability of a false alarm, kFalseAlarm for each verdict, evenly.
 #pragma once
 

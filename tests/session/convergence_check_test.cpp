@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of convergence.h itself: it says yes to pictures that are right, and no to each kind of mistake.
+// Tests the check of convergence.h itself: it accepts pictures that are right, and refuses each kind of
+// mistake.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +28,7 @@ Image picture(const std::string& layer) {
 }
 
 /// A picture whose pixels follow an exponential distribution of mean 1; a third of the variance is common to
-/// all, as that of pixels which share their VPLs.
+/// all pixels, as if they shared VPLs.
 Image noisy_picture(Pcg32& random) {
     const auto exponential = [&] { return -std::log(1.0f - random.uniform()); };
     Image image = picture("indirect");
@@ -38,7 +39,7 @@ Image noisy_picture(Pcg32& random) {
     return image;
 }
 
-/// What trace_paths() would know of it after 16 batches.
+/// The picture and the variance that trace_paths() would have after 16 batches.
 Image noisy_truth(Pcg32& random) {
     constexpr int kBatches = 16;
     Image truth = make_image(kSize, kSize,
@@ -58,7 +59,7 @@ Image noisy_truth(Pcg32& random) {
                 truth.at(x, y, channel + 3) =
                     static_cast<float>((squares - sum * sum / kBatches) / (kBatches * (kBatches - 1)));
             }
-            truth.at(x, y, 6) = kBatches;  // of one sample each
+            truth.at(x, y, 6) = kBatches;  // number of batches, of one sample each
         }
     }
     return truth;
@@ -75,13 +76,13 @@ TEST(ConvergenceCheck, RaisesHardlyAFalseAlarm) {
         }
         alarms += judge_convergence(renders, truth, "indirect").agrees ? 0 : 1;
     }
-    EXPECT_LE(alarms, 1);  // 0.03 are expected of normal noise; this is skewed
+    EXPECT_LE(alarms, 1);  // 0.03 are expected with normal noise, but this noise is skewed
 }
 
 using Mistake = std::function<void(Image&)>;
 
-/// Pictures of the Cornell box, with a mistake in each, against the mean of others with twenty times as many
-/// VPLs in all, which passes for exact.
+/// Compares pictures of the Cornell box, each with a mistake, with the mean of others that have twenty times
+/// as many VPLs and counts as exact.
 class ConvergenceMistakes : public test::DeviceTest {
   protected:
     [[nodiscard]] static Image truth_of(const std::vector<Image>& renders) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every sampler under every policy has the expectation of the path tracer, pixel by pixel; the paper's policy
-// has not, where it drops light, and this is seen. Samplers and policies that are added to the tables are
-// tested by themselves.
+// Every sampler with every policy has the expectation of the path tracer, pixel by pixel. The exception is
+// the policy `paper` where it drops light, and the tests notice that. They also cover samplers and policies
+// that are added to the tables.
 #include "tests/session/convergence.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,8 @@ struct Case {
     std::optional<float> range{};
     uint max_depth = 6;
     uint vpl_count = 1000;
-    int size = 32;  ///< of the picture, pixels each way
-    int spp = 512;  ///< of the truth
+    int size = 32;  ///< width and height of the picture, pixels
+    int spp = 512;  ///< samples per pixel of the path-traced picture
 };
 
 Image trace_truth(const Case& test_case, uint max_depth) {
@@ -77,8 +77,8 @@ class Convergence : public test::DeviceTest {
             }
         });
     }
-    /// What has bounced once the paper's policy has all of; what has bounced more often it drops in the close
-    /// range.
+    /// The paper's policy keeps all light that has bounced once, and drops light that has bounced more often
+    /// in the close range.
     void expect_paper_loses_bounces(const Case& test_case) {
         const Image one_bounce = trace_truth(test_case, 3);
         const Image truth = trace_truth(test_case, test_case.max_depth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Same seed, same bits: however the picture is cut into bands and batches.
+// The same seed gives the same bits, however the picture is cut into bands and batches.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace small_scenes;
 
-/// Two floors, a coated and a plain one, a lamp and a sky: every kind of random number is drawn.
+/// A coated and a plain floor, a lamp and a sky, for which every kind of random number is drawn.
 Scene terrace() {
     Scene scene;
     const uint coat = add_material(scene, coat_material({0.5f, 0.4f, 0.3f}, {1, 1, 1}, 1.5, 0.1f, false));
@@ -42,7 +42,8 @@ class Determinism : public test::DeviceTest {};
 
 TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
     on_each_device([](Device& device) {
-        // Of those whose work on the picture itself differs; close-range also with roulette.
+        // These are the samplers whose work on the picture differs; close-range sampling also runs with
+        // roulette.
         for (const auto& [sampler, roulette] :
              {std::pair{SamplerKind::close_range, 0.0f}, std::pair{SamplerKind::close_range, 2.0f},
               std::pair{SamplerKind::local, 0.0f}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samplers that look at the camera, where there is little to look at: tiny budgets, an empty view, no light.
+// Samplers that consider the camera in extreme cases: tiny budgets, an empty view, no light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ double indirect_mean(const Image& image) {
 
 class EdgeCases : public test::DeviceTest {};
 
-/// A budget too small for a good picture still gives the right one on average, and is kept.
+/// A budget too small for a good picture is kept, and still gives the right picture on average.
 TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {
     on_each_device([](Device& device) {
         const Scene scene = niche();
@@ -98,7 +98,7 @@ TEST_F(EdgeCases, WithoutLightThereIsNone) {
     });
 }
 
-/// A lamp that lights nothing: walks leave the scene, and reverse VPLs lie in the dark.
+/// The lamp lights nothing, so walks leave the scene and reverse VPLs are dark.
 TEST_F(EdgeCases, ALightThatShinesPastTheSceneGivesNone) {
     on_each_device([](Device& device) {
         Scene scene = niche();

@@ -22,7 +22,7 @@ double luminance_at(const Image& image, std::size_t pixel, const std::string& la
     return luminance({value(".R"), value(".G"), value(".B")});
 }
 
-/// Standard deviation of luminance, at most: colours that move as one.
+/// Upper bound of the standard deviation of luminance, for fully correlated colour channels.
 double luminance_error(const Image& image, std::size_t pixel, const std::string& layer) {
     const float* values = &image.values[pixel * image.channel_count()];
     const auto value = [&](const char* color) {
@@ -67,7 +67,7 @@ void Photographer::trace_truth(const Scene& scene, std::size_t camera, const Clo
     view.camera = film.camera;
     Image shallower;
     for (uint depth = 1; depth <= depths_; ++depth) {
-        // With one seed, the shorter paths of both pictures are the same and leave the difference.
+        // With the same seed, the shorter paths of both pictures are equal and cancel in the difference.
         const Image image =
             trace_paths(view, {.spp = kTruthSpp, .max_depth = static_cast<int>(depth) + 1, .seed = 23});
         const std::size_t pixels = image.values.size() / image.channel_count();
@@ -81,7 +81,8 @@ void Photographer::trace_truth(const Scene& scene, std::size_t camera, const Clo
             const double all = luminance_at(image, pixel, depth == 1 ? "direct" : "indirect");
             const double less = depth <= 2 ? 0.0 : luminance_at(shallower, pixel, "indirect");
             expected.mean += all - less;
-            // That of the whole bounds that of the difference, which is positive in every path.
+            // The variance of the whole is an upper bound for that of the difference, which is positive for
+            // every path.
             expected.error +=
                 std::pow(luminance_error(image, pixel, depth == 1 ? "variance" : "indirectVariance"), 2);
         }
@@ -111,7 +112,7 @@ void Photographer::expose(std::size_t camera, const Vpl& vpl, std::map<EnergyCla
     if (cosine <= 0.0 || embree_.occluded(eye, away, 0.0f, 0.999f)) {
         return;
     }
-    // A solid angle covers 1/cos³ of itself on the film.
+    // A solid angle covers 1/cos³ times its size on the film.
     const double on_axis = seen.z / distance;
     const double pixels_per_area =
         cosine / (distance * distance) / (on_axis * on_axis * on_axis) * pixels_per_unit * pixels_per_unit;
@@ -168,7 +169,7 @@ Verdict judge_energies(const std::vector<std::map<EnergyClass, double>>& photogr
         const double error = std::hypot(std::sqrt(variance), expected.error);
         verdict.relative_error = std::max(verdict.relative_error, error / expected.mean);
         const double gap = mean - expected.mean;
-        const bool differs = std::abs(gap) > 1e-5 * expected.mean;  // more than by rounding
+        const bool differs = std::abs(gap) > 1e-5 * expected.mean;  // by more than rounding
         const double tail = !std::isfinite(gap) ? 0.0 : differs ? student_t_tail(gap / error, n - 1) : 1.0;
         if (tail < worst) {
             worst = tail;

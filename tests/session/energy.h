@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light in VPL sets by region and depth, against the path tracer.
+// Compares the light in VPL sets, by region and depth, with the path tracer.
 //
 // A set of VPLs can be photographed: what a VPL of reflected power Φ at y adds to the pixel that shows y is
 // Φ/π times the pixels that a square metre at y covers, seen from there. In expectation that is the radiance
-// of light of just the VPL's depth, summed over pixels: the difference of two path-traced pictures whose
-// longest path differs by one. Nothing is gathered, so the sets are tested by themselves; pixels are told
-// apart by whether what they show is in the close range.
+// of light of the VPL's depth only, summed over pixels: the difference of two path-traced pictures whose
+// longest path differs by one. Nothing is gathered, so the sets are tested by themselves. Pixels are in
+// separate classes if they show the close range or not.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ namespace nearlight::core::test {
 
 struct EnergyClass {
     std::size_t camera = 0;
-    bool inside = false;  ///< the close range
+    bool inside = false;  ///< whether the pixels show the close range
     uint depth = 1;       ///< of VPLs; 0: all together
     auto operator<=>(const EnergyClass&) const = default;
 };
@@ -36,13 +36,13 @@ struct Expected {
 /// Photographs VPL sets of one scene with several cameras.
 class Photographer {
   public:
-    /// Cameras have their pictures' sizes; depths from 1 to `depths`. The scene must be diffuse and without
-    /// lamps that can be seen.
+    /// The cameras contain the sizes of their pictures. Depths go from 1 to `depths`. The scene must be
+    /// diffuse and without visible lamps.
     Photographer(const Scene& scene, std::vector<SceneCamera> cameras, const CloseRange& region, uint depths);
 
-    /// Classes that have a fair number of pixels, and what path tracing says of them.
+    /// The expected light, by path tracing, of the classes that have enough pixels.
     [[nodiscard]] const std::map<EnergyClass, Expected>& truth() const { return truth_; }
-    /// The same of a VPL set, and the sums over all depths.
+    /// The light of a VPL set in the same classes, and the sums over all depths.
     [[nodiscard]] std::map<EnergyClass, double> photograph(const std::vector<Vpl>& vpls) const;
 
   private:
@@ -60,7 +60,7 @@ class Photographer {
     uint depths_;
 };
 
-/// What sets of light of all depths up to `depth` are to show: classes of depth 0.
+/// The expected light of sets that carry all depths up to `depth`, in classes of depth 0.
 std::map<EnergyClass, Expected> light_up_to(uint depth, const std::map<EnergyClass, Expected>& truth);
 
 bool in_region(const CloseRange& region, Vec3 p);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light by region and depth: what each sampler puts where, against the path tracer. A set that carries all
-// light does so whatever the picture is gathered with; lights that a sampler adds while gathering are beyond
-// the sets.
+// Compares the light of each sampler's sets, by region and depth, with the path tracer. Whether a set carries
+// all light does not depend on the gather; lights that a sampler adds while gathering are not in the sets.
 #include "tests/session/energy.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +44,7 @@ Scene room_with_block() {
     return scene;
 }
 
-/// From the far end back: what the scene's own camera does not see.
+/// A camera that looks back from the far end at what the scene's own camera does not see.
 SceneCamera camera_behind() {
     Scene scene;
     set_camera(scene, {-0.3, 0.3, 0.9}, {0.1, -0.2, -1}, 100);
@@ -73,7 +72,7 @@ class Energy : public test::DeviceTest {
         test::Photographer photographer;
     };
 
-    /// Photographs of `vpl_count` VPLs each, changed before they are taken.
+    /// Photographs of sets of `vpl_count` VPLs, which are changed before.
     static std::vector<std::map<EnergyClass, double>> photograph(Bench& bench, const test::Variant& variant,
                                                                  uint vpl_count, const Change& change = {},
                                                                  uint depths = kDepths) {
@@ -102,7 +101,7 @@ class Energy : public test::DeviceTest {
 constexpr test::Variant kWalks{SamplerKind::instant_radiosity, Policy::partition};
 constexpr test::Variant kPaper{SamplerKind::close_range, Policy::paper};
 
-/// Some of its VPLs carry light of all depths, so that only sums over depths can be told.
+/// Some VPLs of this sampler carry light of all depths, so that only sums over depths can be compared.
 bool mixes_depths(const test::Variant& variant) {
     return (variant.sampler == SamplerKind::close_range && variant.policy == Policy::complete) ||
            variant.sampler == SamplerKind::bidirectional;
@@ -150,7 +149,7 @@ TEST_F(Energy, ThePaperDropsBouncesInTheCloseRangeAndNothingElse) {
     });
 }
 
-/// The check itself: a few percent too much of one depth must not pass.
+/// Tests the check itself: it must refuse a few percent too much light of one depth.
 TEST_F(Energy, AWrongFactorOfOneDepthIsFound) {
     on_each_device([](Device& device) {
         Bench bench(device);
@@ -170,8 +169,7 @@ TEST_F(Energy, AWrongFactorOfOneDepthIsFound) {
     });
 }
 
-/// Drops VPLs by chance, those outside rather than those inside; `of` tells what the rest must be multiplied
-/// with.
+/// Drops VPLs at random, more of them outside than inside; `of` gives the factor for the others.
 void thin_out(std::vector<Vpl>& vpls, const CloseRange& region,
               const std::function<float(float p, float share)>& of) {
     constexpr float kOutside = 0.5f;
@@ -192,7 +190,7 @@ void thin_out(std::vector<Vpl>& vpls, const CloseRange& region,
     vpls = std::move(kept);
 }
 
-/// A chosen VPL must be divided by its own probability, not by the share of all that were accepted.
+/// A chosen VPL must be divided by its own probability, not by the fraction of all VPLs that were accepted.
 TEST_F(Energy, DividingByWhatWasAcceptedIsFound) {
     on_each_device([](Device& device) {
         Bench bench(device);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole renderer where the answer is known: inside a sphere with a light in its centre the geometry term
-// is the same for any two points, so the indirect light is the direct light times Σ ρ^d.
+// Tests the whole renderer where the answer is known. Inside a sphere with a light at its centre, the
+// geometry term is the same for any two points, so the indirect light is the direct light times Σ ρ^d.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,13 +42,13 @@ RenderSettings furnace_settings(SamplerKind sampler, Policy policy, uint max_dep
             .seed = 5};
 }
 
-/// Direct and indirect radiance in the mean over the picture.
+/// Mean direct and indirect radiance over the picture.
 std::pair<double, double> render_furnace(Device& device, const RenderSettings& settings) {
     const Image image = render_image(device, unit_furnace(), settings).image;
     return {channel_mean(image, "direct.G"), channel_mean(image, "indirect.G")};
 }
 
-/// ρ^first + … + ρ^last.
+/// The sum ρ^first + … + ρ^last.
 double albedo_sum(uint first, uint last) {
     double sum = 0;
     for (uint d = first; d <= last; ++d) {
@@ -57,7 +57,7 @@ double albedo_sum(uint first, uint last) {
     return sum;
 }
 
-/// Share of the sphere's area that triangles reaching into the view have.
+/// Fraction of the sphere's area in triangles that reach into the view.
 double share_in_view() {
     const Scene scene = unit_furnace();
     const CloseRange region = make_close_range(make_pinhole_camera(scene.camera, 24, 24), 10.0f);
@@ -91,8 +91,8 @@ TEST_F(Furnace, EveryDepthAddsItsPowerOfTheAlbedo) {
     });
 }
 
-/// The paper's step 3 drops light that arrives in the close range after two or more bounces: of Σ ρ^d the
-/// terms from d = 2 on, in the share of the surface that counts as close.
+/// The paper's step 3 drops light that arrives in the close range after two or more bounces: the terms of Σ
+/// ρ^d from d = 2 on, in the fraction of the surface that counts as close.
 TEST_F(Furnace, PolicyPaperLosesExactlyMultiBounceLightInTheCloseRange) {
     const double close = share_in_view();
     ASSERT_GT(close, 0.1);

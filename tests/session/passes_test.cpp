@@ -37,12 +37,12 @@ RenderSettings with_passes(RenderSettings settings, uint passes) {
     return settings;
 }
 
-/// Whether passes average what stands at `index` in finished rows.
+/// Whether passes average the value at `index` in finished rows.
 bool is_averaged(std::size_t index) {
     return pass_rules()[index % NEARLIGHT_LAYER_CHANNELS] == PassRule::mean;
 }
 
-/// Of those layers that passes average, and of the others.
+/// Values of the layers that passes average, and of the others.
 struct Differences {
     double light = 0;
     double geometry = 0;
@@ -64,7 +64,7 @@ TEST(PassSeed, NoTwoPassesOfNeighbouringSeedsAreAlike) {
             seeds.insert(pass_seed(seed, pass));
         }
     }
-    EXPECT_GE(seeds.size(), 9998u);  // of 10⁴ numbers of 32 bits, 0.01 pairs are alike by chance
+    EXPECT_GE(seeds.size(), 9998u);  // among 10⁴ random numbers of 32 bits, 0.01 equal pairs are expected
 }
 
 TEST_F(Passes, OneIsThePictureBitForBit) {
@@ -75,7 +75,7 @@ TEST_F(Passes, OneIsThePictureBitForBit) {
         const test::Rendering one = test::render_image(session, with_passes(test::few_vpls(), 1));
         EXPECT_EQ(one.report.image_hash, plain.report.image_hash);
         RenderSettings hurried = test::few_vpls();
-        hurried.seconds = 0;  // the first pass is made all the same, and is the only one
+        hurried.seconds = 0;  // the first pass is still made, and is the only one
         const test::Rendering first = test::render_image(session, hurried);
         EXPECT_EQ(first.report.passes, 1u);
         EXPECT_EQ(first.report.image_hash, plain.report.image_hash);

@@ -12,7 +12,7 @@ namespace {
 
 class PlanTest : public test::DeviceTest {};
 
-/// How often each tile row is rendered with each sample: once.
+/// Checks that each row of tiles is rendered exactly once with each sample.
 void expect_all_once(const RenderPlan& plan) {
     std::vector<uint> times(std::size_t{plan.tile_row_count} * plan.samples_per_pixel);
     for (uint band = 0; band < plan.band_count(); ++band) {
@@ -44,7 +44,7 @@ TEST_F(PlanTest, FirstBandIsShort) {
     on_each_device([](Device& device) {
         const RenderPlan plan = make_plan(std::vector{&device}, 640, 480, 4, 2);
         EXPECT_EQ(plan.batches(1).front().first_tile_row, plan.batches(0).front().tile_row_count);
-        if (device.is_cpu()) {  // others may need all rows to be busy
+        if (device.is_cpu()) {  // other devices may need all rows for full load
             EXPECT_EQ(plan.batches(0).front().tile_row_count, 1u);
             EXPECT_GT(plan.batches(1).front().tile_row_count, 1u);
         }

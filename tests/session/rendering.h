@@ -15,7 +15,7 @@ struct Rendering {
     RenderReport report;
 };
 
-/// Cheap, and every kind of light and random number.
+/// Settings that are cheap and use every kind of light and random number.
 inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
     return {.sampling = {.sampler = sampler, .vpl_count = 60},
             .gather = {.samples_per_pixel = 2, .direct_samples_per_pixel = 4},
@@ -42,7 +42,7 @@ inline Rendering render_image(Device& device, const Scene& scene, const RenderSe
     return render_image(session, settings);
 }
 
-/// Pictures with seeds first, first + 1, …
+/// Pictures with the seeds first, first + 1, …
 inline std::vector<Image> render_seeds(Session& session, RenderSettings settings, uint first, uint count) {
     std::vector<Image> images;
     for (uint i = 0; i < count; ++i) {

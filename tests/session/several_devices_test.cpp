@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture on several devices of one type: two of PoCL's (POCL_DEVICES, see CMakeLists.txt), and parts of
-// one.
+// Renders one picture on several devices of one type: two of PoCL (POCL_DEVICES, see CMakeLists.txt), or
+// parts of one.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -61,7 +61,7 @@ class SeveralDevices : public test::DeviceTest {
         return *opened_.emplace_back(std::make_unique<Device>(entry, options));
     }
     [[nodiscard]] Device& device(std::size_t index) const { return *opened_.at(index); }
-    /// A folder of the program's kernels for bands, but for a gather that does not compile.
+    /// A folder with the program's kernels for bands, in which the gather does not compile.
     static void write_kernels_without_gather(const std::filesystem::path& folder) {
         std::filesystem::create_directory(folder / "joint");
         for (const char* name : {"camera_pass.cl", "direct_light.cl", "film.cl", "joint/view.cl"}) {
@@ -116,7 +116,8 @@ TEST_F(SeveralDevices, PartsOfOneGiveItsBitsToo) {
 TEST_F(SeveralDevices, TheOthersFinishForOneThatFails) {
     const TemporaryFolder folder;
     write_kernels_without_gather(folder.path());
-    // Its first band fails when it comes to the gather; it does not lead, so that VPLs are made.
+    // The device fails in its first band at the gather. It is not the one that makes the VPLs, so they are
+    // made.
     Device& broken = open(device(1).entry(), folder.path());
     const test::Rendering alone = render_on({&device(0)}, test::few_vpls());
     const test::Rendering with_broken = render_on({&device(0), &broken}, test::few_vpls());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tunables decide how fast a picture comes, not what is in it.
+// Tunables affect the speed of a render, but not the picture.
 #include <gtest/gtest.h>
 
 #include "tests/session/rendering.h"
@@ -24,7 +24,8 @@ Scene step() {
     return scene;
 }
 
-/// Each with one tunable at an end of its range; runs and batches longer than the picture do not differ.
+/// Variants with one tunable at an end of its range. Beyond the length of the picture, longer runs and
+/// batches make no difference.
 std::vector<std::pair<std::string, Tunables>> extremes(const Tunables& usual) {
     std::vector<std::pair<std::string, Tunables>> result;
     for (const TunableField& field : tunable_fields()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that there is to test, from the tables that commands know samplers by.
+// All samplers and policies, from the tables that the commands use.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Variant {
     }
 };
 
-/// Policies are of close-range sampling; other samplers do not read them.
+/// All pairs of a sampler and a policy. Only close-range sampling has policies.
 inline std::vector<Variant> all_variants() {
     std::vector<Variant> variants;
     for (const SamplerEntry& sampler : all_samplers()) {

@@ -29,7 +29,8 @@ Scene corner() {
     return scene;
 }
 
-/// All lanes at one point of the floor, a hand's breadth from the wall; keyed apart by tiny shifts.
+/// A packet with all lanes at about one point of the floor, near the wall. Tiny shifts give them different
+/// random numbers.
 ReceiverPacket receivers_near_the_wall() {
     ReceiverPacket packet{};
     for (int lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
@@ -110,7 +111,7 @@ TEST_F(BounceTracerTest, DeeperPathsBringMoreAndAgreeWithWalksOfThatDepth) {
         double before = 0;
         for (const uint bounces : {1, 2, 5}) {
             const double traced = setup.traced(kInfinity, bounces, 4096);
-            // A tiny bound, for single deposits beside the point would be outliers.
+            // The bound is tiny, because single deposits beside the point would otherwise be outliers.
             const double gathered = setup.gathered(0.05f, bounces);
             EXPECT_NEAR(traced, gathered, 0.02 * traced) << bounces;
             EXPECT_GT(traced, 1.02 * before);

@@ -46,7 +46,7 @@ class Shooting {
         pass_.run(scene_.buffers, cameras_, camera.width, regions_, band, seed, receivers, vertices);
         return {receivers.download(), vertices.download()};
     }
-    /// All rows, `samples` samples of as many.
+    /// Renders all rows, with all `samples` samples.
     GBuffer shoot_all(uint samples, uint branches, uint seed = 1) {
         return shoot({.tile_row_count = tiles_across(camera.height),
                       .sample_count = samples,
@@ -70,7 +70,7 @@ void set_constant_sky(Scene& scene, Vec3 radiance) {
     scene.environment = {.width = 1, .height = 1, .radiance = {radiance}, .to_world = {}};
 }
 
-/// Floor, wall and a box of two colours; one side open. Seen from a corner.
+/// A floor, a wall and a box of two colours, open on one side and seen from a corner.
 Scene open_room() {
     Scene scene;
     const uint white = add_material(scene, lambertian({0.8f, 0.7f, 0.6f}));
@@ -106,7 +106,7 @@ TEST_F(CameraPassTest, PixelCentresFindWhatEmbreeFinds) {
     });
 }
 
-/// With the camera's +Y up and looking along +Z, +X is to the left.
+/// If the camera looks along +Z with +Y up, +X is to the left.
 TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
@@ -115,8 +115,8 @@ TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
     on_each_ray_tree([&](Device& device) {
         const GBuffer found = Shooting(device, scene, 16, 16).shoot_all(1, 1);
-        // The lamp's middle (0.7, 0.7, 2) is 0.35 from the axis: pixel 8 − 0.35·8 = 5.2 from the left and
-        // top.
+        // The lamp's middle (0.7, 0.7, 2) is 0.35 from the axis, so it is at pixel 8 − 0.35·8 = 5.2 from the
+        // left and the top.
         for (std::size_t i = 0; i < found.vertices.size(); ++i) {
             const std::size_t tile = i / NEARLIGHT_PACKET_SIZE;
             const std::size_t x = tile % 2 * kTile + i % kTile;
@@ -140,7 +140,7 @@ TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
     });
 }
 
-/// Rows and samples may be cut anyhow.
+/// Rows and samples may be divided in any way.
 TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
     Scene scene = open_room();
     scene.materials[0] = coat_material({0.5f, 0.5f, 0.5f}, {1, 1, 1}, 1.5, 0.2f, false);
@@ -207,7 +207,8 @@ TEST_F(CameraPassTest, WithoutLobesTheSecondBranchIsAbsent) {
     });
 }
 
-/// A smooth coat divides into its base, weighted by 1 − F in the albedo, and the mirror image, weighted by F.
+/// A smooth coat has two branches: its base, weighted by 1 − F in the albedo, and the mirror image, weighted
+/// by F.
 TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
     Scene scene;
     const uint coat = add_material(scene, coat_material({0.5f, 0.4f, 0.3f}, {1, 1, 1}, 1.5, 0.0f, false));
@@ -233,14 +234,14 @@ TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
             ASSERT_NEAR(b.vertex[1].throughput.y, f, 1e-5f);
             ASSERT_NEAR(b.vertex[1].albedo.x, 0.9f, 1e-6f);
             ASSERT_NEAR(b.receiver[1].position.z, 3.0f, 1e-3f);
-            // The mirror image: as if the ray had gone on below the floor.
+            // The mirror image is as if the ray had continued below the floor.
             ASSERT_NEAR(b.receiver[1].position.y, -(1.0f + d.y * 3.0f / d.z), 2e-3f);
         }
     });
 }
 
-/// Under a constant sky glass that absorbs nothing cannot be told from air: the emissions that both branches
-/// see add up to the sky, whatever lies behind the first surface, because later ones are met with weight 1.
+/// Under a constant sky, glass that absorbs nothing looks like air. The emissions that both branches see add
+/// up to the sky, whatever is behind the first surface, because later surfaces have weight 1.
 TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
     for (const bool thin : {true, false}) {
         Scene scene;
@@ -261,7 +262,7 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
     }
 }
 
-/// Dividing must not change the expectation: one branch by chance, or two with their weights.
+/// One branch chosen at random must have the same expectation as two branches with their weights.
 TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     Scene scene = open_room();
     scene.materials[0] = coat_material({0.6f, 0.5f, 0.4f}, {1, 1, 1}, 1.5, 0.1f, true);

@@ -36,7 +36,8 @@ TEST(CloseRange, HoldsExactlyWhatFallsOnTheFilmNearerThanRange) {
         const CloseRange region = make_close_range(camera, kRange);
         Pcg32 random(5);
         for (int i = 0; i < 5000; ++i) {
-            // Film positions up to half a film beyond each edge, and distances on both sides of the range.
+            // Film positions go up to half a film beyond each edge, and distances are on both sides of the
+            // range.
             const float x = random.uniform() * 2.0f - 0.5f;
             const float y = random.uniform() * 2.0f - 0.5f;
             const float distance = kRange * (0.01f + 2.0f * random.uniform());

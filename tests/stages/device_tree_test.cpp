@@ -27,7 +27,7 @@ bool holds(const Buffer<T>& buffer, const std::vector<T>& expected) {
            (found.empty() || std::memcmp(found.data(), expected.data(), found.size() * sizeof(T)) == 0);
 }
 
-/// Nothing of a shape that was not asked for.
+/// A tree that was not asked for is empty.
 void expect_tree(const DeviceTree& tree, const Bvh& bvh, bool binary, bool wide) {
     const WideBvh widened = widen(bvh);
     EXPECT_EQ(tree.is_binary(), binary);

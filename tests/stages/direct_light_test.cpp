@@ -36,7 +36,7 @@ Vec3 random_vector(Pcg32& random) {
     return {x, y, 2.0f * random.uniform() - 1.0f};
 }
 
-/// Anywhere in [−1, 1]³, facing anywhere; every seventh absent.
+/// Receivers anywhere in [−1, 1]³ that face anywhere; every seventh is absent.
 std::vector<ReceiverPacket> random_receivers(std::size_t count) {
     Pcg32 random(3);
     std::vector<ReceiverPoint> points;
@@ -70,7 +70,7 @@ void add_spot(Scene& scene, Vec3 position, Vec3 axis, float beam, float cutoff) 
     spot.cutoff_angle = degrees_to_radians(cutoff);
 }
 
-/// Sixteen point and spot lights: all are asked, so the result is exact but for shadow edges.
+/// With sixteen point and spot lights, all are used, so the result is exact except at shadow edges.
 TEST_F(DirectLightTest, SixteenPointAndSpotLightsAgreeWithEmbree) {
     Scene scene = scattered_squares();
     Pcg32 random(5);
@@ -206,7 +206,7 @@ TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
     }
 }
 
-/// An environment whose top half alone shines: a receiver that faces along the horizon gets half of π·L.
+/// Only the top half of the environment shines, so a receiver that faces the horizon gets half of π·L.
 TEST_F(DirectLightTest, HalfASkyGivesHalf) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
@@ -222,7 +222,7 @@ TEST_F(DirectLightTest, HalfASkyGivesHalf) {
     });
 }
 
-/// Beyond sixteen, lights are chosen by chance; the mean stays.
+/// More than sixteen lights are chosen at random, with the same mean.
 TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
     Scene scene = scattered_squares();
     Pcg32 random(7);
@@ -247,7 +247,8 @@ TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
     });
 }
 
-/// Lamp, sky and point lights together: the mean against the reference's estimator, which samples otherwise.
+/// Compares the mean under lamp, sky and point lights with the reference's estimator, which samples
+/// differently.
 TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
     Scene scene = scattered_squares();
     Material lamp = lambertian({0, 0, 0});
@@ -294,7 +295,7 @@ TEST_F(DirectLightTest, PacketsDoNotKnowOfEachOther) {
             const auto alone = illuminate(device, scene, {receivers[p]}, 4);
             EXPECT_EQ(std::memcmp(alone.data(), &all[p], sizeof(IrradiancePacket)), 0);
         }
-        EXPECT_TRUE(is_zero(irradiance_at(all, 6)));  // an absent one
+        EXPECT_TRUE(is_zero(irradiance_at(all, 6)));  // an absent receiver
         const auto other_seed = illuminate(device, scene, receivers, 4, 2);
         EXPECT_NE(std::memcmp(other_seed.data(), all.data(), sizeof(IrradiancePacket)), 0);
     });

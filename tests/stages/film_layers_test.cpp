@@ -10,7 +10,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Files that were written before, and scripts that read them, rely on these names and this order.
+// Existing files, and scripts that read them, rely on these names and this order.
 TEST(FilmLayers, ChannelsHaveTheNamesAndTheOrderOfFiles) {
     EXPECT_EQ(
         layer_channels(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of squares and of groups, and pairs that a gather leaves out.
+// Tests sums of squares and of groups, and pairs that a gather leaves out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 class GathererSumsTest : public DeviceTest {};
 
-/// The sums of squares, by VPLs that are marked for them.
+/// The sums of squares, gathered from VPLs that are marked for squares.
 std::vector<IrradiancePacket> gather_squares(Device& device, Gatherer& gatherer, GatherCase data) {
     for (Vpl& vpl : data.vpls) {
         vpl.power = (1.0f / kPi) * vpl.power * vpl.power;
@@ -62,7 +62,7 @@ TEST_F(GathererSumsTest, GroupsAreSummedByThemselves) {
     });
 }
 
-/// Of a pair, the square that GatherInput::thresholds is compared with.
+/// The square of a pair's light, which is compared with GatherInput::thresholds.
 double squared_light(const Vpl& vpl, const PairTerm& term) {
     const Vec3 scale = (1.0f / kPi) * vpl.power;
     const bool squared = (vpl.flags & NEARLIGHT_IMPORTON_SQUARED) != 0;
@@ -70,7 +70,7 @@ double squared_light(const Vpl& vpl, const PairTerm& term) {
            static_cast<double>(squared ? scale.x + scale.y + scale.z : dot(scale, scale));
 }
 
-/// For each receiver the mean over all VPLs.
+/// The mean of the squares over all VPLs, for each receiver.
 std::vector<float> mean_squares(const GatherCase& data) {
     std::vector<float> means;
     for (std::size_t i = 0; i < data.receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {

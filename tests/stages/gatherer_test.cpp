@@ -20,16 +20,16 @@
 namespace nearlight::core::test {
 namespace {
 
-/// How the pairs came out that kernel and host see differently.
+/// Numbers of pairs about which kernel and host differ, by kind, and of all rays.
 struct Differences {
     std::size_t rays = 0;
-    std::size_t culling = 0;    ///< one culls, though no cosine is near zero
+    std::size_t culling = 0;    ///< one side culls, though no cosine is near zero
     std::size_t at_edges = 0;   ///< visibility differs, and the segment passes an edge within the tolerance
     std::size_t elsewhere = 0;  ///< visibility differs for no such reason
 };
 
 Differences compare(const GatherCase& data, const std::vector<GatherPair>& pairs) {
-    // Of the extent of the scene.
+    // The tolerance is relative to the extent of the scene.
     const double tolerance = 1e-5 * data.extent;
     Differences result;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -114,8 +114,8 @@ TEST_F(GathererTest, RoomOfAxisAlignedBoxes) {
     check_case(room_of_boxes(60, 257, 12, 3), 1e-5);
 }
 
-// Points on a grid that the triangles share: segments run along edges, through corners and inside planes,
-// where either answer is right.
+// Points are on the grid of the triangles' corners, so segments run along edges, through corners and inside
+// planes, where either answer is right.
 TEST_F(GathererTest, SegmentsAlongEdgesAndPlanes) {
     check_case(points_on_grid(64, 12, 4), 1.0);
 }
@@ -220,7 +220,7 @@ TEST_F(GathererTest, CountsMayBeSmallerThanBuffers) {
     });
 }
 
-/// Without light or geometry that could reach anything.
+/// A VPL without light, which reaches nothing.
 Vpl dark() {
     return Vpl{};
 }

@@ -24,7 +24,7 @@ inline std::vector<Variant> variants() {
 }
 
 inline void expect_close(const std::vector<IrradiancePacket>& actual,
-                  const std::vector<IrradiancePacket>& expected) {
+                         const std::vector<IrradiancePacket>& expected) {
     for (std::size_t p = 0; p < expected.size(); ++p) {
         for (std::size_t i = 0; i < 3 * NEARLIGHT_PACKET_SIZE; ++i) {
             const float want = (&expected[p].r[0])[i];

@@ -11,7 +11,7 @@
 namespace nearlight::core {
 namespace {
 
-/// On two walls of a room 4 m wide that face each other, and numbered.
+/// Numbered importons on two walls, which face each other, of a room 4 m wide.
 std::vector<Importon> on_two_walls(uint count) {
     Pcg32 random(2);
     std::vector<Importon> importons(count);

@@ -30,7 +30,7 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
     std::vector<uint> expected(kCount);
     Pcg32 random(5);
     for (std::size_t i = 0; i < kCount; ++i) {
-        // Film positions and distances keep off the borders by more than rounding.
+        // Film positions and distances differ from the borders by more than rounding.
         const auto off_border = [&](bool& inside) {
             inside = random.uniform() < 0.8f;
             return inside ? 0.001f + 0.998f * random.uniform() : 1.001f + random.uniform();
@@ -76,7 +76,7 @@ TEST_F(KernelLibraryTest, SrgbTableIsThatOfTheHost) {
     });
 }
 
-/// pcg4d as the paper has it [Jarzynski & Olano 2020].
+/// The hash pcg4d as in its paper [Jarzynski & Olano 2020].
 std::array<uint, 4> pcg4d(std::array<uint, 4> v) {
     for (uint& x : v) {
         x = x * 1664525u + 1013904223u;

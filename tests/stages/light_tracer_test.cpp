@@ -20,7 +20,7 @@ using test::SceneOnDevice;
 
 class LightTracerTest : public test::DeviceTest {};
 
-/// No close range, or that of a camera with every triangle selected.
+/// No close range, or the close range of a camera with every triangle selected.
 CloseRegion make_region(Device& device, const DeviceScene& scene, const CloseRange& range, uint selected) {
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&range, 1));
@@ -49,8 +49,8 @@ std::vector<Power> power_by_depth(const std::vector<Vpl>& vpls, uint depths) {
     return power;
 }
 
-/// In a closed sphere no walk is lost, so the power of depth d is Φ·ρ^d up to the fraction of a walk by which
-/// the number of walks that go on is rounded.
+/// In a closed sphere no walk is lost, so the power of depth d is Φ·ρ^d, except that the number of walks that
+/// continue is rounded.
 TEST_F(LightTracerTest, ClosedFurnaceKeepsItsPowerAtEveryDepth) {
     const Vec3 albedo{0.9f, 0.6f, 0.3f};
     Scene scene;
@@ -158,7 +158,7 @@ bool same_deposit(const Vpl& a, const Vpl& b) {
     return std::memcmp(&a.position, &b.position, sizeof(Vec3)) == 0 && a.depth == b.depth &&
            std::memcmp(&a.power, &b.power, sizeof(Vec3)) == 0;
 }
-/// Those of `all` that are not in `kept`; fails unless `kept` is a subsequence of `all`.
+/// The VPLs of `all` that are not in `kept`. The test fails unless `kept` is a subsequence of `all`.
 std::vector<Vpl> dropped_from(const std::vector<Vpl>& all, const std::vector<Vpl>& kept) {
     std::vector<Vpl> dropped;
     std::size_t next = 0;
@@ -173,7 +173,7 @@ std::vector<Vpl> dropped_from(const std::vector<Vpl>& all, const std::vector<Vpl
     return dropped;
 }
 
-/// What each mode drops is exactly what it promises, deposit by deposit.
+/// Each policy drops exactly the deposits that it should.
 TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
     Scene scene;
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
@@ -202,7 +202,8 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
             EXPECT_TRUE(is_inside(vpl, kStandOff));
             ++direct_inside;
         }
-        EXPECT_NEAR(static_cast<double>(direct_inside), 5000.0 / 6, 150);  // a cube's side of the sphere
+        EXPECT_NEAR(static_cast<double>(direct_inside), 5000.0 / 6,
+                    150);  // the part of the sphere that a cube's side covers
         for (const Vpl& vpl : dropped_from(partition, outside)) {
             EXPECT_GE(vpl.depth, 2u);
             EXPECT_TRUE(is_inside(vpl, kStandOff));
@@ -213,7 +214,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
             EXPECT_EQ(vpl.flags, 0u);
         }
         EXPECT_GT(partition.size(), outside.size() + 500);
-        // Triangles that were not selected are nobody's close range.
+        // Triangles that were not selected are not in the close range.
         EXPECT_EQ(tracer
                       .run(on_device.buffers, make_region(device, on_device.buffers, range, 0),
                            KeepDeposits::outside, walks)
@@ -222,7 +223,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
     });
 }
 
-/// A launch of all walks, and launches of parts of them.
+/// One launch of all walks gives the same as launches of parts of them.
 TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
     Scene scene;
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));

@@ -14,7 +14,7 @@ using namespace small_scenes;
 
 class LightVisibilityTest : public test::DeviceTest {};
 
-/// Asks for the triangles `ids`; entries of others begin as 7.
+/// Asks about the triangles `ids`. The entries of others are 7 at first.
 std::vector<uint> selected(Device& device, const Scene& scene, const std::vector<uint>& ids) {
     const test::SceneOnDevice on_device(device, scene);
     std::vector<uint> flags(scene.triangles.size(), 7);
@@ -26,7 +26,8 @@ std::vector<uint> selected(Device& device, const Scene& scene, const std::vector
     return buffer.download();
 }
 
-/// Quads 0 to 3: a floor in the light, one in the shadow of quad 3, one that turns its back to the light.
+/// Quads 0 to 3 are a floor in the light, one in the shadow of quad 3, one that turns its back to the light,
+/// and a roof.
 Scene three_floors(bool two_sided) {
     Scene scene;
     Material material = lambertian({0.5f, 0.5f, 0.5f});
@@ -55,7 +56,7 @@ TEST_F(LightVisibilityTest, WhatTheLightReachesIsSelected) {
 TEST_F(LightVisibilityTest, OneOfManyLightsIsEnough) {
     on_each_device([](Device& device) {
         Scene scene = three_floors(false);
-        for (int i = 0; i < 3; ++i) {  // more than are asked one by one
+        for (int i = 0; i < 3; ++i) {  // more lights than are asked one by one
             add_point_light(scene, {5.5f, 3, 0.5f}, {1, 1, 1});
             add_point_light(scene, {5.5f, 0.5f, 0.5f}, {1, 1, 1});  // below the roof of quad 3
         }

@@ -23,7 +23,7 @@ constexpr std::size_t kSlotsPerPacket = std::size_t{kRays} * NEARLIGHT_PACKET_SI
 constexpr Vec3 kLamp{0.3f, 0.9f, 0.2f};
 constexpr Vec3 kIntensity{3, 2, 1};
 
-/// The inside of a corner: floor, two walls of other albedos, and a square on legs of air that casts shadows.
+/// The inside of a corner: a floor, two walls of other albedos, and a floating square that casts shadows.
 Scene lit_corner() {
     Scene scene;
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.8f, 0.7f, 0.6f})));
@@ -46,7 +46,8 @@ Vec3 albedo_at(const Vpl& light) {
     return light.position.y < 0.1f ? Vec3{0.8f, 0.7f, 0.6f} : Vec3{0.3f, 0.3f, 0.9f};
 }
 
-/// Two packets on the floor and the back wall near the corner, some absent, and a third without any.
+/// Two packets on the floor and the back wall near the corner, with some receivers absent, and a third packet
+/// without receivers.
 std::vector<ReceiverPacket> receivers_in_corner() {
     constexpr float kExtent = 2.0f;  // of the corner
     Pcg32 random(5);
@@ -62,7 +63,7 @@ std::vector<ReceiverPacket> receivers_in_corner() {
     return test::pack_receivers(points);
 }
 
-/// The unbounded geometry term times visibility, in double precision but for the ray.
+/// The unbounded geometry term times visibility, in double precision except for the ray.
 double pair_geometry(const Bvh& bvh, const ReceiverPoint& receiver, const Vpl& light, float radius) {
     const Vec3 between = receiver.position - light.position;
     const double height = dot(light.normal, between);
@@ -164,7 +165,7 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
     });
 }
 
-/// What local lights add to each receiver, over many seeds.
+/// The light that local lights add to each receiver, over many seeds.
 std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
                                 const std::vector<ReceiverPacket>& receivers, float clamp_radius,
                                 LocalLightPlan plan, int runs) {
@@ -212,7 +213,7 @@ double wall_remainder(Vec3 x, const LocalLightPlan& plan, const std::function<do
     return sum * step * step;
 }
 
-/// On the floor, near the wall.
+/// Receivers on the floor near the wall.
 std::vector<ReceiverPoint> points_before_wall() {
     std::vector<ReceiverPoint> points;
     Pcg32 random(8);
@@ -260,7 +261,7 @@ TEST_F(LocalLightsTest, AddTheRemainderOfAWall) {
     });
 }
 
-/// Near the lamp R_g is an eighth of the widest, in the corners all of it.
+/// R_g is an eighth of the widest radius near the lamp, and the widest radius in the corners.
 TEST_F(LocalLightsTest, AddTheRemainderWhereTheRadiusFollowsTheLight) {
     on_each_device([](Device& device) {
         LocalLightPlan plan = plan_of(1);

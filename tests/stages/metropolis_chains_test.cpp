@@ -20,7 +20,7 @@ constexpr float kFlux = 4 * kPi;
 constexpr uint kDepths = 4;
 constexpr uint kStates = 20'000;
 
-/// In a closed sphere no walk is lost, and without a camera chains follow power alone: all is known.
+/// In a closed sphere no walk is lost, and without a camera chains follow power alone, so all is known.
 struct Furnace {
     explicit Furnace(Device& device)
         : scene(device, make_scene()),
@@ -63,7 +63,7 @@ struct Furnace {
     PathStates proposed;
 };
 
-/// Share of the states that have each depth.
+/// Fraction of the states at each depth.
 std::array<double, kDepths> depth_shares(const PathStates& states) {
     std::array<double, kDepths> shares{};
     for (const Vpl& vpl : states.vpls.download()) {
@@ -72,7 +72,7 @@ std::array<double, kDepths> depth_shares(const PathStates& states) {
     return shares;
 }
 
-/// Shares in proportion to ratio^depth.
+/// Fractions in proportion to ratio^depth.
 std::array<double, kDepths> geometric_shares(double ratio) {
     std::array<double, kDepths> shares{};
     double sum = 0;
@@ -108,7 +108,7 @@ TEST_F(MetropolisChainsTest, SeedsCarryTheLightOfEachDepth) {
     });
 }
 
-/// Seeds have depths in proportion to 0.8^d, chains come to follow what light there is, 0.5^d.
+/// Seeds have depths in proportion to 0.8^d, and chains converge to the light at each depth, 0.5^d.
 TEST_F(MetropolisChainsTest, ChainsFollowTheirTarget) {
     on_each_device([](Device& device) {
         Furnace furnace(device);

@@ -156,7 +156,7 @@ TEST_F(MortonSortTest, OrderVisitsAGridOctantByOctant) {
     on_each_device([](Device& device) {
         std::vector<SurfaceSample> samples;
         for (int i = 0; i < 8 * 8 * 8; ++i) {
-            // In an order that is not the curve's: x fastest.
+            // The points are in another order than the curve's: x changes fastest.
             SurfaceSample sample{};
             sample.position = {static_cast<float>(i % 8), static_cast<float>(i / 8 % 8),
                                static_cast<float>(i / 64)};

@@ -67,7 +67,7 @@ PatchResult make_patches(Device& device, const Scene& scene, bool whole_triangle
     return {vpls.download(), found};
 }
 
-/// Half the field of view is 30°, the range 2.6 m.
+/// The close range of a camera with half a field of view of 30° and a range of 2.6 m.
 bool in_region(Vec3 p) {
     const float edge = p.z * std::tan(degrees_to_radians(30));
     return std::abs(p.x) <= edge && std::abs(p.y) <= edge && length(p) < 2.6f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels' traversal against a loop over all triangles in double precision, the host's traversal and
-// Embree.
+// Compares the kernels' traversal with a loop over all triangles in double precision, the host's traversal
+// and Embree.
 #include "host/stages/ray_caster.h"
 #include "host/base/math.h"
 
@@ -36,7 +36,7 @@ std::unique_ptr<Device> with_ray_tree(const Device& device, bool wide) {
     return std::make_unique<Device>(device.entry(), options);
 }
 
-/// Hits of the same triangle whose numbers are not the same bits.
+/// Number of hits of the same triangle whose values differ in their bits.
 std::size_t count_different_bits(const std::vector<BvhHit>& a, const std::vector<BvhHit>& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -53,7 +53,8 @@ std::vector<RayQuery> normalised(std::vector<RayQuery> rays) {
     return rays;
 }
 
-/// Every dispute is printed; each must be a tie, and ties rare unless the rays seek edges.
+/// Checks that each dispute is a tie, and that ties are rare unless the rays seek edges. Every dispute is
+/// printed.
 void expect_agreement(const std::string& oracle, const Scene& scene, const RayFamily& family,
                       const std::vector<BvhHit>& expected, const std::vector<BvhHit>& found) {
     SCOPED_TRACE(family.name + " rays against " + oracle);
@@ -115,7 +116,7 @@ TEST_F(RayCasterTest, BrokenRaysHitNothing) {
     });
 }
 
-/// A NaN that got into the triangles of a tree takes those triangles out, and no others.
+/// A NaN in triangles of a tree removes those triangles, and no others.
 TEST_F(RayCasterTest, BrokenTrianglesAreNeverHit) {
     const Scene scene = make_triangle_soup(kTriangles, 16);
     Bvh bvh = build_all(scene);
@@ -143,7 +144,7 @@ TEST_F(RayCasterTest, BrokenTrianglesAreNeverHit) {
     });
 }
 
-/// What the two trees answer is rounded alike, so nothing but ties may tell them apart.
+/// The answers of the two trees are rounded alike, so they may differ only in ties.
 TEST_F(RayCasterTest, WideAndBinaryTreesGiveTheSameHits) {
     const Scene scene = make_triangle_soup(20 * kTriangles, 20);
     std::vector<uint> ids(scene.triangles.size());
@@ -163,8 +164,8 @@ TEST_F(RayCasterTest, WideAndBinaryTreesGiveTheSameHits) {
     }
 }
 
-/// Directions of which parts are zero, tiny or huge, on either side of zero, and intervals without an end:
-/// what makes reciprocals zero, infinite or not a number where nobody took care.
+/// Directions with components that are zero, tiny or huge, of both signs, and infinite intervals. They make
+/// reciprocals zero, infinite or NaN in careless code.
 TEST_F(RayCasterTest, ExtremeDirectionsAreNoTrouble) {
     const Scene scene = make_triangle_soup(kTriangles, 22);
     const Bvh bvh = build_all(scene);
@@ -222,7 +223,7 @@ TEST_F(RayCasterTest, NoRaysAndNoTriangles) {
     });
 }
 
-/// The comparison itself: planted faults must be found.
+/// Tests the comparison itself, which must find planted faults.
 TEST(RayComparison, WrongAnswersAreNoTies) {
     const Scene scene = make_triangle_soup(kTriangles, 18);
     const RayFamily family = make_ray_families(scene, 500, 19).front();

@@ -39,7 +39,7 @@ Scene room_with_block() {
     return scene;
 }
 
-/// On the floor and the back wall, outside the block.
+/// Points on the floor and the back wall, outside the block.
 std::vector<Importon> points_in_room() {
     Pcg32 random(11);
     std::vector<Importon> points;
@@ -85,7 +85,7 @@ Reverse trace_in_room(Device& device, const SceneOnDevice& scene, uint rays_per_
     return result;
 }
 
-/// Σ_s m·cosθ_s·cosθ_y/(π d²)·V by a plain loop, with the host's own rays.
+/// The sum Σ_s m·cosθ_s·cosθ_y/(π d²)·V by a plain loop, with rays on the host.
 double expected_density(const Bvh& bvh, const Vpl& y, uint rays_per_point) {
     double sum = 0;
     for (const Importon& s : points_in_room()) {

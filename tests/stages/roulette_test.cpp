@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 200;
-/// Standard errors that chance does not reach in hundreds of comparisons (two-sided 1e-6 each).
+/// Number of standard errors that chance does not reach in hundreds of comparisons (two-sided 1e-6 each).
 constexpr double kMaxErrors = 4.9;
 
 GatherCase room() {
@@ -33,7 +33,8 @@ std::vector<double> packet_sums(const std::vector<IrradiancePacket>& irradiance)
     return sums;
 }
 
-/// Largest distance, in standard errors, of the mean over runs from what is expected, over all packets.
+/// Maximum over all packets of the distance, in standard errors, between the mean over repeats and the
+/// expectation.
 double max_errors(const std::vector<std::vector<double>>& runs, const std::vector<double>& expected) {
     double most = 0.0;
     for (std::size_t packet = 0; packet < expected.size(); ++packet) {
@@ -42,17 +43,17 @@ double max_errors(const std::vector<std::vector<double>>& runs, const std::vecto
             values.push_back(run[packet]);
         }
         const Spread spread = spread_of(values);
-        // Sums of floats in another order differ by rounding too.
+        // Sums of floats in another order also differ by rounding.
         const double rounding = 1e-6 * expected[packet];
         most = std::max(most, std::abs(spread.mean - expected[packet]) / std::max(spread.error, rounding));
     }
     return most;
 }
 
-/// What the lists say about each pair of bundle and VPL, over all seeds.
+/// The contents of the lists for each pair of bundle and VPL, over all seeds.
 struct Choices {
-    std::vector<int> chosen;     ///< how often
-    std::vector<float> weights;  ///< when it was; 0: never
+    std::vector<int> chosen;     ///< how often the pair was chosen
+    std::vector<float> weights;  ///< weight when it was chosen; 0: never
 };
 
 class RouletteTest : public DeviceTest {
@@ -140,7 +141,7 @@ TEST_F(RouletteTest, MeanOverSeedsIsTheFullGather) {
             }
             EXPECT_LT(max_errors(runs, full), kMaxErrors);
             EXPECT_NE(runs[0], runs[1]);
-            // The test would see weights that are wrong by one part in a hundred.
+            // The error is so small that the test would notice weights wrong by one percent.
             EXPECT_GT(max_errors(wrong, full), kMaxErrors);
         }
     });
@@ -183,7 +184,8 @@ std::vector<IrradiancePacket> gather_runs(Device& device, Gatherer& gatherer, co
     return Uploaded(device, part).gather(gatherer, kThreshold, 0, run_packets);
 }
 
-// As a picture's plan cuts it: between tiles, and within tiles after whole bundles of samples.
+// The layout is cut as a picture's plan cuts it: between tiles, and within tiles after whole bundles of
+// samples.
 TEST_F(RouletteTest, SameBitsForAnyBandAndBatch) {
     constexpr uint kRun = 6;
     constexpr uint kFirstBatch = NEARLIGHT_BUNDLE_PACKETS;

@@ -40,7 +40,7 @@ Result classify(Device& device, const std::vector<Corners>& corners, const Close
     return {flags.download(), areas.download()};
 }
 
-/// At the origin, looking along +Z, 90° × 90°: inside where |x| ≤ z and |y| ≤ z.
+/// The view of 90° × 90° from the origin along +Z, which contains points with |x| ≤ z and |y| ≤ z.
 CloseRange square_region(float range) {
     SceneCamera camera;
     camera.fov_x_degrees = 90;
@@ -58,8 +58,9 @@ TEST_F(TriangleClassifierTest, NearestPointInsideTheFrustumDecides) {
                                                                  // visible point at distance √2
             {{-100, -1, 0}, {0, -1, 0}, {-1, -1, 1e4f}},         // a floor whose centroid is far away
             {{-100, -100, 1}, {100, -100, 1}, {0, 200, 1}},      // covers the view: no corner is in it
-            {{-100, -100, 3.5f}, {100, -100, 3.5f}, {0, 200, 3.5f}},  // the same beyond the range
-            // Near the camera outside the frustum only; what is inside begins at distance 4·√2.
+            {{-100, -100, 3.5f}, {100, -100, 3.5f}, {0, 200, 3.5f}},  // covers the view, but beyond the range
+            // The triangle is near the camera only outside the frustum. The part inside begins at distance
+            // 4·√2.
             {{1, -0.1f, 0}, {1, 0.1f, 0}, {5, 0, 5}},
             {{0, 0, 2.999f}, {0.1f, 0, 9}, {0, 0.1f, 9}},   // only its tip is near enough
             {{0, 0, 3.001f}, {0.1f, 0, 9}, {0, 0.1f, 9}},   // not even its tip

@@ -34,8 +34,8 @@ double squared_importance(const CameraVertex& vertex, double term) {
     return dot(response, response) * term * term;
 }
 
-/// Below which importons are not asked about the VPL: a little under the mean over `count`, which are all
-/// vertices and others that send nothing.
+/// The square below which importons are not asked about the VPL: a little less than the mean over `count`
+/// importons, namely all vertices and others that send nothing.
 double threshold_of(const test::GatherCase& data, const std::vector<CameraVertex>& vertices, const Vpl& vpl,
                     std::size_t count) {
     double sum = 0;
@@ -46,7 +46,7 @@ double threshold_of(const test::GatherCase& data, const std::vector<CameraVertex
     return VplContribution::kNegligiblePart * sum / static_cast<double>(count);
 }
 
-/// The column sum, or the root of the sum of squares, by a plain loop with the host's own rays.
+/// The column sum, or the root of the sum of squares, by a plain loop with rays on the host.
 double expected_contribution(const test::GatherCase& data, const std::vector<CameraVertex>& vertices,
                              const Vpl& vpl, ContributionNorm norm, double threshold = 0) {
     double sum = 0;
@@ -64,7 +64,7 @@ double expected_contribution(const test::GatherCase& data, const std::vector<Cam
     return norm == ContributionNorm::mean ? sum : std::sqrt(sum);
 }
 
-/// What the stage finds of the mean; one more slot than VPLs, −1.
+/// The stage's result for the mean. It has one more slot than there are VPLs, which stays −1.
 std::vector<float> found_contributions(Device& device, const test::GatherCase& data,
                                        const std::vector<CameraVertex>& vertices) {
     const test::SceneOnDevice on_device(device, data.scene);
@@ -87,7 +87,7 @@ GroupContribution found_by_group(Device& device, const test::GatherCase& data, c
 }
 
 test::GatherCase small_case() {
-    // Few enough receivers for all of them to be among the importons.
+    // There are so few receivers that all of them are among the importons.
     test::GatherCase data = test::room_of_boxes(30, 70, 4, 2);
     data.scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
     return data;

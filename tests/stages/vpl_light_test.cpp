@@ -27,7 +27,7 @@ std::vector<Vpl> random_vpls(std::size_t count) {
     return vpls;
 }
 
-/// Irradiance of lane i is (i, 2i, 1).
+/// Packets in which the irradiance of lane i is (i, 2i, 1).
 std::vector<IrradiancePacket> ramp(std::size_t packets) {
     std::vector<IrradiancePacket> light(packets);
     for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {

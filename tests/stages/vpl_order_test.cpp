@@ -12,7 +12,7 @@ namespace {
 
 class VplOrderTest : public test::DeviceTest {};
 
-/// Each depth names its VPL.
+/// VPLs whose depths identify them.
 std::vector<Vpl> random_vpls(uint count) {
     Pcg32 random(1);
     std::vector<Vpl> vpls(count);

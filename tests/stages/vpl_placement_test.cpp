@@ -115,7 +115,7 @@ TEST_F(VplPlacementTest, EachPartOfTheAreaGetsExactlyOneSample) {
         Surface surface(random_areas(5000, 2));
         std::reverse(surface.ids.begin(), surface.ids.end());
         Placer placer(device, surface);
-        std::vector<double> ends(surface.areas.size());  // by place in ids
+        std::vector<double> ends(surface.areas.size());  // sums of areas, in the order of ids
         double sum = 0;
         for (std::size_t i = 0; i < ends.size(); ++i) {
             ends[i] = sum += surface.areas[surface.ids[i]];
@@ -207,7 +207,7 @@ TEST_F(VplPlacementTest, HugeAndTinyTrianglesTogether) {
         }
         EXPECT_GE(on_huge, 99'998u);  // the parts at both ends may meet a tiny one
 
-        // Units that fit the whole scene still tell the tiny ones apart.
+        // Units that suit the whole scene still distinguish the tiny triangles.
         const float units = area_units_per_square_metre(surface.total());
         surface.ids = {3, 7, 900};
         surface.areas[7] = 3e-6f;
@@ -227,7 +227,7 @@ TEST_F(VplPlacementTest, TrianglesWithoutAreaAreNeverChosen) {
     on_each_device([](Device& device) {
         std::vector<float> areas(300);
         for (std::size_t i = 0; i < areas.size(); ++i) {
-            areas[i] = i % 3 == 1 ? 1.0f : 0.0f;  // the first and the last have none
+            areas[i] = i % 3 == 1 ? 1.0f : 0.0f;  // the first and the last triangle have no area
         }
         Placer placer(device, Surface(areas));
         for (const std::size_t count : {1u, 100u, 5000u}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that run on every OpenCL device of the machine.
+// A fixture for tests that run on every OpenCL device of the machine.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace nearlight::core::test {
 
 /// Opens every usable device, or those that NEARLIGHT_TEST_DEVICES names (an index, part of a name, cpu, gpu,
-/// all). Where there is none the test is skipped; with NEARLIGHT_REQUIRE_DEVICE=1 it fails.
+/// all). If there is none, the test is skipped; with NEARLIGHT_REQUIRE_DEVICE=1 it fails.
 class DeviceTest : public ::testing::Test {
   protected:
     void SetUp() override;
@@ -28,7 +28,8 @@ class DeviceTest : public ::testing::Test {
             check(*device);
         }
     }
-    /// The same, and once more with the binary tree where single rays go through the wide one.
+    /// Runs `check(device)` on each device, and a second time with the binary tree if single rays use the
+    /// wide tree.
     template <typename Check>
     void on_each_ray_tree(Check&& check) {
         on_each_device([&](Device& device) {
@@ -48,7 +49,7 @@ class DeviceTest : public ::testing::Test {
     std::vector<std::unique_ptr<Device>> devices_;
 };
 
-/// Programs compiled by tests are kept here, inside the build tree.
+/// Folder inside the build tree in which programs compiled by tests are kept.
 std::filesystem::path test_cache_dir();
 
 /// A buffer of `count` elements, followed by guard elements that kernels must leave alone.

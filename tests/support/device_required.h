@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests that run the program on a device: what to do where there is none.
+// Skips or fails tests that run the program on a device if there is none.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ inline bool has_device() {
                        [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
 }
 
-/// NEARLIGHT_REQUIRE_DEVICE=1, as CI sets it: a missing device is a failure.
+/// Whether a missing device is a failure: NEARLIGHT_REQUIRE_DEVICE=1, which CI sets.
 inline bool device_is_required() {
     const char* const required = std::getenv("NEARLIGHT_REQUIRE_DEVICE");
     return required != nullptr && std::string_view(required) == "1";
@@ -26,7 +26,7 @@ inline bool device_is_required() {
 
 }  // namespace nearlight::core::test
 
-/// Ends the test where no device is usable: skipped, or failed where one is required.
+/// Ends the test if no device is usable: it fails if one is required, and is skipped otherwise.
 #define NEARLIGHT_NEEDS_DEVICE()                                             \
     if (!nearlight::core::test::has_device()) {                              \
         if (nearlight::core::test::device_is_required()) {                   \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an action throws, as something to look at.
+// Makes the Error that an action throws available to tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -100,13 +100,13 @@ GatherCase room_of_boxes(std::size_t boxes, std::size_t vpls, std::size_t packet
     add_box(data.scene, {-1, -1, -1}, {1, 1, 1});
     for (std::size_t i = 0; i < boxes; ++i) {
         const Vec3 low = 0.8f * point_in_cube(random);
-        // Every fourth is flat: a sheet in an axis-aligned plane.
+        // Every fourth box is flat: a sheet in an axis-aligned plane.
         const float height = i % 4 == 0 ? 0.0f : 0.2f * random.uniform();
         const float width = 0.02f + 0.15f * random.uniform();
         add_box(data.scene, low, low + Vec3{width, height, 0.02f + 0.15f * random.uniform()});
     }
     finish(data, vpls, packets, random, [&] {
-        // A random ray's end on a surface.
+        // The point is where a random ray hits a surface.
         for (;;) {
             const Vec3 origin = 0.95f * point_in_cube(random);
             const Vec3 direction = any_direction(random);

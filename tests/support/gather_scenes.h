@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small gathers of all kinds, and what a pair of them contributes.
+// Small gathers of all kinds, and the term that a pair of them contributes.
 #pragma once
 
 #include <string>
@@ -18,15 +18,15 @@ struct GatherCase {
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
     float clamp_radius = 0.1f;
-    float extent = 2.0f;  ///< all lies in [−extent/2, extent/2]³
+    float extent = 2.0f;  ///< everything is in [−extent/2, extent/2]³
 };
 
-/// Triangles, VPLs and receivers anywhere, facing anywhere.
+/// Triangles, VPLs and receivers at random places with random directions.
 GatherCase random_triangles(std::size_t triangles, std::size_t vpls, std::size_t packets, std::uint64_t seed);
-/// VPLs and receivers on the walls of a room and on the boxes in it, standing off a little.
+/// VPLs and receivers a small distance off the walls of a room and off the boxes in it.
 GatherCase room_of_boxes(std::size_t boxes, std::size_t vpls, std::size_t packets, std::uint64_t seed);
-/// Triangles whose corners lie on a coarse grid; VPLs and receivers on grid points, in packets without
-/// variety.
+/// Triangles whose corners lie on a coarse grid; VPLs and receivers are on grid points, with little variety
+/// within packets.
 GatherCase points_on_grid(std::size_t vpls, std::size_t packets, std::uint64_t seed);
 /// Very thin triangles, and some that are lines or points.
 GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets, std::uint64_t seed);

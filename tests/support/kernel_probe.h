@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls functions of kernels/lib/ from a kernel that a test brings along.
+// Calls functions of kernels/lib/ from a kernel in the test.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace nearlight::core::test {
 
-/// Compiles `source` with the kernel library beside it; its entry point is `probe`.
+/// Compiles `source`, which may include the kernel library and has the entry point `probe`.
 class KernelProbe {
   public:
     KernelProbe(const Device& like, const std::string& source)

@@ -8,7 +8,8 @@
 
 namespace nearlight::core::test {
 
-/// Below NEARLIGHT_TEST_SCENES, or else beside the checkout; empty where the scene is not on this machine.
+/// Path of a scene in the folder NEARLIGHT_TEST_SCENES or else beside the checkout; empty if the scene is not
+/// on this machine.
 inline std::filesystem::path real_scene(const std::string& name) {
     const char* folder = std::getenv("NEARLIGHT_TEST_SCENES");
     const std::filesystem::path root =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene in host and device memory at once, and receivers made by hand.
+// A scene in both host and device memory, and receivers at given points.
 #pragma once
 
 #include <utility>
@@ -21,7 +21,7 @@ struct SceneOnDevice {
     DeviceScene buffers;
 };
 
-/// Packets that hold the points in order; what is left of the last one is absent.
+/// Packets that hold the points in order. The other lanes of the last packet are absent.
 inline std::vector<ReceiverPacket> pack_receivers(const std::vector<ReceiverPoint>& points) {
     std::vector<ReceiverPacket> packets(receiver_packet_count(points.size()));
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -7,7 +7,8 @@
 
 namespace nearlight::core::test {
 
-/// 0, 1, around work-group sizes, around the lengths at which arrays are split, and one large one.
+/// The sizes 0 and 1, sizes around those of work-groups and around the lengths at which arrays are split, and
+/// one large size.
 inline std::vector<std::size_t> awkward_sizes() {
     std::vector<std::size_t> sizes{0, 1, 2, 3};
     for (const std::size_t size : {8, 32, 64, 256, 1024, 4096, 8192, 65536, 262144}) {

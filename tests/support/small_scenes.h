@@ -43,7 +43,8 @@ inline void add_triangle(Scene& scene, Vec3 a, Vec3 b, Vec3 c, uint material) {
     scene.triangles.push_back({first, first + 1, first + 2, material});
 }
 
-/// The parallelogram corner, corner + s, corner + s + t, corner + t; its front is where s × t points.
+/// Adds the parallelogram corner, corner + s, corner + s + t, corner + t, whose front is on the side of s ×
+/// t.
 inline void add_quad(Scene& scene, Vec3 corner, Vec3 s, Vec3 t, uint material) {
     const uint first = add_vertex(scene, corner);
     add_vertex(scene, corner + s);
@@ -98,7 +99,7 @@ inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<do
     scene.camera.fov_x_degrees = fov;
 }
 
-/// A floor of two triangles, 40 × 40, which is a checkerboard of cells of 0.5; on it a wall and a block,
+/// A floor of two triangles, 40 × 40, with a checkerboard of cells of 0.5. A wall and a block stand on it,
 /// under a point light. The camera sees a few square metres of it, so any close range cuts through both
 /// triangles.
 inline Scene checkered_plain() {
@@ -149,21 +150,21 @@ inline Scene court_under_sky() {
     return scene;
 }
 
-/// Views that were chosen against close-range sampling, from scenes/: see the READMEs there.
+/// Views from scenes/ that were chosen against close-range sampling; the READMEs there explain them.
 inline Scene hard_view(const std::string& name) {
     Scene scene = load_scene(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "scenes" / name / "scene.xml");
     scene.camera.width = scene.camera.height = 32;
     return scene;
 }
-/// An empty wall, the lamp and furniture behind the camera.
+/// A view of an empty wall, with the lamp and the furniture behind the camera.
 inline Scene wall_view() {
     return hard_view("wall");
 }
-/// A room in one view.
+/// A view of a whole room.
 inline Scene whole_room_view() {
     return hard_view("whole-room");
 }
-/// A room that is lit through a door.
+/// A view of a room that is lit through a door.
 inline Scene next_room_view() {
     return hard_view("next-room");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mean and how well it is known.
+// A mean and its standard error.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ struct Spread {
     double error = 0;  ///< standard error of the mean
 };
 
-/// At least two values.
+/// Mean and standard error of two or more values.
 inline Spread spread_of(const std::vector<double>& values) {
     const auto n = static_cast<double>(values.size());
     double sum = 0;

@@ -25,7 +25,7 @@ class Uploaded {
           sums_(device, data.receivers.size()),
           roulette_(device),
           clamp_radius_(data.clamp_radius) {
-        // Whatever the memory holds must not matter.
+        // The result must not depend on the memory's previous contents.
         sums_.light.upload(std::vector<IrradiancePacket>(data.receivers.size(), garbage()));
     }
 
@@ -37,7 +37,8 @@ class Uploaded {
         EXPECT_TRUE(gatherer.gather(input(), sums_));
         return sums_.light.download();
     }
-    /// The light of those that the roulette chooses. Bundles are formed in runs of `run_packets`; 0: of all.
+    /// The light of the VPLs that the roulette chooses. Bundles are formed within runs of `run_packets`
+    /// packets; 0: within all packets.
     std::vector<IrradiancePacket> gather(Gatherer& gatherer, float threshold, uint seed,
                                          uint run_packets = 0) {
         const VplSelection selection = select(threshold, seed, run_packets);

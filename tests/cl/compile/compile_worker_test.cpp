@@ -20,7 +20,7 @@ namespace {
 
 using test::error_of;
 
-/// As a program does it: before there are threads or drivers. Each test runs in a process of its own.
+/// Starts workers as a program does, before there are threads or drivers. Each test runs in its own process.
 CompileWorkers early_workers = start_compile_workers(2);
 
 bool is_running(pid_t process) {
@@ -54,7 +54,7 @@ class CompileWorkerTest : public test::DeviceTest {
     [[nodiscard]] ProgramRequest request(const std::string& source) const {
         return {cpu().entry(), cpu().context(), "test.cl", source, "-cl-std=CL1.2", "none"};
     }
-    /// On a device like `entry` that keeps no programs.
+    /// Compiles on a device like `entry` that keeps no programs.
     [[nodiscard]] DeviceOptions options(std::shared_ptr<ProgramCompiler> compiler) const {
         return {.kernel_dir = kernel_dir(), .cache_dir = "none", .compiler = std::move(compiler)};
     }

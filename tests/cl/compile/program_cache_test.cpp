@@ -41,7 +41,7 @@ TEST(ProgramCache, AFileOfAnotherKeyIsNotTakenForThisOne) {
     const ProgramCache other(folder / "b");
     cache.store("key 1", kBinary);
     other.store("key 2", kBinary);
-    // As a hash collision would have it: the file of key 1 under the name of key 2.
+    // This simulates a hash collision: the file of key 1 has the name of key 2.
     std::filesystem::rename(only_file(folder / "a"), only_file(folder / "b"));
     EXPECT_EQ(other.find("key 2"), std::nullopt);
 }

@@ -23,7 +23,7 @@ DeviceEntry entry(int index, const std::string& name, DeviceKind kind, const std
     return result;
 }
 
-/// The choice depends on NEARLIGHT_DEVICE, which the machine may have set.
+/// Unsets NEARLIGHT_DEVICE, on which the choice depends and which may be set on this machine.
 class ChooseDevices : public ::testing::Test {
   protected:
     void SetUp() override { unsetenv("NEARLIGHT_DEVICE"); }

@@ -75,7 +75,7 @@ TEST(Tunables, WhatWasStoredIsUsedForThatDeviceAndDriverOnly) {
     DeviceEntry other = make_entry();
     other.driver = "1.3";
     EXPECT_FALSE(choose_tunables(other, folder.path() / "new", {}).is_tuned);
-    // As a hash collision would have it.
+    // This simulates a hash collision.
     std::filesystem::rename(chosen.source, tunables_file(other, folder.path() / "new"));
     const ChosenTunables strange = choose_tunables(other, folder.path() / "new", {});
     EXPECT_FALSE(strange.is_tuned);
