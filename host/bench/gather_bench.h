@@ -48,14 +48,15 @@ std::size_t fastest_tracer(std::span<const TracerFigures> tracers, int embree_wi
 struct GatherBenchResult {
     std::size_t triangles = 0;
     std::string device;
-    std::uint64_t pairs = 0;  ///< pairs of a present receiver and a VPL
+    std::uint64_t pairs = 0;          ///< pairs of a present receiver and a VPL
     std::uint64_t after_culling = 0;  ///< pairs that are left after culling
     std::vector<TracerFigures> tracers;
     std::size_t ours = 0, embree1 = 0, embree16 = 0;  ///< indices of the fastest of each kind in `tracers`
     std::optional<std::size_t> roulette;              ///< index of the fastest with roulette; empty: none ran
-    Ratio wall1, wall16;                      ///< the fastest of Embree's modes ÷ the fastest of ours
-    Ratio processor1, processor16;            ///< as wall1 and wall16 in processor time; only where the device is a CPU
-    Ratio wall_roulette, processor_roulette;  ///< the fastest with 16 rays per call ÷ the fastest with roulette
+    Ratio wall1, wall16;            ///< the fastest of Embree's modes ÷ the fastest of ours
+    Ratio processor1, processor16;  ///< as wall1 and wall16 in processor time; only where the device is a CPU
+    Ratio wall_roulette,
+        processor_roulette;  ///< the fastest with 16 rays per call ÷ the fastest with roulette
 
     double edge_tolerance = 0.0;  ///< Agreement::edge_tolerance(), m
     std::vector<Disagreement> disagreements;
