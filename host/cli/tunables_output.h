@@ -9,11 +9,11 @@
 
 namespace nearlight::core {
 
-/// The object {"source": "…", "is_tuned": …, "packet_width": …, …}.
+/// The object {"source": "…", "is_tuned": …, "beam_width": …, …}.
 nlohmann::ordered_json to_json(const ChosenTunables& chosen);
-/// The object {"packet_width": …, …}.
+/// The object {"beam_width": …, …}.
 nlohmann::ordered_json to_json(const Tunables& tunables);
-/// The text "packet_width 256, local_size 8, …".
+/// The text "beam_width 256, local_size 8, …".
 std::string to_text(const Tunables& tunables);
 
 }  // namespace nearlight::core
