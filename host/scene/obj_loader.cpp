@@ -198,6 +198,29 @@ struct MaterialLibrary {
     std::vector<tinyobj::material_t> materials;
 };
 
+// Some releases of tinyobjloader cut the names of materials at the first blank, so they are read from the
+// text.
+void restore_names(MaterialLibrary& library) {
+    std::vector<std::string> names;
+    for_each_line(library.text, [&](int, std::string_view line) {
+        if (starts_with_word(line, "newmtl")) {
+            const std::string name = trimmed(line.substr(line.find("newmtl") + 6));
+            if (!name.empty()) {
+                names.push_back(name);
+            }
+        }
+        return true;
+    });
+    if (names.size() != library.materials.size()) {
+        return;
+    }
+    library.names.clear();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        library.names.emplace(names[i], static_cast<int>(i));
+        library.materials[i].name = names[i];
+    }
+}
+
 std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
     std::vector<MaterialLibrary> libraries;
     for (const std::string& name : obj.libraries) {
@@ -215,6 +238,7 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
         std::string warning;
         std::string error;
         tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
+        restore_names(library);
         libraries.push_back(std::move(library));
     }
     return libraries;
