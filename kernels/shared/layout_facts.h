@@ -27,11 +27,14 @@
     OFFSET(Vertex, v)                               \
     SIZE(Triangle)                                  \
     OFFSET(Triangle, material)                      \
+    SIZE(Parameter)                                 \
+    OFFSET(Parameter, texture)                      \
     SIZE(Material)                                  \
+    OFFSET(Material, emission)                      \
     OFFSET(Material, eta)                           \
-    OFFSET(Material, transmission)                  \
-    OFFSET(Material, base_saturation)               \
+    OFFSET(Material, internal_reflectance)          \
     SIZE(Texture)                                   \
+    OFFSET(Texture, format)                         \
     OFFSET(Texture, v_offset)                       \
     OFFSET(Texture, color1)                         \
     SIZE(Emitter)                                   \

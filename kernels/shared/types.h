@@ -6,21 +6,14 @@
 #ifndef NEARLIGHT_SHARED_TYPES_H
 #define NEARLIGHT_SHARED_TYPES_H
 
+#include "shared/material.h"
+#include "shared/vec3.h"
+
 #ifdef __cplusplus
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 namespace nearlight::core {
-using uint = std::uint32_t;
-#define NEARLIGHT_SHARED_FUNCTION constexpr
-#else
-#define NEARLIGHT_SHARED_FUNCTION inline
 #endif
-
-/// Three packed floats: a point or a vector in world space, in metres, or a linear sRGB colour.
-typedef struct Vec3 {
-    float x, y, z;
-} Vec3;
 
 /// A child reference of a BvhNode. If bit 31 is clear, it is the index of an inner node. If bit 31 is set, it
 /// is a leaf, with the triangle count − 1 in bits 27 to 30 and the first index into the BvhTriangle array in
@@ -106,53 +99,6 @@ typedef struct Triangle {
     uint v0, v1, v2;
     uint material;
 } Triangle;
-
-// What the camera sees at a surface besides its Lambertian base (Material.lobe). Light transport beyond the
-// first diffuse surface sees every opaque surface as Lambertian and no glass at all; see docs/method.md.
-#define NEARLIGHT_LOBE_NONE 0u             // Lambertian only
-#define NEARLIGHT_LOBE_COAT 1u             // dielectric coat over the base (plastic, roughplastic)
-#define NEARLIGHT_LOBE_CONDUCTOR 2u        // metal, no base (conductor, roughconductor, mirror)
-#define NEARLIGHT_LOBE_DIELECTRIC 3u       // solid glass, no base
-#define NEARLIGHT_LOBE_THIN_DIELECTRIC 4u  // a pane of glass, no base
-
-#define NEARLIGHT_MATERIAL_TWO_SIDED 1u  // without this flag the back reflects nothing
-
-/// A material with the reflectance t = base × texture. The camera sees the Lambertian albedo t·base_scale /
-/// (1 − base_saturation·t), times 1 − Fresnel under a coat. Light transport sees t·light_scale / (1 −
-/// base_saturation·t) + light_offset.
-typedef struct Material {
-    Vec3 base;
-    int base_texture;  // index of the texture, or −1
-    Vec3 specular;     // tint of the lobe's reflection
-    float roughness;   // GGX alpha of the lobe; 0 is smooth
-    Vec3 eta;          // conductor: real index; otherwise x is interior ÷ exterior index
-    uint lobe;
-    Vec3 k;  // conductor: imaginary index
-    uint flags;
-    Vec3 emission;  // radiance of an area light (front side only), W/(m² sr)
-    float base_scale;
-    Vec3 light_offset;
-    float light_scale;
-    Vec3 transmission;  // tint of the lobe's transmission
-    float base_saturation;
-} Material;
-
-#define NEARLIGHT_TEXTURE_BITMAP 0u
-#define NEARLIGHT_TEXTURE_CHECKERBOARD 1u
-
-/// A texture, looked up at the point (s, t) that its members give for (u, v). Bitmaps are sRGB-encoded RGBA8
-/// in one shared pool, top row first, repeated and filtered bilinearly.
-typedef struct Texture {
-    uint kind;
-    uint first_texel;  // index into the pool
-    uint width, height;
-    float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
-    float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
-    Vec3 color0;                             // checkerboard: where s and t are in the same half of their cell
-    float pad2;
-    Vec3 color1;
-    float pad3;
-} Texture;
 
 #define NEARLIGHT_EMITTER_POINT 0u
 #define NEARLIGHT_EMITTER_SPOT 1u
@@ -329,8 +275,9 @@ NEARLIGHT_CHECK_SHARED(RayQuery, 32);
 NEARLIGHT_CHECK_SHARED(RayHit, 16);
 NEARLIGHT_CHECK_SHARED(Vertex, 32);
 NEARLIGHT_CHECK_SHARED(Triangle, 16);
-NEARLIGHT_CHECK_SHARED(Material, 112);
-NEARLIGHT_CHECK_SHARED(Texture, 80);
+NEARLIGHT_CHECK_SHARED(Parameter, 16);
+NEARLIGHT_CHECK_SHARED(Material, 272);
+NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Emitter, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
 NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
