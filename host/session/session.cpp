@@ -106,7 +106,7 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                               const RowSink& sink, const GatherFraction& progress) {
     const PinholeCamera& camera = view.camera;
     const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
-                                      settings.samples_per_pixel, pool_.leader().scene.has_lobes ? 2 : 1);
+                                      settings.samples_per_pixel, pool_.leader().scene.divides_paths ? 2 : 1);
     const Picture picture{.view = view, .settings = settings, .seed = seed, .plan = plan, .vpls = vpls};
     GatherOutcome outcome;
     const auto take_band = [&](const FinishedBand& band) {

@@ -14,7 +14,9 @@ struct DeviceScene {
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
     Buffer<Texture> textures;
-    Buffer<uint> texels;
+    Buffer<uint> texels;  ///< words of all bitmaps
+    Buffer<Vec3> vertex_colors;
+    Buffer<float> curves;  ///< transmission curves
     Buffer<Emitter> emitters;
     Buffer<Environment> environment;
     Buffer<float> environment_pixels;  ///< RGBA
@@ -24,16 +26,22 @@ struct DeviceScene {
 
     // The host needs these without asking the device.
     SceneInfo host_info{};
-    bool has_lobes = false;    ///< some material (a coat or glass) divides camera paths in two
-    float mean_albedo = 0.5f;  ///< luminance of light_albedo(), averaged over area
-    float total_power = 0.0f;  ///< luminance of the emitted flux of all lights, W
-    double total_area = 0.0;   ///< area of all triangles, m²
+    bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
+    float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;     ///< area of all triangles, m²
+
+    /// The transmission curves for a gather; null where all of them are 1.
+    [[nodiscard]] const Buffer<float>* curves_in_use() const {
+        return host_info.has_curves != 0 ? &curves : nullptr;
+    }
 
     /// Calls visit(buffer) for every buffer, in the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
         visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
+        visit(vertex_colors), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
         visit(info);
     }
