@@ -17,13 +17,14 @@
         const global Texture *restrict scene_textures, const global uint *restrict scene_texels,             \
         const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
-        const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
+        const global float *restrict scene_column_cdf, const global float *restrict scene_curves,            \
+        const global Vec3 *restrict scene_vertex_colors, const global SceneInfo *restrict scene_info
 #define SCENE_VIEW                                                                                           \
     {                                                                                                        \
         scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,     \
             scene_glass_ids, scene_vertices, scene_triangles, scene_materials, scene_textures, scene_texels, \
             scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf,    \
-            scene_info                                                                                       \
+            scene_curves, scene_vertex_colors, scene_info                                                    \
     }
 
 typedef struct SceneView {
@@ -43,6 +44,8 @@ typedef struct SceneView {
     const global float4* environment_pixels;
     const global float* row_cdf;
     const global float* column_cdf;
+    const global float* curves;        // NEARLIGHT_CURVE_SIZE values for each transmission curve
+    const global Vec3* vertex_colors;  // one for each vertex, where a texture asks for them
     const global SceneInfo* info;
 } SceneView;
 
@@ -53,6 +56,7 @@ typedef struct SurfaceHit {
     float3 geometric;  // normal of the triangle
     float3 shading;    // interpolated normal; the geometric one where the mesh has none
     float2 uv;         // texture coordinates
+    float2 weights;    // of the triangle's vertices v1 and v2
     uint triangle;     // index into SceneView.triangles
     uint material;
     uint front;  // 1: the ray met the front
@@ -79,6 +83,7 @@ inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* o
     const float3 smooth = squared > 1e-12f ? interpolated * rsqrt(squared) : normal;
     hit.shading = dot(smooth, hit.geometric) < 0.0f ? -smooth : smooth;
     hit.uv = (float2)(w * a->u + u * b->u + v * c->u, w * a->v + u * b->v + v * c->v);
+    hit.weights = (float2)(u, v);
     hit.triangle = triangle_id;
     hit.material = triangle.material;
     return hit;
