@@ -75,7 +75,7 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
     path->emitted += path->ray.throughput *
                      reflected_light(scene, hit, surface, BSDF_S, light_samples, numbers->light_seed);
     float choice = numbers->lobe;
-    const float reflected = bsdf_reflection_probability(scene, surface, numbers->direction);
+    const float reflected = reflection_probability(surface, numbers->direction);
     if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
         const bool second = take_second_way(path, branch, 0.5f, 0.0f);
         path->ray.throughput *= second ? reflected : 1.0f - reflected;
@@ -92,8 +92,9 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
 inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                            const SurfaceBsdf* surface, uint branch, uint light_samples,
                            const SurfaceNumbers* numbers, float3* albedo) {
-    *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, surface->wo.z);
-    const float3 specular = bsdf_albedo(scene, surface, BSDF_S);
+    const float3 wo = world_to_frame(&surface->frame, surface->wo);
+    *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
+    const float3 specular = s_albedo(&surface->bsdf, wo);
     const bool has_diffuse = !is_black(*albedo);
     if (is_black(specular)) {
         return has_diffuse ? WAY_RECEIVER : WAY_END;
@@ -185,7 +186,8 @@ inline CameraReceiver follow_path(const SceneView* scene, const global CloseRang
             receiver.vertex.depth = hit.t;
         }
         const SurfaceNumbers numbers = surface_numbers(path->key, step);
-        const SurfaceBsdf surface = surface_bsdf(scene, &hit, path->ray.direction, numbers.model);
+        const SurfaceBsdf surface =
+            surface_bsdf(scene, &hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
         float3 albedo;
         // A surface that paths must not leave reflects no light of lamps, but it shows in the other layers.
         const uint light_samples = step + 1 < limits->max_edges ? limits->light_samples : 0;

@@ -118,7 +118,8 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     if (hit.t < 0.0f) {
         return;
     }
-    const SurfaceBsdf surface = surface_bsdf(&scene, &hit, direction, sample_2d(index, 1, key).x);
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(index, 1, key).x);
     LocalPoint light;
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;

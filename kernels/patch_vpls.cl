@@ -32,7 +32,8 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
         surface_at(&scene, point.triangle, (float2)(point.u, point.v), position, load3(point.normal), front);
     const uint4 random =
         random_uint4((uint4)(as_uint(position.x), as_uint(position.y), as_uint(position.z), 0x9a7c4u));
-    const SurfaceBsdf surface = surface_bsdf(&scene, &hit, -hit.geometric, to_unit_float(random.x));
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, -hit.geometric, BSDF_RADIANCE, to_unit_float(random.x));
     const float3 power = surface.bsdf.diffuse * area_per_sample;
     if (is_black(power)) {
         return;

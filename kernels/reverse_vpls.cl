@@ -37,7 +37,8 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     if (hit.t < 0.0f) {
         return;
     }
-    const SurfaceBsdf surface = surface_bsdf(&scene, &hit, direction, sample_2d(ray, 1, seed).x);
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(ray, 1, seed).x);
     const float3 albedo = surface.bsdf.diffuse;
     const float3 y = offset_point(&scene, hit.position, hit.geometric);
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane

@@ -29,7 +29,7 @@ inline bool land(const SceneView* scene, const EmittedParticle* particle, float 
     if (at->hit.t < 0.0f) {
         return false;
     }
-    at->surface = surface_bsdf(scene, &at->hit, particle->direction, u);
+    at->surface = surface_bsdf(scene, &at->hit, particle->direction, BSDF_FLUX, u);
     return true;
 }
 
@@ -57,7 +57,7 @@ inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, u
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture.
 inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u, float2 v) {
-    const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, BSDF_FLUX, u, v);
+    const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
     const bool is_unseen = sample.is_delta && particle->from_delta;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
     particle->direction = sample.wi;

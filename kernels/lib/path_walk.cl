@@ -5,6 +5,7 @@
 #define NEARLIGHT_LIB_PATH_WALK
 
 #include "lib/receiver_path.cl"
+#include "lib/vpl.cl"
 
 /// The law of the radius at which the geometry term is bounded for light from a place y: max_radius /
 /// 2^level, but not below min_radius. The level is the first (of GATHER_LEVELS) for which the radius is at

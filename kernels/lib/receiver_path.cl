@@ -88,12 +88,12 @@ inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, co
     if (is_black(light->radiance)) {
         return (float3)(0.0f);
     }
-    const float3 value = bsdf_eval(scene, surface, light->direction, parts, BSDF_RADIANCE) * light->radiance;
+    float pdf;
+    const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf) * light->radiance;
     if (is_black(value) || !light_is_visible(scene, ray_origin(scene, hit, light->direction), light)) {
         return (float3)(0.0f);
     }
-    const float of_rays =
-        light->is_delta ? 0.0f : path_ratio * bsdf_pdf(scene, surface, light->direction, parts);
+    const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
     return value / (light->pdf + of_rays);
 }
 
@@ -140,7 +140,7 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
 inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
                         const SurfaceBsdf* surface, uint parts, float u, float2 v) {
-    const BsdfSample sample = bsdf_sample(scene, surface, parts, BSDF_RADIANCE, u, v);
+    const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
     ray->throughput *= sample.weight;
     ray->direction = sample.wi;
     ray->origin = ray_origin(scene, hit, sample.wi);
@@ -172,12 +172,14 @@ inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hi
     for (uint surfaces = 1; surfaces < max_edges; ++surfaces) {
         const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
         const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
-        SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, to_unit_float(more.x));
+        SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, to_unit_float(more.x));
+        uint parts = BSDF_D | BSDF_S;
         if (surfaces == 1) {
             surface.bsdf.diffuse *= diffuse_weight;
+            parts = diffuse_weight > 0.0f ? parts : BSDF_S;
         }
-        light += ray.throughput * reflected_light(scene, &hit, &surface, BSDF_D | BSDF_S, 1, random.w);
-        if (!scatter_ray(scene, &ray, &hit, &surface, BSDF_D | BSDF_S, to_unit_float(more.y),
+        light += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1, random.w);
+        if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
                          (float2)(to_unit_float(random.y), to_unit_float(random.z))) ||
             !survives(&ray, surfaces, first_weight, to_unit_float(more.z))) {
             break;

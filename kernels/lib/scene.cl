@@ -51,24 +51,24 @@ typedef struct SceneView {
 
 /// What a ray found. Normals are unit vectors.
 typedef struct SurfaceHit {
-    float t;              // in units of the direction's length; < 0: no hit
-    float3 position;      // on the surface
-    float3 geometric;     // normal of the triangle, on the side that the ray came from
-    float3 shading;       // interpolated normal on the front; the triangle's own where the mesh has none
-    float2 barycentrics;  // weights of v1 and v2
-    float2 uv;            // texture coordinates
-    uint triangle;        // index into SceneView.triangles
+    float t;           // in units of the direction's length; < 0: no hit
+    float3 position;   // on the surface
+    float3 geometric;  // normal of the triangle, on the side that the ray came from
+    float3 shading;    // interpolated normal on the front; the triangle's own where the mesh has none
+    float2 weights;    // weights of v1 and v2
+    float2 uv;         // texture coordinates
+    uint triangle;     // index into SceneView.triangles
     uint material;
     uint front;  // 1: the ray met the front
 } SurfaceHit;
 
 /// The surface at a point of a triangle, met from the front or from the back. `normal` is that of the
 /// triangle's front, and `t` is left 0.
-inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 barycentrics, float3 position,
+inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 weights, float3 position,
                              float3 normal, bool front) {
     SurfaceHit hit;
-    const float u = barycentrics.x;
-    const float v = barycentrics.y;
+    const float u = weights.x;
+    const float v = weights.y;
     const float w = 1.0f - u - v;
     const Triangle triangle = scene->triangles[triangle_id];
     const global Vertex* a = scene->vertices + triangle.v0;
@@ -81,7 +81,7 @@ inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 ba
     const float3 interpolated = w * load3(a->normal) + u * load3(b->normal) + v * load3(c->normal);
     const float squared = dot(interpolated, interpolated);
     hit.shading = squared > 1e-12f ? interpolated * rsqrt(squared) : normal;
-    hit.barycentrics = barycentrics;
+    hit.weights = weights;
     hit.uv = (float2)(w * a->u + u * b->u + v * c->u, w * a->v + u * b->v + v * c->v);
     hit.triangle = triangle_id;
     hit.material = triangle.material;

@@ -105,7 +105,7 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
                    : 0.0f;
     }
     const float cosine = -dot(hit->geometric, direction);
-    if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission))) {
+    if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission.value))) {
         return 0.0f;
     }
     const uint index = emitter_of_triangle(scene, hit->triangle);

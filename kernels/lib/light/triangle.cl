@@ -27,7 +27,7 @@ inline float triangle_area(const SceneView* scene, uint triangle_id) {
 /// Radiance that a surface sends back along a ray that met it. Only the front emits.
 inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     (void)direction;  // emission is alike in all directions
-    return hit->front ? load3(scene->materials[hit->material].emission) : (float3)(0.0f);
+    return hit->front ? load3(scene->materials[hit->material].emission.value) : (float3)(0.0f);
 }
 
 /// Density per steradian at the distance √squared of a point that has the density `per_area` on a surface
