@@ -68,11 +68,11 @@ Session::Session(std::span<Device* const> devices, const Scene& scene, const Ses
     : scene_(scene), pool_(devices, options.gather_kernel) {
     const Stopwatch total;
     Stopwatch watch;
-    const SceneTrees trees =
-        find_or_build_scene_trees(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
-                                  {.folder = pool_.leader().device().options().cache_dir});
+    const ShapedBvh tree =
+        find_or_build_scene_tree(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
+                                 {.folder = pool_.leader().device().options().cache_dir});
     seconds_.build_bvh = watch.lap();
-    pool_.upload(scene, trees);
+    pool_.upload(scene, tree);
     seconds_.upload = watch.lap();
     seconds_.total = total.seconds();
 }

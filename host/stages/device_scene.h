@@ -8,8 +8,7 @@
 namespace nearlight::core {
 
 struct DeviceScene {
-    DeviceTree tree;   ///< tree of opaque surfaces
-    DeviceTree glass;  ///< tree of glass, which only the camera sees
+    DeviceTree tree;
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
@@ -39,7 +38,7 @@ struct DeviceScene {
     /// Calls visit(buffer) for every buffer, in the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
-        visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
+        visit(tree), visit(tree.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(vertex_colors), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
@@ -47,11 +46,11 @@ struct DeviceScene {
     }
 };
 
-/// Uploads a scene for gathers with `kernel`. The trees must have the shapes that tree_shapes() asks for.
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees,
+/// Uploads a scene for gathers with `kernel`. The tree must have the shapes that tree_shapes() asks for.
+DeviceScene upload_scene(Device& device, const Scene& scene, const ShapedBvh& tree,
                          GatherKernel kernel = GatherKernel::automatic);
-/// Uploads a scene for gathers with `kernel`, and widens the trees first where the device needs wide ones.
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
+/// Uploads a scene for gathers with `kernel`, and widens the tree first where the device needs a wide one.
+DeviceScene upload_scene(Device& device, const Scene& scene, const Bvh& bvh,
                          GatherKernel kernel = GatherKernel::automatic);
 
 }  // namespace nearlight::core

@@ -10,30 +10,25 @@
 
 #define SCENE_PARAMETERS                                                                                     \
     const global TreeNode *restrict scene_nodes, const global TreeTriangles *restrict scene_tree_triangles,  \
-        const global uint *restrict scene_triangle_ids, const global TreeNode *restrict scene_glass_nodes,   \
-        const global TreeTriangles *restrict scene_glass_triangles,                                          \
-        const global uint *restrict scene_glass_ids, const global Vertex *restrict scene_vertices,           \
+        const global uint *restrict scene_triangle_ids, const global Vertex *restrict scene_vertices,        \
         const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,    \
         const global Texture *restrict scene_textures, const global uint *restrict scene_texels,             \
         const global Vec3 *restrict scene_vertex_colors, const global float *restrict scene_curves,          \
         const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
         const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
-#define SCENE_VIEW                                                                                           \
-    {                                                                                                        \
-        scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_glass_nodes, scene_glass_triangles,     \
-            scene_glass_ids, scene_vertices, scene_triangles, scene_materials, scene_textures, scene_texels, \
-            scene_vertex_colors, scene_curves, scene_emitters, scene_environment, scene_environment_pixels,  \
-            scene_row_cdf, scene_column_cdf, scene_info                                                      \
+#define SCENE_VIEW                                                                                        \
+    {                                                                                                     \
+        scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,           \
+            scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_curves,             \
+            scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf, \
+            scene_info                                                                                    \
     }
 
 typedef struct SceneView {
-    const global TreeNode* nodes;  // tree of the opaque triangles
+    const global TreeNode* nodes;
     const global TreeTriangles* tree_triangles;
     const global uint* triangle_ids;  // index into `triangles` for each slot of the tree
-    const global TreeNode* glass_nodes;
-    const global TreeTriangles* glass_triangles;
-    const global uint* glass_ids;
     const global Vertex* vertices;
     const global Triangle* triangles;
     const global Material* materials;
@@ -105,8 +100,8 @@ inline SurfaceHit no_surface(void) {
     return none;
 }
 
-/// The nearest opaque surface on a ray before t_max. Its t is negative if there is none.
-inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 direction, float t_max) {
+/// The nearest surface on a ray before t_max. Its t is negative if there is none.
+inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
     const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, 0.0f, t_max);
     if (hit.slot == ~0u) {
         return no_surface();
@@ -115,28 +110,7 @@ inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 dir
     return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
 }
 
-/// The nearest surface on a ray before t_max, glass included. Its t is negative if there is none.
-inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
-    const global TreeTriangles* triangles = scene->tree_triangles;
-    const global uint* ids = scene->triangle_ids;
-    RayHit hit = tree_closest_hit(scene->nodes, triangles, origin, direction, 0.0f, t_max);
-    if (scene->info->has_glass) {
-        const RayHit glass =
-            tree_closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, 0.0f, hit.t);
-        if (glass.slot != ~0u) {
-            hit = glass;
-            triangles = scene->glass_triangles;
-            ids = scene->glass_ids;
-        }
-    }
-    if (hit.slot == ~0u) {
-        return no_surface();
-    }
-    const TreeTriangle triangle = tree_triangle(triangles, hit.slot);
-    return make_surface_hit(scene, &triangle, ids[hit.slot], direction, hit);
-}
-
-/// True if no opaque surface lies between two points that both stand off their surfaces.
+/// True if no surface lies between two points that both stand off their surfaces.
 inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
     return !tree_occluded(scene->nodes, scene->tree_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN,
                           NEARLIGHT_SEGMENT_T_MAX);

@@ -266,11 +266,10 @@ typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
     uint delta_emitter_count;  // point and spot lights: the first entries of the table
-    uint has_glass;            // 1: a second tree holds the glass, which only camera paths see
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
-    uint pad0;
+    uint pad0, pad1;
 } SceneInfo;
 
 #ifdef __cplusplus
