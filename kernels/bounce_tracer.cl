@@ -11,7 +11,7 @@
 // One work-item for each lane; any work-group size. The result is added to `irradiance`. Random numbers are
 // keyed by the receiver's position, so no split of the work changes the result.
 
-#include "lib/emitter.cl"
+#include "lib/light/direct.cl"
 #include "lib/material.cl"
 #include "lib/vpl.cl"
 

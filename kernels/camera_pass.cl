@@ -11,9 +11,10 @@
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/close_range.cl"
-#include "lib/emitter.cl"
 #include "lib/fresnel.cl"
+#include "lib/light/environment.cl"
 #include "lib/material.cl"
+#include "lib/random.cl"
 
 #define MAX_CHAIN 24
 

@@ -4,7 +4,7 @@
 // One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Random numbers
 // are keyed by the receiver's position, so no split of the work changes the result.
 
-#include "lib/emitter.cl"
+#include "lib/light/direct.cl"
 #include "lib/vpl.cl"
 
 kernel void direct_light(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers, uint packet_count,

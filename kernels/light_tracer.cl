@@ -11,6 +11,7 @@
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
+#include "lib/random.cl"
 
 // Which deposits in the close range a policy keeps (docs/method.md).
 #define KEEP_ALL 0u              // complete, and samplers without a close range

@@ -7,21 +7,19 @@
 // tracing, so no light is lost (docs/method.md). One point for each area_per_point (m²) of a triangle is
 // therefore enough, up to MAX_POINTS.
 
-#include "lib/emitter.cl"
+#include "lib/light/sample.cl"
 #include "lib/material.cl"
+#include "lib/random.cl"
 
 #define MAX_POINTS 8u
 #define LIGHTS_PER_POINT 2u
 
 inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
-    const global Emitter* emitter = scene->emitters + index;
-    if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+    if (scene->emitters[index].type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         return true;  // finding the one window of a room takes more rays than it is worth
     }
-    const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE
-                         ? triangle_irradiance(scene, emitter, x, n, u)
-                         : delta_irradiance(scene, emitter, x, n);
-    return !is_black(e);
+    const LightSample light = sample_emitter(scene, index, x, u);
+    return dot(n, light.direction) > 0.0f && !is_black(light.radiance) && light_is_visible(scene, x, &light);
 }
 
 inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {

@@ -20,6 +20,7 @@
 // One work-item for each state; any work-group size.
 
 #include "lib/light_walk.cl"
+#include "lib/random.cl"
 
 /// The share of proposals that forget the state.
 #define LARGE_STEPS 0.3f

@@ -3,7 +3,7 @@
 #ifndef NEARLIGHT_LIB_LIGHT_WALK
 #define NEARLIGHT_LIB_LIGHT_WALK
 
-#include "lib/emitter.cl"
+#include "lib/light/emission.cl"
 #include "lib/material.cl"
 #include "lib/vpl.cl"
 

@@ -4,7 +4,7 @@
 #ifndef NEARLIGHT_LIB_PATH_WALK
 #define NEARLIGHT_LIB_PATH_WALK
 
-#include "lib/emitter.cl"
+#include "lib/light/direct.cl"
 #include "lib/material.cl"
 
 /// The law of the radius at which the geometry term is bounded for light from a place y: max_radius /
