@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/math.h"
+#include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
@@ -79,9 +80,12 @@ Vec3 LightSampler::triangle_normal(uint triangle) const {
     return normalize(cross(scene_.vertices[t.v1].position - v0, scene_.vertices[t.v2].position - v0));
 }
 
-Vec3 LightSampler::emitted_radiance(uint triangle, Vec3 direction) const {
-    const Vec3 emission = scene_.materials[scene_.triangles[triangle].material].emission;
-    return is_zero(emission) || dot(triangle_normal(triangle), direction) >= 0.0f ? Vec3{0, 0, 0} : emission;
+Vec3 LightSampler::emitted_radiance(const BvhHit& hit, Vec3 direction) const {
+    const Parameter& emission = scene_.materials[scene_.triangles[hit.triangle].material].emission;
+    if (is_zero(emission.value) || dot(triangle_normal(hit.triangle), direction) >= 0.0f) {
+        return {0, 0, 0};
+    }
+    return max(value_at(scene_, surface_at(scene_, hit, direction), emission), Vec3{0, 0, 0});
 }
 
 double LightSampler::choice_probability(const Emitter& emitter) const {
@@ -97,7 +101,7 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     const Vec3 light_normal = normalize(cross(edge1, edge2));
     LightPick pick;
     pick.target = stand_off(v0 + edge1 * weights.x + edge2 * weights.y, light_normal, extent_);
-    pick.can_be_met = !is_glass(scene_.materials[triangle.material]);
+    pick.can_be_met = true;
     const Vec3 to_light = pick.target - position;
     const float distance2 = dot(to_light, to_light);
     if (!(distance2 > 0.0f)) {
@@ -106,7 +110,7 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     pick.direction = normalize(to_light);
     const float light_cosine = -dot(light_normal, pick.direction);
     if (light_cosine > 0.0f) {
-        pick.radiance = emitter.radiance;
+        pick.radiance = emitted_radiance({0.0f, weights.x, weights.y, emitter.triangle}, pick.direction);
         pick.density = static_cast<double>(distance2) / (static_cast<double>(light_cosine) * emitter.area);
     }
     return pick;
@@ -198,7 +202,7 @@ Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, 
 
 Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 position, Vec3 direction, Vec3 normal) const {
     const Vec3 radiance =
-        hit.triangle == ~0u ? environment_radiance(direction) : emitted_radiance(hit.triangle, direction);
+        hit.triangle == ~0u ? environment_radiance(direction) : emitted_radiance(hit, direction);
     const double cosine_density = std::max(0.0f, dot(normal, direction)) / std::numbers::pi;
     if (is_zero(radiance) || !(cosine_density > 0.0)) {
         return {0, 0, 0};
