@@ -78,7 +78,7 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& triangle = scene.triangles[i];
-        const Vec3 emission = scene.materials[triangle.material].emission;
+        const Vec3 emission = scene.materials[triangle.material].emission.value;
         if (is_zero(emission)) {
             continue;
         }

@@ -248,62 +248,141 @@ Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
     return {c[0], c[1], c[2]};
 }
 
-Material grey_material() {
-    Material material = diffuse_material({0.5f, 0.5f, 0.5f});
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
+Vec3 clamped(Vec3 c) {
+    return min(max(c, {0, 0, 0}), {1, 1, 1});
 }
 
-Material make_material(Scene& scene, const MaterialLibrary& library, const tinyobj::material_t& source,
-                       TextureLoader& textures, NoteSink& notes) {
-    const int line = find_line(library.text, "newmtl", source.name);
-    const auto clamped = [](Vec3 c) { return min(max(c, {0, 0, 0}), {1, 1, 1}); };
-    Material material = diffuse_material(clamped(to_vec3(source.diffuse)));
-    if (source.illum == 5 || source.illum == 3) {
-        notes.approximation(library.file, line,
-                            "a reflecting material (illum 3 or 5) is rendered as a perfect mirror");
-        material = conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.specular)), 0.0f);
-    } else if (source.illum == 7 || source.illum == 4 || source.illum == 6 || source.dissolve < 0.5f) {
-        notes.approximation(library.file, line, "a transparent material is rendered as a thin pane of glass");
-        material = glass_material(source.ior > 1.0f ? source.ior : 1.5f, true);
-    } else if (!source.diffuse_texname.empty()) {
-        const int image =
-            textures.load(resolve_path(library.file, source.diffuse_texname), false, library.file,
-                          find_line(library.text, "map_Kd", source.diffuse_texname));
-        // Many exporters leave Kd black beside a texture, which then alone gives the colour.
-        const Vec3 tint = is_zero(material.base) ? Vec3{1, 1, 1} : material.base;
-        material.base = image < 0 ? Vec3{0.5f, 0.5f, 0.5f} : tint;
-        if (image >= 0) {
-            material.base_texture = static_cast<int>(scene.textures.size());
-            scene.textures.push_back(plain_texture(image));
+bool is_glass(const tinyobj::material_t& source) {
+    return source.illum == 4 || source.illum == 6 || source.illum == 7;
+}
+
+bool is_mirror(const tinyobj::material_t& source) {
+    return source.illum == 3 || source.illum == 5;
+}
+
+// A material library's entry, and where notes of it point.
+struct MaterialSource {
+    const MaterialLibrary& library;
+    const tinyobj::material_t& entry;
+    int line;
+};
+
+class ObjMaterials {
+  public:
+    ObjMaterials(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes), textures_(scene, notes) {}
+
+    // The index of the material.
+    uint add(const MaterialSource& source) {
+        warn_of_what_is_left_out(source);
+        const Parameter emission = parameter_of(max(to_vec3(source.entry.emission), {0, 0, 0}));
+        if (is_glass(source.entry)) {
+            approximate(source, "a transparent material is rendered as a thin pane of glass");
+            Material pane = thin_dielectric_material(
+                static_cast<double>(source.entry.ior > 1.001f ? source.entry.ior : 1.5f));
+            pane.emission = emission;
+            scene_.materials.push_back(pane);
+            return static_cast<uint>(scene_.materials.size() - 1);
+        }
+        Material side = is_mirror(source.entry) ? mirror(source) : diffuse(source);
+        side.emission = emission;
+        return add_mask(source, add_two_sided(scene_, side));
+    }
+
+    uint add_grey() { return add_two_sided(scene_, diffuse_material({0.5f, 0.5f, 0.5f})); }
+
+  private:
+    void approximate(const MaterialSource& source, const std::string& what) {
+        notes_.approximation(source.library.file, source.line, what);
+    }
+
+    void warn_of_what_is_left_out(const MaterialSource& source) {
+        if (!source.entry.bump_texname.empty() || !source.entry.displacement_texname.empty() ||
+            !source.entry.normal_texname.empty()) {
+            approximate(source, "bump, displacement and normal maps of OBJ materials are left out");
+        }
+        if (source.entry.roughness > 0 || source.entry.metallic > 0 ||
+            !source.entry.roughness_texname.empty() || !source.entry.metallic_texname.empty()) {
+            approximate(source, "roughness and metalness (Pr, Pm) of OBJ materials are left out");
         }
     }
-    material.emission = max(to_vec3(source.emission), {0, 0, 0});
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
-}
+
+    int load(const MaterialSource& source, const std::string& name, const char* keyword,
+             const TexelRule& rule) {
+        return textures_.load(resolve_path(source.library.file, name), rule, source.library.file,
+                              find_line(source.library.text, keyword, name));
+    }
+
+    Material mirror(const MaterialSource& source) {
+        approximate(source, "a reflecting material (illum 3 or 5) is rendered as a perfect mirror");
+        return conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.entry.specular)));
+    }
+
+    Material diffuse(const MaterialSource& source) {
+        const Vec3 given = to_vec3(source.entry.diffuse);
+        Material material = diffuse_material(clamped(given));
+        if (!(clamped(given) == given)) {
+            approximate(source, "a diffuse reflectance (Kd) lies outside 0 to 1 and is limited");
+        }
+        if (source.entry.diffuse_texname.empty()) {
+            return material;
+        }
+        const int image = load(source, source.entry.diffuse_texname, "map_Kd", {});
+        if (image < 0) {
+            return diffuse_material({0.5f, 0.5f, 0.5f});
+        }
+        // Many exporters leave Kd black beside a texture, which then alone gives the colour.
+        material.reflectance.texture = add_texture(scene_, plain_texture(image));
+        if (is_zero(material.reflectance.value)) {
+            material.reflectance.value = {1, 1, 1};
+        }
+        return material;
+    }
+
+    // Dissolves the material by `d` and `map_d`.
+    uint add_mask(const MaterialSource& source, uint material) {
+        const float d = source.entry.dissolve;
+        Parameter opacity = parameter_of(std::clamp(d, 0.0f, 1.0f));
+        if (!(d >= 0.0f && d <= 1.0f)) {
+            approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
+        }
+        if (!source.entry.alpha_texname.empty()) {
+            const int image =
+                load(source, source.entry.alpha_texname, "map_d", {.gamma = 1.0f, .is_number = true});
+            opacity.texture = image < 0 ? -1 : add_texture(scene_, plain_texture(image));
+        }
+        if (opacity.value.x == 1.0f && opacity.texture < 0) {
+            return material;
+        }
+        Material mask = mask_material(opacity, material);
+        mask.emission = scene_.materials[material].emission;
+        scene_.materials.push_back(mask);
+        return static_cast<uint>(scene_.materials.size() - 1);
+    }
+
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader textures_;
+};
 
 std::vector<uint> make_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
     const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
-    TextureLoader textures(scene, notes);
+    ObjMaterials materials(scene, notes);
     std::vector<uint> indices;
     for (const std::string& name : obj.materials) {
-        Material material = grey_material();
-        bool found = false;
+        const MaterialLibrary* found = nullptr;
         for (const MaterialLibrary& library : libraries) {
-            if (const auto entry = library.names.find(name); entry != library.names.end() && !found) {
-                material =
-                    make_material(scene, library, library.materials[static_cast<std::size_t>(entry->second)],
-                                  textures, notes);
-                found = true;
-            }
+            found = found == nullptr && library.names.contains(name) ? &library : found;
         }
-        if (!found && !name.empty()) {
+        if (found == nullptr && !name.empty()) {
             notes.approximation(obj.mesh.source, find_line(obj.text, "usemtl", name),
                                 "material '" + name + "' is not defined; it is grey");
         }
-        indices.push_back(static_cast<uint>(scene.materials.size()));
-        scene.materials.push_back(material);
+        if (found == nullptr) {
+            indices.push_back(materials.add_grey());
+            continue;
+        }
+        const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
+        indices.push_back(materials.add({*found, entry, find_line(found->text, "newmtl", entry.name)}));
     }
     return indices;
 }

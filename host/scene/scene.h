@@ -22,18 +22,18 @@ struct Note {
 /// The note as "file:line: text".
 std::string to_string(const Note& note);
 
-/// RGBA texels of 8 bits a channel, sRGB-encoded, top row first. Data that is linear in its file is encoded
-/// by the loader, so that kernels know one encoding only.
+/// The texels of a bitmap, top row first, in one of the NEARLIGHT_TEXELS_ formats.
 struct TextureImage {
     std::string name;
     int width = 0;
     int height = 0;
-    std::vector<std::uint32_t> texels;  ///< width·height; red in the lowest byte
+    uint format = NEARLIGHT_TEXELS_SRGB8;
+    std::vector<std::uint32_t> words;  ///< width·height, or twice as many half floats
 };
 
-/// A texture as materials refer to it: a placement of a bitmap, or a checkerboard.
+/// A texture as materials refer to it: a placement of a bitmap, a checkerboard, or the vertices' colours.
 struct SceneTexture {
-    Texture parameters{};  ///< first_texel, width and height are filled in when images are pooled
+    Texture parameters{};  ///< first_word, width, height and format are filled in when images are pooled
     int image = -1;        ///< index into Scene::images, for NEARLIGHT_TEXTURE_BITMAP
 };
 
@@ -58,8 +58,11 @@ struct Scene {
     std::string name;              ///< name of the folder or file
     std::filesystem::path source;  ///< the file that was asked for
     std::vector<Vertex> vertices;
+    std::vector<Vec3> vertex_colors;  ///< linear sRGB, one a vertex; empty if no texture asks for them
     std::vector<Triangle> triangles;  ///< no NaN, no index out of range; zero area is allowed
-    std::vector<Material> materials;
+    std::vector<Material> materials;  ///< children may stand before or after those that name them
+    /// Rows of NEARLIGHT_CURVE_SIZE values, see Material::curve; row 0 is all ones.
+    std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
     std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
@@ -77,13 +80,5 @@ float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian
 /// machines.
 std::uint64_t scene_hash(const Scene& scene);
-
-/// Whether the material is glass, which only camera paths see.
-bool is_glass(const Material& material);
-/// The reflectance that light transport sees at texture coordinates (u, v); see Material.
-Vec3 light_albedo(const Scene& scene, const Material& material, float u, float v);
-/// The Lambertian reflectance that the camera sees at (u, v), without the coat's Fresnel factor; see
-/// Material.
-Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float v);
 
 }  // namespace nearlight::core

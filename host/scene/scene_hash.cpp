@@ -12,8 +12,8 @@ static_assert(std::endian::native == std::endian::little, "scene hashes assume l
 
 /// The texture without padding and what is filled in later.
 Texture essence(Texture texture) {
-    texture.first_texel = texture.width = texture.height = 0;
-    texture.pad0 = texture.pad1 = texture.pad2 = texture.pad3 = 0;
+    texture.first_word = texture.width = texture.height = texture.format = 0;
+    texture.pad0 = texture.pad1 = 0;
     return texture;
 }
 
@@ -33,7 +33,8 @@ void add_textures(Hasher& hasher, const Scene& scene) {
     for (const TextureImage& image : scene.images) {
         hasher.add(image.width);
         hasher.add(image.height);
-        hasher.add_array(image.texels);
+        hasher.add(image.format);
+        hasher.add_array(image.words);
     }
 }
 
@@ -53,8 +54,10 @@ void add_lights(Hasher& hasher, const Scene& scene) {
 std::uint64_t scene_hash(const Scene& scene) {
     Hasher hasher;
     hasher.add_array(scene.vertices);
+    hasher.add_array(scene.vertex_colors);
     hasher.add_array(scene.triangles);
     hasher.add_array(scene.materials);
+    hasher.add_array(scene.transmission_curves);
     add_textures(hasher, scene);
     add_lights(hasher, scene);
     hasher.add(scene.camera.to_world.m);

@@ -33,7 +33,7 @@ constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene},
 bool has_light(const Scene& scene) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
            std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
-               return !is_zero(scene.materials[triangle.material].emission);
+               return !is_zero(scene.materials[triangle.material].emission.value);
            });
 }
 

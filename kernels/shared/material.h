@@ -10,6 +10,8 @@ namespace nearlight::core {
 #endif
 
 /// A colour, or one to three numbers, that a texture may scale: value × what the texture says at the point.
+/// A texture of a number says the same in x, y and z, unless its file holds several numbers. Loaders see to
+/// finite texels of 0 or more; readers of a number clamp it to its range, for textures may say more than 1.
 typedef struct Parameter {
     Vec3 value;   // linear sRGB where it is a colour; a number stands in x
     int texture;  // index of the texture, or −1
@@ -17,9 +19,9 @@ typedef struct Parameter {
 
 // The models of surfaces (Material.model). A BSDF is D + S: D is its Lambertian part, S everything else.
 // kernels/lib/bsdf and host/reference/bsdf have a file for each model.
-#define NEARLIGHT_BSDF_DIFFUSE 0u          // D = reflectance/π
-#define NEARLIGHT_BSDF_PLASTIC 1u          // D under a dielectric coat S, smooth or rough
-#define NEARLIGHT_BSDF_CONDUCTOR 2u        // metal; S only
+#define NEARLIGHT_BSDF_DIFFUSE 0u    // D = reflectance/π
+#define NEARLIGHT_BSDF_PLASTIC 1u    // D under a dielectric coat S, smooth or rough; see internal_reflectance
+#define NEARLIGHT_BSDF_CONDUCTOR 2u  // metal; S only
 #define NEARLIGHT_BSDF_DIELECTRIC 3u       // the boundary of a glass body; S only
 #define NEARLIGHT_BSDF_THIN_DIELECTRIC 4u  // a pane of glass, both faces at once; S only
 #define NEARLIGHT_BSDF_PRINCIPLED 5u       // Disney's model [Burley 2012, 2015]
@@ -51,7 +53,8 @@ typedef struct Material {
     Parameter transmission;  // tint of what S lets through; may be above 1
     Parameter
         roughness;  // x, y: microfacets' α along u and v, 0 is smooth; principled: x: roughness, α's root
-    Parameter emission;     // radiance of an area light (front side only), W/(m² sr)
+    // radiance of an area light (front side only), W/(m² sr); that of a child does not count
+    Parameter emission;
     Parameter metallic;     // principled: x
     Parameter anisotropic;  // principled: x
     Parameter spec_trans;   // principled: x; thin: the share of light that diffuses through is transmission.x
@@ -67,7 +70,9 @@ typedef struct Material {
     uint flags;
     uint child[2];  // indices of materials, for models that stand for others
     uint curve;     // row of the transmission curves that weighs D: T(cosθi)·T(cosθo); row 0 is all ones
-    float internal_reflectance;  // plastic: mean reflectance of the coat from inside, weighted by cosine
+    // plastic: the mean reflectance i of the coat from inside, weighted by cosine. With the reflectance ρ of
+    // the base, D = ρ/(1 − i·ρ)/η²/π · T·T if colours saturate (NONLINEAR), otherwise ρ/(1 − i)/η²/π · T·T.
+    float internal_reflectance;
 } Material;
 
 /// A transmission curve has this many values, at the cosines i / (NEARLIGHT_CURVE_SIZE − 1), and is linear
@@ -101,9 +106,10 @@ typedef struct Texture {
     uint format, wrap_s, wrap_t, filter;
     float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
     float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
-    Parameter
-        color0;  // checkerboard: where s and t are in the same half of their cell; its texture is looked
-    Parameter color1;  // up at (u, v); nesting ends with textures that are no checkerboards
+    // checkerboard: color0 where s and t are in the same half of their cell, otherwise color1. Their textures
+    // are looked up at (u, v) and may be checkerboards, too; each refers only to textures before it.
+    Parameter color0;
+    Parameter color1;
 } Texture;
 
 #ifdef __cplusplus
