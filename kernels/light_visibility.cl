@@ -8,7 +8,6 @@
 // therefore enough, up to MAX_POINTS.
 
 #include "lib/light/sample.cl"
-#include "lib/material.cl"
 #include "lib/random.cl"
 
 #define MAX_POINTS 8u
@@ -46,13 +45,14 @@ kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, 
     const uint id = ids[index];
     const global Material* material = scene.materials + scene.triangles[id].material;
     const uint key = random_uint4((uint4)(id, seed, 0x715u, 0x1u)).x;
-    const bool two_sided = reflects(material, 0);
+    const bool front = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_FRONT) != 0;
+    const bool back = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_BACK) != 0;
     const uint point_count = (uint)clamp(triangle_area(&scene, id) / area_per_point, 1.0f, (float)MAX_POINTS);
     for (uint i = 0; i < point_count; ++i) {
         float3 normal;
         const float3 point = triangle_point(&scene, id, square_to_triangle(sample_2d(i, 0, key)), &normal);
-        if (point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key) ||
-            (two_sided && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
+        if ((front && point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key)) ||
+            (back && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
             selected[id] = 1;
             return;
         }

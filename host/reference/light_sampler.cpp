@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/math.h"
+#include "host/reference/spherical_triangle.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
@@ -29,8 +31,24 @@ Vec3 intensity(const Emitter& emitter, Vec3 direction) {
     return emitter.radiance * ((emitter.cutoff_angle - angle) / (emitter.cutoff_angle - emitter.beam_angle));
 }
 
+/// Density per steradian of a point that is uniform over a triangle, seen under the given cosine.
+double area_density(const Emitter& emitter, double distance, double cosine) {
+    return cosine > 0.0 ? distance * distance / (cosine * static_cast<double>(emitter.area)) : 0.0;
+}
+
 bool is_delta_light(const Emitter& emitter) {
     return emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT;
+}
+
+/// The barycentric weights of the second and the third corner at a point of the triangle.
+Point2 weights_at(const std::array<Vec3, 3>& corners, Vec3 point) {
+    const Vec3 edge1 = corners[1] - corners[0];
+    const Vec3 edge2 = corners[2] - corners[0];
+    const Vec3 normal = cross(edge1, edge2);
+    const float scale = 1.0f / std::max(dot(normal, normal), std::numeric_limits<float>::min());
+    const float weight1 = dot(cross(point - corners[0], edge2), normal) * scale;
+    const float weight2 = dot(cross(edge1, point - corners[0]), normal) * scale;
+    return {std::clamp(weight1, 0.0f, 1.0f), std::clamp(weight2, 0.0f, 1.0f)};
 }
 
 }  // namespace
@@ -74,10 +92,14 @@ LightPick LightSampler::exact_light(const Emitter& emitter, Vec3 position) {
     return pick;
 }
 
-Vec3 LightSampler::triangle_normal(uint triangle) const {
+std::array<Vec3, 3> LightSampler::corners_of(uint triangle) const {
     const Triangle& t = scene_.triangles[triangle];
-    const Vec3 v0 = scene_.vertices[t.v0].position;
-    return normalize(cross(scene_.vertices[t.v1].position - v0, scene_.vertices[t.v2].position - v0));
+    return {scene_.vertices[t.v0].position, scene_.vertices[t.v1].position, scene_.vertices[t.v2].position};
+}
+
+Vec3 LightSampler::triangle_normal(uint triangle) const {
+    const auto [v0, v1, v2] = corners_of(triangle);
+    return normalize(cross(v1 - v0, v2 - v0));
 }
 
 Vec3 LightSampler::emitted_radiance(const BvhHit& hit, Vec3 direction) const {
@@ -93,25 +115,32 @@ double LightSampler::choice_probability(const Emitter& emitter) const {
 }
 
 LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Point2 u) const {
-    const Triangle& triangle = scene_.triangles[emitter.triangle];
-    const Vec3 v0 = scene_.vertices[triangle.v0].position;
-    const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
-    const Vec3 edge2 = scene_.vertices[triangle.v2].position - v0;
-    const Point2 weights = sample_triangle(u);
-    const Vec3 light_normal = normalize(cross(edge1, edge2));
+    const std::array<Vec3, 3> corners = corners_of(emitter.triangle);
+    const Vec3 light_normal = triangle_normal(emitter.triangle);
     LightPick pick;
-    pick.target = stand_off(v0 + edge1 * weights.x + edge2 * weights.y, light_normal, extent_);
     pick.can_be_met = true;
-    const Vec3 to_light = pick.target - position;
-    const float distance2 = dot(to_light, to_light);
-    if (!(distance2 > 0.0f)) {
+    const double height = dot(light_normal, position - corners[0]);
+    if (!(height > 0.0)) {
         return pick;
     }
-    pick.direction = normalize(to_light);
-    const float light_cosine = -dot(light_normal, pick.direction);
-    if (light_cosine > 0.0f) {
-        pick.radiance = emitted_radiance({0.0f, weights.x, weights.y, emitter.triangle}, pick.direction);
-        pick.density = static_cast<double>(distance2) / (static_cast<double>(light_cosine) * emitter.area);
+    Vec3 point;
+    const SphericalTriangle seen(corners, position);
+    if (seen.solid_angle() > 0.0) {
+        pick.direction = seen.sample(u);
+        const double approach = -dot(light_normal, pick.direction);
+        point = position + pick.direction * static_cast<float>(height / std::max(approach, 1e-12));
+        pick.density = 1.0 / seen.solid_angle();
+    } else {
+        const Point2 weights = sample_triangle(u);
+        point = corners[0] + (corners[1] - corners[0]) * weights.x + (corners[2] - corners[0]) * weights.y;
+        pick.direction = normalize(point - position);
+        const double distance = length(point - position);
+        pick.density = area_density(emitter, distance, -dot(light_normal, pick.direction));
+    }
+    pick.target = stand_off(point, light_normal, extent_);
+    if (pick.density > 0.0) {
+        const auto [u1, u2] = weights_at(corners, point);
+        pick.radiance = emitted_radiance({0.0f, u1, u2, emitter.triangle}, pick.direction);
     }
     return pick;
 }
@@ -162,7 +191,7 @@ const Emitter* LightSampler::emitter_of_triangle(uint triangle) const {
 }
 
 double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHit& hit) const {
-    (void)position, (void)normal;
+    (void)normal;
     if (hit.triangle == ~0u) {
         const bool has_environment =
             !table_.emitters.empty() && table_.emitters.back().type == NEARLIGHT_EMITTER_ENVIRONMENT;
@@ -174,10 +203,13 @@ double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHi
         return 0.0;
     }
     const double light_cosine = -dot(triangle_normal(hit.triangle), direction);
-    const double distance = hit.t;
-    return light_cosine > 0.0
-               ? choice_probability(*emitter) * distance * distance / (light_cosine * emitter->area)
-               : 0.0;
+    if (!(light_cosine > 0.0)) {
+        return 0.0;
+    }
+    const SphericalTriangle seen(corners_of(hit.triangle), position);
+    return choice_probability(*emitter) * (seen.solid_angle() > 0.0
+                                               ? 1.0 / seen.solid_angle()
+                                               : area_density(*emitter, hit.t, light_cosine));
 }
 
 bool LightSampler::is_visible(const EmbreeScene& embree, Vec3 position, const LightPick& pick) {

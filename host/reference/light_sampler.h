@@ -2,6 +2,7 @@
 // Direct light in the reference path tracer: by sampling the scene's lights, and by hitting them.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "host/reference/embree_scene.h"
@@ -73,6 +74,7 @@ class LightSampler {
 
   private:
     [[nodiscard]] LightPick triangle_pick(const Emitter& emitter, Vec3 position, Point2 u) const;
+    [[nodiscard]] std::array<Vec3, 3> corners_of(uint triangle) const;
     [[nodiscard]] Vec3 triangle_normal(uint triangle) const;
     [[nodiscard]] const Emitter* emitter_of_triangle(uint triangle) const;
     /// Probability with which sample() chooses the emitter.

@@ -13,11 +13,11 @@ void set_derivatives(Surface& surface, const Vertex& a, const Vertex& b, const V
     const float u2 = c.u - a.u;
     const float v2 = c.v - a.v;
     const float determinant = u1 * v2 - v1 * u2;
-    const float inverse = determinant != 0.0f ? 1.0f / determinant : 0.0f;
+    const float inverse = 1.0f / determinant;
     const Vec3 edge1 = b.position - a.position;
     const Vec3 edge2 = c.position - a.position;
-    surface.along_u = std::isfinite(inverse) ? (edge1 * v2 - edge2 * v1) * inverse : Vec3{0, 0, 0};
-    surface.along_v = std::isfinite(inverse) ? (edge2 * u1 - edge1 * u2) * inverse : Vec3{0, 0, 0};
+    surface.along_u = std::isfinite(inverse) ? (edge1 * v2 - edge2 * v1) * inverse : edge1;
+    surface.along_v = std::isfinite(inverse) ? (edge2 * u1 - edge1 * u2) * inverse : edge2;
 }
 
 }  // namespace

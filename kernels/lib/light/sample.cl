@@ -36,18 +36,16 @@ inline LightSample sample_delta(const global Emitter* emitter, float3 x) {
     return sample;
 }
 
-inline LightSample sample_triangle(const SceneView* scene, const global Emitter* emitter, float3 x,
-                                   float2 u) {
-    LightSample sample;
+inline LightSample sample_area_light(const SceneView* scene, const global Emitter* emitter, float3 x,
+                                     float2 u) {
+    const TriangleSample on_light = sample_triangle(scene, emitter->triangle, x, u);
     float3 normal;
-    const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u), &normal);
+    const float3 point = triangle_point(scene, emitter->triangle, on_light.barycentrics, &normal);
+    LightSample sample;
     sample.target = offset_point(scene, point, normal);
-    const float3 to_light = sample.target - x;
-    const float squared = dot(to_light, to_light);
-    sample.direction = squared > 0.0f ? to_light * rsqrt(squared) : normal;
-    const float cosine = -dot(normal, sample.direction);
-    sample.radiance = cosine > 0.0f ? load3(emitter->radiance) : (float3)(0.0f);
-    sample.pdf = cosine > 0.0f ? per_steradian(1.0f / emitter->area, squared, cosine) : 0.0f;
+    sample.direction = on_light.direction;
+    sample.radiance = on_light.pdf > 0.0f ? load3(emitter->radiance) : (float3)(0.0f);
+    sample.pdf = on_light.pdf;
     sample.infinite = 0;
     sample.is_delta = 0;
     return sample;
@@ -57,7 +55,7 @@ inline LightSample sample_triangle(const SceneView* scene, const global Emitter*
 inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
-        return sample_triangle(scene, emitter, x, u);
+        return sample_area_light(scene, emitter, x, u);
     }
     if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         LightSample sample;
@@ -94,7 +92,7 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
 /// The density with which sample_light() at x picks the unit direction in which a ray from x met `hit`, or
 /// nothing (t < 0). It is 0 where sample_light() cannot pick it.
 inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direction, const SurfaceHit* hit) {
-    (void)x, (void)n;
+    (void)n;
     if (scene->info->emitter_count == 0) {
         return 0.0f;
     }
@@ -105,13 +103,13 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
                    : 0.0f;
     }
     const float cosine = -dot(hit->geometric, direction);
-    if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission))) {
+    if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission.value))) {
         return 0.0f;
     }
     const uint index = emitter_of_triangle(scene, hit->triangle);
-    return index == ~0u ? 0.0f
-                        : choice_probability(scene, index) *
-                              per_steradian(1.0f / scene->emitters[index].area, hit->t * hit->t, cosine);
+    return index == ~0u
+               ? 0.0f
+               : choice_probability(scene, index) * triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
 }
 
 inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {
