@@ -84,7 +84,7 @@ Vec3 sphere_direction(Pcg32& random) {
 
 Vpl make_vpl(const ReceiverPoint& point, uint depth) {
     // All powers are equal, because the work does not depend on them.
-    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
+    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0};
 }
 
 RayQuery endless_ray(Vec3 origin, Vec3 direction) {
