@@ -24,7 +24,7 @@ bool is_absent(const Found& found) {
 
 /// Where no surface has S, random numbers do not matter.
 SurfaceBsdf bsdf_at(const Scene& scene, const Surface& surface, const RayQuery& ray) {
-    return {scene, surface, -normalize(to_double(ray.direction)), 0.5};
+    return {scene, surface, -normalize(as_double(ray.direction)), 0.5};
 }
 
 bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,
@@ -36,8 +36,8 @@ bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, con
     const bool is_close = (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) != 0;
     const float cosine = std::max(std::abs(dot(surface.geometric_normal, ray.direction)), 1e-3f);
     return length(found.position - position) <= slack / cosine &&
-           length(found.normal - to_float(bsdf.normal())) <= 1e-4f &&
-           length(found.vertex.albedo - to_float(bsdf.diffuse_reflectance())) <= 1e-4f &&
+           length(found.normal - as_float(bsdf.normal())) <= 1e-4f &&
+           length(found.vertex.albedo - as_float(bsdf.diffuse_reflectance())) <= 1e-4f &&
            std::abs(found.vertex.depth - hit.t) <= slack / cosine &&
            close_flag_fits(region, surface.position, is_close, slack / cosine);
 }

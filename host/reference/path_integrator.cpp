@@ -85,7 +85,7 @@ void PathIntegrator::add_emission(const Walk& walk, const BvhHit& hit, PathLight
         weight = walk.density / (walk.density + other);
     }
     Vec3d& layer = walk.stage == Walk::Stage::beyond ? light.indirect : light.direct;
-    layer += walk.throughput * to_double(emitted) * weight;
+    layer += walk.throughput * as_double(emitted) * weight;
 }
 
 // One light, as the parts of the BSDF scatter it. Each part is weighted against its own density.
@@ -94,7 +94,7 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     if (is_zero(pick.radiance) || !(pick.density > 0.0)) {
         return {};
     }
-    const Vec3d direction = to_double(pick.direction);
+    const Vec3d direction = as_double(pick.direction);
     const BsdfValue value = bsdf.eval(direction);
     const bool base_only = only_diffuse(walk);
     Vec3d sum;
@@ -110,13 +110,13 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     if (is_zero(sum) || !LightSampler::is_visible(embree_, beside(surface, pick.direction), pick)) {
         return {};
     }
-    return walk.throughput * sum * to_double(pick.radiance);
+    return walk.throughput * sum * as_double(pick.radiance);
 }
 
 void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                        const LightRandom& random, PathLight& light) const {
     const Vec3 position = stand_off(surface.position, surface.geometric_normal, lights_.extent());
-    const Vec3 normal = to_float(bsdf.normal());
+    const Vec3 normal = as_float(bsdf.normal());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
         layer += scattered(walk, surface, bsdf, LightSampler::exact_light(emitter, position));
@@ -132,8 +132,8 @@ bool PathIntegrator::scatter(Walk& walk, const Surface& surface, const SurfaceBs
     walk.throughput *= draw.weight;
     walk.density = draw.is_delta ? 0 : draw.pdf;
     walk.index *= draw.eta;
-    walk.normal = to_float(bsdf.normal());
-    const Vec3 direction = normalize(to_float(draw.wi));
+    walk.normal = as_float(bsdf.normal());
+    const Vec3 direction = normalize(as_float(draw.wi));
     walk.ray = {beside(surface, direction), direction};
     if (walk.stage == Walk::Stage::chain) {
         walk.stage = draw.is_diffuse ? Walk::Stage::receiver : Walk::Stage::chain;
@@ -153,9 +153,9 @@ bool PathIntegrator::scatter(Walk& walk, const Surface& surface, const SurfaceBs
 void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                    CameraPath& path) const {
     path.has_receiver = true;
-    path.throughput = to_float(walk.throughput);
+    path.throughput = as_float(walk.throughput);
     path.receiver = {stand_off(surface.position, surface.geometric_normal, lights_.extent()),
-                     to_float(bsdf.normal()), to_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
+                     as_float(bsdf.normal()), as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
 }
 
 PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
@@ -173,7 +173,7 @@ PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
         }
         const VertexRandom random = vertex_random(batch, sample, walk.vertices);
         const Surface surface = surface_at(scene_, hit, walk.ray.direction);
-        const SurfaceBsdf bsdf(scene_, surface, -normalize(to_double(walk.ray.direction)), random.material);
+        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(walk.ray.direction)), random.material);
         if (walk.stage == Walk::Stage::chain && bsdf.has_diffuse() && random.part < bsdf.diffuse_chance()) {
             note_receiver(walk, surface, bsdf, light.camera);
         }

@@ -47,7 +47,7 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
             settings_.pixel_centers ? Point2{0.5f, 0.5f} : batch.point(Decision::film, sample);
         const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
         const PathLight light = integrator_.trace(ray, batch, sample);
-        sum.add(settings_.indirect_only ? Vec3{0, 0, 0} : to_float(light.direct), to_float(light.indirect),
+        sum.add(settings_.indirect_only ? Vec3{0, 0, 0} : as_float(light.direct), as_float(light.indirect),
                 light.camera);
     }
     pixel.add(sum, batch_size);

@@ -13,7 +13,7 @@ struct Lookup {
 
     [[nodiscard]] Vec3d color(const Parameter& parameter) const {
         const Vec3 value = value_at(scene, surface, parameter);
-        return to_double(max(value, Vec3{0, 0, 0}));
+        return as_double(max(value, Vec3{0, 0, 0}));
     }
     /// A number in [0, 1].
     [[nodiscard]] double number(const Parameter& parameter) const {
@@ -113,8 +113,8 @@ BsdfParameters bsdf_parameters(const Scene& scene, const Surface& surface, const
     const Vec3d roughness = at.color(material.roughness);
     p.alpha_x = roughness.x;
     p.alpha_y = roughness.y;
-    p.eta = to_double(material.eta);
-    p.k = to_double(material.k);
+    p.eta = as_double(material.eta);
+    p.k = as_double(material.k);
     p.curve = std::span(scene.transmission_curves)
                   .subspan(material.curve * std::size_t{NEARLIGHT_CURVE_SIZE}, NEARLIGHT_CURVE_SIZE);
     const bool is_body = p.model == NEARLIGHT_BSDF_DIELECTRIC || p.model == NEARLIGHT_BSDF_PRINCIPLED;
@@ -136,7 +136,7 @@ double share_at(const Scene& scene, const Surface& surface, const Material& mate
 }
 
 Vec3d mapped_normal(const Scene& scene, const Surface& surface, const Material& material) {
-    const Vec3d value = to_double(value_at(scene, surface, material.reflectance));
+    const Vec3d value = as_double(value_at(scene, surface, material.reflectance));
     return normalize(value * 2 - Vec3d{1, 1, 1});
 }
 
@@ -144,14 +144,14 @@ Vec3d bumped_normal(const Scene& scene, const Surface& surface, const Material& 
                     const BsdfFrame& frame) {
     const Vec3d slope = height_gradient(scene, surface, material.reflectance);
     const Vec3d n = frame.n;
-    const Vec3d along_u = to_double(surface.along_u);
-    const Vec3d along_v = to_double(surface.along_v);
+    const Vec3d along_u = as_double(surface.along_u);
+    const Vec3d along_v = as_double(surface.along_v);
     const Vec3d normal = normalize(
         cross(along_u + n * (slope.x - dot(n, along_u)), along_v + n * (slope.y - dot(n, along_v))));
     if (is_zero(normal)) {
         return {0, 0, 1};
     }
-    const Vec3d front = to_double(surface.front ? surface.geometric_normal : -surface.geometric_normal);
+    const Vec3d front = as_double(surface.front ? surface.geometric_normal : -surface.geometric_normal);
     return frame.to_local(dot(normal, front) < 0 ? -normal : normal);
 }
 

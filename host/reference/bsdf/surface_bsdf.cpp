@@ -11,16 +11,16 @@ constexpr double kMinPartChance = 0.1;
 
 /// The frame of the surface on its front; its x axis follows the texture coordinate u where there is one.
 BsdfFrame front_frame(const Surface& surface) {
-    const Vec3d n = normalize(to_double(surface.front_normal));
-    const Vec3d along_u = to_double(surface.along_u);
+    const Vec3d n = normalize(as_double(surface.front_normal));
+    const Vec3d along_u = as_double(surface.along_u);
     Vec3d s = along_u - n * dot(n, along_u);
     if (length(s) <= 1e-9 * length(along_u) || is_zero(along_u)) {
-        s = to_double(orthonormal_basis(surface.front_normal)[0]);
+        s = as_double(orthonormal_basis(surface.front_normal)[0]);
         s = s - n * dot(n, s);
     }
     s = normalize(s);
     Vec3d t = cross(n, s);
-    if (dot(t, to_double(surface.along_v)) < 0) {
+    if (dot(t, as_double(surface.along_v)) < 0) {
         t = -t;
     }
     return {s, t, n};

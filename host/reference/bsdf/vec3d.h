@@ -13,10 +13,10 @@ struct Vec3d {
     double x = 0, y = 0, z = 0;
 };
 
-constexpr Vec3d to_double(Vec3 v) {
+constexpr Vec3d as_double(Vec3 v) {
     return {v.x, v.y, v.z};
 }
-constexpr Vec3 to_float(Vec3d v) {
+constexpr Vec3 as_float(Vec3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
