@@ -26,6 +26,7 @@ inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
                      const global IrradiancePacket* restrict direct,
+                     const global IrradiancePacket* restrict gathered,
                      const global IrradiancePacket* restrict indirect, uint width, uint row_count,
                      uint sample_count, uint branch_count, global float* restrict sums) {
     const uint index = (uint)get_global_id(0);
@@ -45,7 +46,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         const float3 response = reflectance / M_PI_F;
         add_to_sum(pixel + NEARLIGHT_SUM_DIRECT,
                    load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
-        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * irradiance_of(indirect + packet, lane));
+        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * (irradiance_of(gathered + packet, lane) +
+                                                               irradiance_of(indirect + packet, lane)));
         add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
         if (i % branch_count != 0) {
             continue;  // geometry layers come from branch 0 only

@@ -5,8 +5,8 @@
 // classification]
 //
 // The answer errs towards "yes", by a margin as large as the rounding of in_close_range() can be, so that no
-// point that passes that test lies on a triangle that was left out. Glass carries no VPLs and is left out,
-// and so are triangles without area.
+// point that passes that test lies on a triangle that was left out. Triangles without a Lambertian part carry
+// no VPLs and are left out, and so are triangles without area.
 //
 // Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) for each
 // triangle. One work-item for each triangle; work-group size: any.
@@ -18,7 +18,7 @@
 #define ROUNDING_MARGIN 4e-6f
 
 inline bool carries_vpls(const global Material* material) {
-    return material->lobe != NEARLIGHT_LOBE_DIELECTRIC && material->lobe != NEARLIGHT_LOBE_THIN_DIELECTRIC;
+    return (material->flags & (NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK)) != 0;
 }
 
 inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c, float3 normal) {

@@ -51,7 +51,7 @@ struct Room {
         : scene(make_sphere_room(config.triangles)),
           session(device, scene, {.bvh_quality = BvhQuality::fast}),
           view(session.look({.width = config.size, .height = config.size}, 0)),
-          segments(make_camera_segments(scene, build_scene_bvhs(scene).opaque, config.vpl_count, config.size,
+          segments(make_camera_segments(scene, build_scene_bvh(scene), config.vpl_count, config.size,
                                         config.size)) {}
     Scene scene;
     Session session;

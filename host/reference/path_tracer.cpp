@@ -95,7 +95,7 @@ PathTracer::Step PathTracer::step(Vec3 position, Vec3 normal, bool wants_direct,
     result.hit = embree_.closest_hit(position, result.direction, 0.0f, kInfinity);
     if (wants_direct) {
         result.direct = lights_.sampled_irradiance(embree_, position, normal, light) / kPi +
-                        lights_.met_radiance(result.hit, result.direction, normal);
+                        lights_.met_radiance(result.hit, position, result.direction, normal);
     }
     return result;
 }

@@ -177,7 +177,7 @@ void check_bounce_tracer(Device& device, CheckResult& result) {
     constexpr float kAlbedo = 0.8f;
     constexpr uint kSamples = 1024;
     const Scene scene = make_lit_sphere(kRadius, kAlbedo);
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const Buffer<ReceiverPacket> receivers(device, receivers_on(scene));
     BounceTracer tracer(device);
     for (const uint bounces : {1u, 2u, 4u}) {
@@ -207,9 +207,9 @@ void check_bounce_tracer(Device& device, CheckResult& result) {
 
 void check_local_lights(Device& device, CheckResult& result) {
     const Scene scene = make_delta_lit_room();
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 48, 48);
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const Bvh bvh = build_scene_bvh(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 48, 48);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const EmbreeScene embree(scene);
     const Buffer<ReceiverPacket> input(device, receivers);
     const LocalVpls no_vpls(device);
@@ -226,7 +226,7 @@ void check_local_lights(Device& device, CheckResult& result) {
                          slots.radii.download(),
                          slots.flags.download(),
                          slots.seen_by.download()};
-    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t slot = 0; slot < data.lights.size(); ++slot) {
         if (data.flags[slot] != 0) {
             result.expect(light_fits(data, slot) || is_excused(edges, data, slot));

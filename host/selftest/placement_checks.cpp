@@ -109,7 +109,7 @@ void check_classifier(Device& device, CheckResult& result) {
 void check_light_visibility(Device& device, CheckResult& result) {
     constexpr uint kUntouched = 7;
     const Scene scene = make_room_of_two_lights();
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const EmbreeScene embree(scene);
     std::vector<uint> ids;
     std::vector<uint> flags(scene.triangles.size(), kUntouched);

@@ -202,7 +202,7 @@ void check_patch_vpls(Device& device, CheckResult& result) {
     }
     scene.camera.to_world = look_at({0.3, -0.2, -1.5}, {-0.1, 0.1, 1.0}, {0.3, 1, 0.2});
     const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 320, 200), 1.5f);
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const float extent = on_device.host_info.extent;
     const std::vector<SurfaceSample> samples = random_samples(scene, kSamples);
     CloseRegion region;
@@ -230,9 +230,9 @@ void check_patch_vpls(Device& device, CheckResult& result) {
 
 void check_vpl_contribution(Device& device, CheckResult& result) {
     const Scene scene = make_even_room({0.5f, 0.5f, 0.5f});
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 16, 16);
-    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvhs.opaque, 150);
+    const Bvh bvh = build_scene_bvh(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 16, 16);
+    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 150);
     Pcg32 random(1);
     std::vector<CameraVertex> response(receivers.size() * NEARLIGHT_PACKET_SIZE);
     for (CameraVertex& vertex : response) {
@@ -241,9 +241,9 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
     }
     PilotView view;
     set_importons(device, view, make_importons(receivers, response));
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const EmbreeScene embree(scene);
-    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     Gatherer gatherer(device);
     VplContribution contribution(device, gatherer);
     const Buffer<Vpl> on_device_vpls(device, vpls);
@@ -268,11 +268,11 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
 void check_reverse_vpls(Device& device, CheckResult& result) {
     constexpr uint kRaysPerPoint = 40;
     const Scene scene = make_even_room({0.8f, 0.5f, 0.3f});
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const Bvh bvh = build_scene_bvh(scene);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const float extent = on_device.host_info.extent;
     std::vector<Importon> importons;
-    for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
+    for (const ReceiverPacket& packet : make_camera_receivers(scene, bvh, 64, 64)) {
         const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one per tile
         Importon& importon = importons.emplace_back();
         importon.position = x.position;
@@ -288,7 +288,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
         return;
     }
     const EmbreeScene embree(scene);
-    EdgeExcuse edges(bvhs.opaque.triangles, extent);
+    EdgeExcuse edges(bvh.triangles, extent);
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Importon& point = importons[i / kRaysPerPoint];
         result.expect(landed_right(scene, embree, extent, point, found[i]) ||

@@ -68,11 +68,11 @@ Session::Session(std::span<Device* const> devices, const Scene& scene, const Ses
     : scene_(scene), pool_(devices, options.gather_kernel) {
     const Stopwatch total;
     Stopwatch watch;
-    const SceneTrees trees =
-        find_or_build_scene_trees(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
-                                  {.folder = pool_.leader().device().options().cache_dir});
+    const ShapedBvh tree =
+        find_or_build_scene_tree(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
+                                 {.folder = pool_.leader().device().options().cache_dir});
     seconds_.build_bvh = watch.lap();
-    pool_.upload(scene, trees);
+    pool_.upload(scene, tree);
     seconds_.upload = watch.lap();
     seconds_.total = total.seconds();
 }
@@ -106,7 +106,7 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                               const RowSink& sink, const GatherFraction& progress) {
     const PinholeCamera& camera = view.camera;
     const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
-                                      settings.samples_per_pixel, pool_.leader().scene.has_lobes ? 2 : 1);
+                                      settings.samples_per_pixel, pool_.leader().scene.divides_paths ? 2 : 1);
     const Picture picture{.view = view, .settings = settings, .seed = seed, .plan = plan, .vpls = vpls};
     GatherOutcome outcome;
     const auto take_band = [&](const FinishedBand& band) {

@@ -19,7 +19,8 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& came
     const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
                               band.first_tile_row, band.tile_row_count, band.first_sample, band.sample_count,
-                              band.samples_per_pixel, band.branch_count, seed, receivers, vertices);
+                              band.samples_per_pixel, band.branch_count, band.max_depth, band.light_samples,
+                              seed, receivers, vertices);
 }
 
 }  // namespace nearlight::core

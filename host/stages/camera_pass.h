@@ -15,6 +15,10 @@ struct CameraBand {
     uint sample_count = 1;
     uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
     uint branch_count = 1;       ///< 2 if camera paths may divide, else 1
+    uint max_depth = 8;          ///< maximum number of edges of a path from the camera to a light
+    /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
+    /// part; at least 1.
+    uint light_samples = 1;
 };
 
 /// The number of receiver packets in a band: tiles × samples × branches.

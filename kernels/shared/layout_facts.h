@@ -51,14 +51,14 @@
     SIZE(SurfaceSample)                             \
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \
-    OFFSET(ReceiverPacket, nz)                      \
+    OFFSET(ReceiverPacket, surface)                 \
     SIZE(IrradiancePacket)                          \
     OFFSET(IrradiancePacket, b)                     \
     SIZE(ImportancePacket)                          \
     OFFSET(ImportancePacket, b)                     \
     SIZE(GatherParams)                              \
     OFFSET(GatherParams, group_size)                \
-    OFFSET(GatherParams, recorded_vpls)             \
+    OFFSET(GatherParams, has_curves)                \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, emitted)                   \
     SIZE(CloseRange)                                \

@@ -41,6 +41,10 @@ typedef struct Parameter {
 #define NEARLIGHT_MATERIAL_NONLINEAR 2u  // plastic: colours saturate by inter-reflection below the coat
 #define NEARLIGHT_MATERIAL_TANGENT 4u    // the frame follows the texture coordinates (anisotropy, maps)
 #define NEARLIGHT_MATERIAL_THIN 8u       // principled: a thin sheet
+// Which sides of a material have a Lambertian part. The host sets these from all materials that one stands
+// for, when it uploads a scene.
+#define NEARLIGHT_MATERIAL_DIFFUSE_FRONT 16u
+#define NEARLIGHT_MATERIAL_DIFFUSE_BACK 32u
 
 /// The roughness α below which microfacets count as a smooth surface.
 #define NEARLIGHT_MIN_ALPHA 1e-3f

@@ -144,18 +144,21 @@ typedef struct PinholeCamera {
     float pad1;
 } PinholeCamera;
 
-/// A virtual point light. It sends the reflected flux `power` (W, albedo applied) into the hemisphere of
-/// `normal`, with the radiant intensity power/π · cosθ. The position stands off its surface by the ray
-/// epsilon.
+/// A virtual point light, which stands for the Lambertian part of what its surface reflects. It sends the
+/// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
+/// cosθ · T(cosθ), where T is the surface's transmission curve. The position stands off its surface by the
+/// ray epsilon.
 typedef struct Vpl {
     Vec3 position;
     uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;
-    float pad0;
+    uint shading;  // shading normal, by which the surface receives light, as pack_direction() packs it
 } Vpl;
 #define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+// Bits 8 to 31 of Vpl.flags hold the row of the transmission curve.
+#define NEARLIGHT_VPL_CURVE_SHIFT 8
 
 /// A receiver of the camera that sends importance into the hemisphere of `normal`, as a VPL sends light:
 /// `response` is the camera's response to what the receiver reflects (albedo times the weight of the camera
@@ -176,7 +179,7 @@ typedef struct SurfaceSample {
     Vec3 position;
     uint triangle;  // index into the scene's triangle array
     Vec3 normal;    // unit vector on the front
-    float u;        // texture coordinates
+    float u;        // weights of the triangle's v1 and v2
     float v;
     float pad0, pad1, pad2;
 } SurfaceSample;
@@ -189,7 +192,12 @@ typedef struct SurfaceSample {
 typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
+    uint surface[NEARLIGHT_PACKET_SIZE];
 } ReceiverPacket;
+// ReceiverPacket.surface: the row of the transmission curve that weighs arriving light in bits 0 to 15, and
+// above them the number of surfaces between the camera and the receiver.
+#define NEARLIGHT_RECEIVER_CURVE_MASK 0xffffu
+#define NEARLIGHT_RECEIVER_SURFACES_SHIFT 16
 
 /// A tile is a square of pixels, this many on each side, that fills a packet row by row. Tiles cover the
 /// picture from its top left corner; those at the right and the bottom may reach beyond it.
@@ -224,6 +232,8 @@ typedef struct GatherParams {
     uint first_listed_bundle;       // first bundle with a list, where bundles have lists of VPLs
     uint list_stride;               // entries from one bundle's list to the next
     uint recorded_vpls;             // VPLs for each packet of the record, where there is one
+    uint has_curves;                // 1: some surface has a transmission curve
+    uint pad0, pad1, pad2;
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
@@ -256,9 +266,10 @@ typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
     uint delta_emitter_count;  // point and spot lights: the first entries of the table
-    uint has_glass;            // 1: a second tree holds the glass, which only camera paths see
     float extent;              // largest side of the scene's bounds, m
-    uint pad0, pad1, pad2;
+    uint has_specular;         // 1: some surface reflects other than by a Lambertian part
+    uint has_curves;           // 1: some surface has a transmission curve
+    uint pad0, pad1;
 } SceneInfo;
 
 #ifdef __cplusplus
@@ -288,10 +299,10 @@ static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
                   offsetof(Importon, response) == offsetof(Vpl, power),
               "a gather reads an Importon as a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
-NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1536);
+NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1792);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
-NEARLIGHT_CHECK_SHARED(GatherParams, 48);
+NEARLIGHT_CHECK_SHARED(GatherParams, 64);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 32);

@@ -27,7 +27,7 @@ class SegmentFile : public testing::Test {
   protected:
     SegmentFile() {
         const Scene scene = make_sphere_room(2'000);
-        segments_ = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 5, 20, 12);
+        segments_ = make_camera_segments(scene, build_scene_bvh(scene), 5, 20, 12);
         segments_.vpls[3].power = {1.0f, 0.5f, 0.25f};
         write_segments(file_, segments_);
         bytes_ = read_bytes(file_);

@@ -179,12 +179,12 @@ TEST(BvhBuild, GlassGoesToATreeOfItsOwn) {
         scene.triangles[i].material = i % 4 == 1 ? 1 : 0;
         (i % 4 == 1 ? glass : opaque).push_back(i);
     }
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    EXPECT_TRUE(bvhs.has_glass);
-    EXPECT_THAT(check_bvh(bvhs.opaque, scene, opaque), IsEmpty());
-    EXPECT_THAT(check_bvh(bvhs.glass, scene, glass), IsEmpty());
+    const Bvh bvh = build_scene_bvh(scene);
+    EXPECT_TRUE(bvh.has_glass);
+    EXPECT_THAT(check_bvh(bvh, scene, opaque), IsEmpty());
+    EXPECT_THAT(check_bvh(bvh.glass, scene, glass), IsEmpty());
     scene.materials[1].lobe = NEARLIGHT_LOBE_COAT;
-    EXPECT_FALSE(build_scene_bvhs(scene).has_glass);
+    EXPECT_FALSE(build_scene_bvh(scene).has_glass);
 }
 
 }  // namespace

@@ -271,7 +271,7 @@ TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
             const BvhHit hit =
                 embree.closest_hit(position, direction, 0.0f, std::numeric_limits<float>::infinity());
             want += (sampler.sampled_irradiance(embree, position, normal, u).y +
-                     kPi * sampler.met_radiance(hit, direction, normal).y) /
+                     kPi * sampler.met_radiance(hit, position, direction, normal).y) /
                     kSamples;
         }
     }

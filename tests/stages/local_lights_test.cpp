@@ -108,7 +108,7 @@ LocalLightPlan plan_of(uint bounce_count) {
 TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
     on_each_device([](Device& device) {
         const SceneOnDevice on_device(device, lit_corner());
-        const Bvh& bvh = on_device.bvhs.opaque;
+        const Bvh& bvh = on_device.bvh;
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
         const std::size_t count = LocalLights(device).make(
@@ -154,7 +154,7 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
                 const ReceiverPoint receiver =
                     receiver_at(receivers, slot / kSlotsPerPacket * NEARLIGHT_PACKET_SIZE + lane);
                 const bool expected =
-                    pair_geometry(on_device.bvhs.opaque, receiver, lights[slot], kRadius) > 0;
+                    pair_geometry(on_device.bvh, receiver, lights[slot], kRadius) > 0;
                 const bool found = (seen_by[slot] >> lane & 1u) != 0;
                 bits += found ? 1 : 0;
                 wrong += found != expected ? 1 : 0;

@@ -4,14 +4,14 @@
 // A BSDF is D + S: D is its Lambertian part, S everything else (coat, metal, glass). VPLs stand for D alone
 // (docs/method.md). Files of this folder hold S of one model each, as four functions:
 //
-//     float3     MODEL_eval(bsdf, wo, wi)     S(wo, wi) · |cosθi|; 0 for what is a mirror image or a refraction
-//     float      MODEL_pdf(bsdf, wo, wi)      density of MODEL_sample, per steradian
-//     BsdfSample MODEL_sample(bsdf, wo, u, v) a direction drawn from S
-//     float3     MODEL_albedo(bsdf, wo)       ∫ S |cosθi| dωi, or an estimate of it, which only steers sampling
+//     float3     MODEL_eval(bsdf, wo, wi)     S(wo, wi) · |cosθi|; 0 for what is a mirror image or a
+//     refraction float      MODEL_pdf(bsdf, wo, wi)      density of MODEL_sample, per steradian BsdfSample
+//     MODEL_sample(bsdf, wo, u, v) a direction drawn from S float3     MODEL_albedo(bsdf, wo)       ∫ S
+//     |cosθi| dωi, or an estimate of it, which only steers sampling
 //
 // Directions are unit vectors in the frame of the surface, away from it. wo points to the viewer (the side
-// that a path comes from) and has wo.z > 0; wi.z < 0 where S lets light through. What a surface lets through is
-// given for the transport of flux; bsdf.cl scales it for radiance.
+// that a path comes from) and has wo.z > 0; wi.z < 0 where S lets light through. What a surface lets through
+// is given for the transport of flux; bsdf.cl scales it for radiance.
 #ifndef NEARLIGHT_LIB_BSDF_TYPES
 #define NEARLIGHT_LIB_BSDF_TYPES
 
@@ -27,8 +27,8 @@ typedef struct Bsdf {
     float3 specular;      // tint of what S reflects
     float3 transmission;  // tint of what S lets through
     float2 alpha;         // microfacets' α along x and y of the frame; principled: x is the roughness
-    float3 eta;           // conductor: real index; otherwise x is the index beyond the surface ÷ the viewer's
-    float3 k;             // conductor: imaginary index
+    float3 eta;  // conductor: real index; otherwise x is the index beyond the surface ÷ the viewer's
+    float3 k;    // conductor: imaginary index
     float metallic, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
         clearcoat_gloss;  // principled
     uint front;           // 1: the viewer is on the front (outer) side

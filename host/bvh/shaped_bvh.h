@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trees of a scene in the shapes that kernels traverse.
+// The tree of a scene in the shapes that kernels traverse.
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -19,14 +19,7 @@ struct ShapedBvh {
     WideBvh wide;
 };
 
-/// The tree of what light and camera see, and that of the glass that only the camera sees.
-struct SceneTrees {
-    ShapedBvh opaque;
-    ShapedBvh glass;
-    bool has_glass = false;
-};
-
-/// Builds the trees of build_scene_bvhs() in the given shapes.
-SceneTrees build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes);
+/// Builds the tree of build_scene_bvh() in the given shapes.
+ShapedBvh build_scene_tree(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes);
 
 }  // namespace nearlight::core

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Particles that leave lights, for walks.
+#ifndef NEARLIGHT_LIB_LIGHT_EMISSION
+#define NEARLIGHT_LIB_LIGHT_EMISSION
+
+#include "lib/light/choice.cl"
+#include "lib/light/delta.cl"
+#include "lib/light/environment.cl"
+#include "lib/light/triangle.cl"
+
+/// A particle that leaves a light.
+typedef struct EmittedParticle {
+    float3 origin;
+    float3 direction;
+    float3 flux;      // W, divided by the density with which the particle was chosen
+    uint from_delta;  // 1: from a light that no path can hit
+} EmittedParticle;
+
+inline EmittedParticle emit_from_triangle(const SceneView* scene, const global Emitter* emitter,
+                                          float2 u_position, float2 u_direction) {
+    EmittedParticle particle;
+    float3 normal;
+    const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u_position), &normal);
+    particle.origin = offset_point(scene, point, normal);
+    particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
+    particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
+    particle.from_delta = 0;
+    return particle;
+}
+
+/// Where light that travels along −`from` enters the scene: a point on a disk of the scene's size that faces
+/// the light.
+inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
+    const float radius = scene->environment->scene_radius;
+    const float r = radius * sqrt(u.x);
+    const float phi = 2.0f * M_PI_F * u.y;
+    return load3(scene->environment->scene_center) + radius * from +
+           to_world_frame((float3)(r * cos(phi), r * sin(phi), 0.0f), from);
+}
+
+inline EmittedParticle emit_from_environment(const SceneView* scene, float2 u_position, float2 u_direction) {
+    EmittedParticle particle;
+    float pdf;
+    float3 radiance;
+    const float3 from = sample_environment(scene, u_direction, &pdf, &radiance);
+    const float radius = scene->environment->scene_radius;
+    particle.origin = entry_point(scene, from, u_position);
+    particle.direction = -from;
+    particle.flux = pdf > 0.0f ? radiance * (M_PI_F * radius * radius / pdf) : (float3)(0.0f);
+    particle.from_delta = 0;
+    return particle;
+}
+
+inline EmittedParticle emit_from_point(const global Emitter* emitter, float2 u_direction) {
+    const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
+    const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;
+    const float3 axis = is_spot ? load3(emitter->direction) : (float3)(0.0f, 0.0f, 1.0f);
+    EmittedParticle particle;
+    particle.origin = load3(emitter->position);
+    particle.direction = to_world_frame(square_to_cone(u_direction, cos_max), axis);
+    particle.flux = delta_intensity(emitter, particle.direction) * (2.0f * M_PI_F * (1.0f - cos_max));
+    particle.from_delta = 1;
+    return particle;
+}
+
+inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position,
+                                     float2 u_direction) {
+    const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
+    EmittedParticle particle;
+    if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
+        particle = emit_from_triangle(scene, emitter, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+        particle = emit_from_environment(scene, u_position, u_direction);
+    } else {
+        particle = emit_from_point(emitter, u_direction);
+    }
+    particle.flux /= emitter->probability;
+    return particle;
+}
+
+#endif
