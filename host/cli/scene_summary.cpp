@@ -185,10 +185,11 @@ MemoryEstimate estimate_memory(const Scene& scene) {
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    for (const char* kind : {"diffuse", "coated", "metal", "glass", "thin glass"}) {
+    for (const char* kind :
+         {"diffuse", "coated", "metal", "glass", "thin glass", "principled", "blend", "invisible"}) {
         const auto count = std::count_if(
             scene.materials.begin(), scene.materials.end(),
-            [&](const Material& material) { return std::string_view(kind_of(material)) == kind; });
+            [&](const Material& material) { return std::string_view(kind_of(scene, material)) == kind; });
         if (count > 0) {
             counts.emplace_back(kind, static_cast<std::size_t>(count));
         }
