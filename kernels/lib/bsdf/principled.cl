@@ -239,7 +239,10 @@ inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2
     const float reflectance = fresnel_dielectric(cosine, eta, &cos_far);
     if (is_thin(bsdf) || u < facet_reflection_share(bsdf, reflectance)) {
         reflect_at(wo, m, &sample);
-        sample.wi.z *= thin_through ? -1.0f : 1.0f;
+        if (thin_through) {
+            sample.wi.z = -sample.wi.z;
+            sample.wi = dot(sample.wi, m) < 0.0f ? sample.wi : (float3)(0.0f);
+        }
     } else {
         refract_at(wo, m, cos_far, eta, &sample);
     }
