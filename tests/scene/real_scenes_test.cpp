@@ -34,7 +34,7 @@ TEST(RealScenes, VeachBidir) {
     EXPECT_EQ(scene.camera.height, 1024);
     std::size_t emissive = 0;
     for (const Triangle& triangle : scene.triangles) {
-        emissive += is_zero(scene.materials[triangle.material].emission) ? 0 : 1;
+        emissive += is_zero(scene.materials[triangle.material].emission.value) ? 0 : 1;
     }
     EXPECT_EQ(emissive, 4u);
     EXPECT_EQ(scene.notes.size(), 1u);  // the lamp's Beckmann distribution

@@ -9,21 +9,14 @@
 #include <utility>
 
 #include "host/image/image.h"
+#include "host/scene/material_model.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_loader.h"
 
 namespace nearlight::core::small_scenes {
 
 inline Material lambertian(Vec3 albedo) {
-    Material material{};
-    material.base = albedo;
-    material.base_texture = -1;
-    material.specular = {1, 1, 1};
-    material.eta = {1.5f, 0, 0};
-    material.base_scale = 1.0f;
-    material.light_scale = 1.0f;
-    material.transmission = {1, 1, 1};
-    return material;
+    return diffuse_material(albedo);
 }
 
 inline uint add_material(Scene& scene, const Material& material) {
@@ -107,11 +100,11 @@ inline Scene checkered_plain() {
     SceneTexture checkerboard;
     checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
     checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
-    checkerboard.parameters.color0 = {0.8f, 0.7f, 0.6f};
-    checkerboard.parameters.color1 = {0.1f, 0.15f, 0.3f};
+    checkerboard.parameters.color0 = parameter_of(Vec3{0.8f, 0.7f, 0.6f});
+    checkerboard.parameters.color1 = parameter_of(Vec3{0.1f, 0.15f, 0.3f});
     scene.textures.push_back(checkerboard);
     Material tiles = lambertian({1, 1, 1});
-    tiles.base_texture = 0;
+    tiles.reflectance.texture = 0;
     add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
     for (Vertex& vertex : scene.vertices) {
         vertex.u = vertex.position.x;  // a period of the pattern is two cells
