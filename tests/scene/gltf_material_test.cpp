@@ -118,8 +118,8 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
 /// A scene with one texture of 2 × 1 texels: red with no alpha, blue with alpha ½; roughness 0 and metal 1
 /// follow from the same numbers.
 json alpha_texture(const SceneFiles& files) {
-    write_image(files.path("alpha.png"), {2, 1, {"R", "G", "B", "A"}, {1, 0, 0, 0, 0, 0, 1, 128 / 255.0f}});
-    return {{{"uri", "alpha.png"}}};
+    write_image(files.path("alpha.exr"), {2, 1, {"R", "G", "B", "A"}, {1, 0, 0, 0, 0, 0, 1, 128 / 255.0f}});
+    return {{{"uri", "alpha.exr"}}};
 }
 
 TEST_F(GltfLoader, AlphaMakesMasks) {

@@ -210,7 +210,8 @@ TEST_F(MitsubaMaterial, BumpAndNormalMaps) {
     const Material old = load("bumpmap", "<texture type='scale'>" + number("scale", "3") +
                                              bitmap("", "map.png") + "</texture><bsdf type='plastic'/>");
     EXPECT_FLOAT_EQ(value(old.reflectance, 0.75f).x, 3.0f);
-    write_image(files_.path("normal.png"), {1, 1, {"R", "G", "B"}, {1, 0.4f, 0.8f}});
+    const auto& linear = srgb_decode_table();  // writing encodes
+    write_image(files_.path("normal.png"), {1, 1, {"R", "G", "B"}, {1, linear[102], linear[204]}});
     const Material map =
         load("normalmap", bitmap("normalmap", "normal.png", "<boolean name='raw' value='true'/>") +
                               "<bsdf type='plastic'/>");
@@ -250,7 +251,7 @@ TEST_F(MitsubaMaterial, NumbersAreTheLuminanceOfColours) {
 }
 
 TEST_F(MitsubaMaterial, WrapModesFiltersAndGamma) {
-    write_pair("half.png", 128 / 255.0f, 1.0f);
+    write_pair("half.png", srgb_decode_table()[128], 1.0f);
     const Material material =
         load("diffuse", bitmap("reflectance", "half.png",
                                text("wrap_mode", "mirror") + text("wrapModeV", "clamp") +
@@ -346,7 +347,7 @@ TEST_F(MitsubaMaterial, BadTexelsGetOneWarning) {
     expect_near(value(material.reflectance, 0.25f), {0, 0.5f, 0.5f});
     expect_near(value(material.reflectance, 0.75f), {0, 65504, 2});
     EXPECT_EQ(notes_on_line_2("2 texels of 'nan.exr'"), 1u);
-    write_image(files_.path("below.png"), {2, 1, {"R", "G", "B"}, {0.5f, 0.5f, 1, 0.5f, 0.5f, 0.2f}});
+    write_image(files_.path("below.png"), {2, 1, {"R", "G", "B"}, {0.5f, 0.5f, 1, 0.5f, 0.5f, 0.1f}});
     load("normalmap",
          bitmap("normalmap", "below.png", "<boolean name='raw' value='true'/>") + "<bsdf type='diffuse'/>");
     EXPECT_EQ(notes_on_line_2("1 texels of the normal map 'below.png' point below"), 1u);

@@ -69,7 +69,7 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { s.triangles.push_back(s.triangles[0]); },
         [](Scene& s) { s.vertex_colors[3].z = 0.5f; },
         [](Scene& s) { s.materials[0].reflectance.value.y = 0.1f; },
-        [](Scene& s) { s.materials[0].roughness.texture = 0; },
+        [](Scene& s) { s.materials[0].roughness.texture = 3; },
         [](Scene& s) { s.materials[0].emission.value.z = 0.1f; },
         [](Scene& s) { s.materials[0].clearcoat_gloss.value.x = 0.1f; },
         [](Scene& s) { s.materials[0].model = NEARLIGHT_BSDF_CONDUCTOR; },

