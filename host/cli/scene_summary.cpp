@@ -32,21 +32,35 @@ LightCounts count_lights(const Scene& scene) {
 }
 
 std::uint64_t texel_count(const Scene& scene) {
-    return std::accumulate(
-        scene.images.begin(), scene.images.end(), std::uint64_t{0},
-        [](std::uint64_t sum, const TextureImage& image) { return sum + image.texels.size(); });
+    return std::accumulate(scene.images.begin(), scene.images.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const TextureImage& image) {
+                               return sum + static_cast<std::uint64_t>(image.width) *
+                                                static_cast<std::uint64_t>(image.height);
+                           });
 }
 
-const char* kind_of(const Material& material) {
-    switch (material.lobe) {
-        case NEARLIGHT_LOBE_COAT:
+/// The name of the model that one sees: what a mask, a map or a two-sided material stands for.
+const char* kind_of(const Scene& scene, const Material& material) {
+    switch (material.model) {
+        case NEARLIGHT_BSDF_PLASTIC:
             return "coated";
-        case NEARLIGHT_LOBE_CONDUCTOR:
+        case NEARLIGHT_BSDF_CONDUCTOR:
             return "metal";
-        case NEARLIGHT_LOBE_DIELECTRIC:
+        case NEARLIGHT_BSDF_DIELECTRIC:
             return "glass";
-        case NEARLIGHT_LOBE_THIN_DIELECTRIC:
+        case NEARLIGHT_BSDF_THIN_DIELECTRIC:
             return "thin glass";
+        case NEARLIGHT_BSDF_PRINCIPLED:
+            return "principled";
+        case NEARLIGHT_BSDF_NULL:
+            return "invisible";
+        case NEARLIGHT_BSDF_BLEND:
+            return "blend";
+        case NEARLIGHT_BSDF_MASK:
+        case NEARLIGHT_BSDF_TWO_SIDED:
+        case NEARLIGHT_BSDF_NORMAL_MAP:
+        case NEARLIGHT_BSDF_BUMP_MAP:
+            return kind_of(scene, scene.materials[material.child[0]]);
         default:
             return "diffuse";
     }
@@ -171,10 +185,11 @@ MemoryEstimate estimate_memory(const Scene& scene) {
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    for (const char* kind : {"diffuse", "coated", "metal", "glass", "thin glass"}) {
+    for (const char* kind :
+         {"diffuse", "coated", "metal", "glass", "thin glass", "principled", "blend", "invisible"}) {
         const auto count = std::count_if(
             scene.materials.begin(), scene.materials.end(),
-            [&](const Material& material) { return std::string_view(kind_of(material)) == kind; });
+            [&](const Material& material) { return std::string_view(kind_of(scene, material)) == kind; });
         if (count > 0) {
             counts.emplace_back(kind, static_cast<std::size_t>(count));
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The oracle of the camera pass, by Embree: what it must find at pixel centres where no surface has lobes.
+// The oracle of the camera pass, by Embree: what it must find at pixel centres where no surface has S.
 #pragma once
 
 #include <span>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the camera by way of mirrors, metals, coats and glass to the receiver.
+// Rays of the camera, and what a path from the camera finds besides light.
 #pragma once
 
-#include "host/reference/embree_scene.h"
-#include "host/reference/light_sampler.h"
-#include "host/reference/sample_batch.h"
+#include "host/base/math.h"
 #include "host/scene/scene.h"
 
 namespace nearlight::core {
@@ -28,28 +26,20 @@ class CameraRays {
     int width_, height_;
 };
 
-/// A point at which light is gathered.
+/// The first point of a camera path that scatters light by D, the Lambertian part of its BSDF. The path came
+/// there by way of S: mirrors, metals, coats and glass.
 struct Receiver {
     Vec3 position;  ///< a small distance off its surface, on the viewer's side
     Vec3 normal;    ///< shading normal on the viewer's side
-    Vec3 albedo;    ///< albedo of the Lambertian base, without the coat
+    Vec3 albedo;    ///< reflectance of D towards the viewer, divided by the chance with which D was taken
 };
 
 /// What a path from the camera found.
 struct CameraPath {
-    Vec3 emitted{0, 0, 0};     ///< weighted radiance of the lights and the environment met on the way
     Vec3 throughput{1, 1, 1};  ///< weight of the light that leaves the receiver
     float depth = 0.0f;        ///< distance to the first surface, m; 0: the path met none
     bool has_receiver = false;
     Receiver receiver;
 };
-
-/// Maximum number of surfaces that a path visits before it is given up as black.
-inline constexpr int kMaxCameraVertices = 24;
-
-/// Traces one path; lobes are chosen at random. Refraction does not scale radiance, because light passes
-/// through glass as if it were not there.
-CameraPath trace_camera_path(const Scene& scene, const EmbreeScene& embree, const LightSampler& lights,
-                             Ray ray, SampleBatch& batch, int sample);
 
 }  // namespace nearlight::core

@@ -31,10 +31,11 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
     const std::size_t tiles = layout.tile_columns() * layout.tile_rows();
     for (std::size_t p = 0; p < tiles * layout.samples * layout.branches; ++p) {
         ReceiverPacket receiver;
-        std::generate_n(receiver.px, sizeof(ReceiverPacket) / sizeof(float),
+        std::generate_n(receiver.px, offsetof(ReceiverPacket, surface) / sizeof(float),
                         [&] { return random.uniform() + 0.1f; });
+        std::ranges::fill(receiver.surface, 0u);
         samples.receivers.push_back(receiver);
-        for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.indirect}) {
+        for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.gathered, &samples.indirect}) {
             std::generate_n(light->emplace_back().r, sizeof(IrradiancePacket) / sizeof(float),
                             [&] { return random.uniform(); });
         }
@@ -67,7 +68,9 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
             const double direct =
                 channel(vertex.emitted, axis) + reflectance / kPi * (&samples.direct[packet].r[0])[at];
-            const double indirect = reflectance / kPi * (&samples.indirect[packet].r[0])[at];
+            const double indirect = reflectance / kPi *
+                                    (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
+                                     static_cast<double>((&samples.indirect[packet].r[0])[at]));
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
             out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
             out[NEARLIGHT_LAYER_BEAUTY + c] =

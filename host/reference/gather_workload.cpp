@@ -10,6 +10,7 @@
 #include "host/scene/distribution.h"
 #include "host/scene/emitters.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/scene/reflectance.h"
 
 namespace nearlight::core {
 namespace {
@@ -83,7 +84,7 @@ Vec3 sphere_direction(Pcg32& random) {
 
 Vpl make_vpl(const ReceiverPoint& point, uint depth) {
     // All powers are equal, because the work does not depend on them.
-    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
+    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0};
 }
 
 RayQuery endless_ray(Vec3 origin, Vec3 direction) {
@@ -129,7 +130,7 @@ bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, R
             return false;
         }
         const Material& material = scene.materials[scene.triangles[hit.triangle].material];
-        if (random.uniform() >= max_component(light_albedo(scene, material, 0.0f, 0.0f))) {
+        if (random.uniform() >= max_component(mean_reflectance(scene, material, 0.0f, 0.0f))) {
             return true;
         }
         ray = endless_ray(point.position, cosine_direction(point.normal, random));

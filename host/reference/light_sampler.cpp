@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/math.h"
 #include "host/reference/spherical_triangle.h"
+#include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
@@ -36,6 +38,17 @@ double area_density(const Emitter& emitter, double distance, double cosine) {
 
 bool is_delta_light(const Emitter& emitter) {
     return emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT;
+}
+
+/// The barycentric weights of the second and the third corner at a point of the triangle.
+Point2 weights_at(const std::array<Vec3, 3>& corners, Vec3 point) {
+    const Vec3 edge1 = corners[1] - corners[0];
+    const Vec3 edge2 = corners[2] - corners[0];
+    const Vec3 normal = cross(edge1, edge2);
+    const float scale = 1.0f / std::max(dot(normal, normal), std::numeric_limits<float>::min());
+    const float weight1 = dot(cross(point - corners[0], edge2), normal) * scale;
+    const float weight2 = dot(cross(edge1, point - corners[0]), normal) * scale;
+    return {std::clamp(weight1, 0.0f, 1.0f), std::clamp(weight2, 0.0f, 1.0f)};
 }
 
 }  // namespace
@@ -89,9 +102,12 @@ Vec3 LightSampler::triangle_normal(uint triangle) const {
     return normalize(cross(v1 - v0, v2 - v0));
 }
 
-Vec3 LightSampler::emitted_radiance(uint triangle, Vec3 direction) const {
-    const Vec3 emission = scene_.materials[scene_.triangles[triangle].material].emission;
-    return is_zero(emission) || dot(triangle_normal(triangle), direction) >= 0.0f ? Vec3{0, 0, 0} : emission;
+Vec3 LightSampler::emitted_radiance(const BvhHit& hit, Vec3 direction) const {
+    const Parameter& emission = scene_.materials[scene_.triangles[hit.triangle].material].emission;
+    if (is_zero(emission.value) || dot(triangle_normal(hit.triangle), direction) >= 0.0f) {
+        return {0, 0, 0};
+    }
+    return max(value_at(scene_, surface_at(scene_, hit, direction), emission), Vec3{0, 0, 0});
 }
 
 double LightSampler::choice_probability(const Emitter& emitter) const {
@@ -102,7 +118,7 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     const std::array<Vec3, 3> corners = corners_of(emitter.triangle);
     const Vec3 light_normal = triangle_normal(emitter.triangle);
     LightPick pick;
-    pick.can_be_met = !is_glass(scene_.materials[scene_.triangles[emitter.triangle].material]);
+    pick.can_be_met = true;
     const double height = dot(light_normal, position - corners[0]);
     if (!(height > 0.0)) {
         return pick;
@@ -122,7 +138,10 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
         pick.density = area_density(emitter, distance, -dot(light_normal, pick.direction));
     }
     pick.target = stand_off(point, light_normal, extent_);
-    pick.radiance = pick.density > 0.0 ? emitter.radiance : Vec3{0, 0, 0};
+    if (pick.density > 0.0) {
+        const auto [u1, u2] = weights_at(corners, point);
+        pick.radiance = emitted_radiance({0.0f, u1, u2, emitter.triangle}, pick.direction);
+    }
     return pick;
 }
 
@@ -215,7 +234,7 @@ Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, 
 
 Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 position, Vec3 direction, Vec3 normal) const {
     const Vec3 radiance =
-        hit.triangle == ~0u ? environment_radiance(direction) : emitted_radiance(hit.triangle, direction);
+        hit.triangle == ~0u ? environment_radiance(direction) : emitted_radiance(hit, direction);
     const double cosine_density = std::max(0.0f, dot(normal, direction)) / std::numbers::pi;
     if (is_zero(radiance) || !(cosine_density > 0.0)) {
         return {0, 0, 0};

@@ -31,7 +31,7 @@ struct LightPick {
     double density = 0.0;     ///< per steradian, with the probability of the light; delta: that alone
     bool infinite = false;    ///< the light comes from infinitely far away
     bool is_delta = false;
-    bool can_be_met = false;  ///< a ray through opaque surfaces can find this light
+    bool can_be_met = false;  ///< a ray can find this light
 };
 
 /// Multiple importance sampling by the balance heuristic [Veach and Guibas 1995]: the expectation of
@@ -66,9 +66,9 @@ class LightSampler {
 
     /// Radiance that arrives from the environment in the unit direction towards it.
     [[nodiscard]] Vec3 environment_radiance(Vec3 direction) const { return environment_.radiance(direction); }
-    /// Radiance that the triangle sends towards the origin of a ray with the given direction. Only its front
-    /// emits.
-    [[nodiscard]] Vec3 emitted_radiance(uint triangle, Vec3 direction) const;
+    /// Radiance that the point of a triangle sends towards the origin of a ray with the given direction. Only
+    /// its front emits.
+    [[nodiscard]] Vec3 emitted_radiance(const BvhHit& hit, Vec3 direction) const;
 
     [[nodiscard]] float extent() const { return extent_; }
 

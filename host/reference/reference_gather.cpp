@@ -70,7 +70,7 @@ std::vector<Vpl> as_vpls(std::span<const Importon> importons) {
                         .normal = importon.normal,
                         .flags = importon.flags,
                         .power = importon.response,
-                        .pad0 = 0.0f});
+                        .shading = 0});
     }
     return vpls;
 }

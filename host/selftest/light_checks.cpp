@@ -18,9 +18,9 @@
 #include "host/scene/emitters.h"
 #include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/metropolis_chains.h"
+#include "host/stages/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -45,7 +45,8 @@ void check_direct_light(Device& device, CheckResult& result) {
     const DeviceScene on_device = upload_scene(device, scene, bvh);
     const Buffer<ReceiverPacket> input(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
-    DirectLight(device).run(on_device, input, receivers.size(), 1, 1, irradiance);
+    Buffer<IrradiancePacket> indirect(device, receivers.size());
+    ReceiverPaths(device).run(on_device, input, receivers.size(), {.seed = 1}, irradiance, indirect);
     const std::vector<IrradiancePacket> found = irradiance.download();
     EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {

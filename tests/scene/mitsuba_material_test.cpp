@@ -353,6 +353,20 @@ TEST_F(MitsubaMaterial, BadTexelsGetOneWarning) {
     EXPECT_EQ(notes_on_line_2("1 texels of the normal map 'below.png' point below"), 1u);
 }
 
+TEST_F(MitsubaMaterial, BadEnvironmentsGetOneWarning) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    write_image(files_.path("nan.exr"), {2, 1, {"R", "G", "B"}, {nan, 0.5f, -0.5f, 1, 2, 3}});
+    write_image(files_.path("black.exr"), {1, 1, {"R", "G", "B"}, {0, 0, 0}});
+    const auto load_environment = [&](const std::string& file) {
+        scene_ = files_.load_xml("<emitter type='envmap'>" + text("filename", file) + "</emitter>");
+    };
+    load_environment("nan.exr");
+    EXPECT_EQ(notes_on_line_2("1 pixels of the environment are negative or not finite"), 1u);
+    expect_near(scene_.environment.radiance.at(0), {0, 0.5f, 0});
+    load_environment("black.exr");
+    EXPECT_EQ(notes_on_line_2("the environment is black"), 1u);
+}
+
 TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
     const std::string plastic = "<bsdf type='plastic'/>";
     const std::pair<std::string, const char*> refused[] = {

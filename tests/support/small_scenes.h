@@ -104,7 +104,7 @@ inline Scene checkered_plain() {
     checkerboard.parameters.color1 = parameter_of(Vec3{0.1f, 0.15f, 0.3f});
     scene.textures.push_back(checkerboard);
     Material tiles = lambertian({1, 1, 1});
-    tiles.reflectance.texture = 0;
+    tiles.reflectance = textured(0);
     add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
     for (Vertex& vertex : scene.vertices) {
         vertex.u = vertex.position.x;  // a period of the pattern is two cells
