@@ -51,14 +51,17 @@ void finish_vertex_colors(Scene& scene, NoteSink& notes) {
     scene.vertex_colors.resize(scene.vertices.size(), kNoColor);
     for (const Triangle& triangle : scene.triangles) {
         const float scale = scales[triangle.material];
-        const Vec3 color = scene.vertex_colors[triangle.v0];
-        if (scale > 0.0f && color == kNoColor) {
-            notes.approximation(
-                scene.source, 0,
-                "a texture asks for colours of vertices, but the mesh has none; white is used");
-        } else if (max_component(color) * scale > 1.0f) {
-            notes.remark(scene.source, 0,
-                         "colours of vertices are above 1; surfaces reflect more light than they receive");
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            const Vec3 color = scene.vertex_colors[vertex];
+            if (scale > 0.0f && color == kNoColor) {
+                notes.approximation(
+                    scene.source, 0,
+                    "a texture asks for colours of vertices, but the mesh has none; white is used");
+            } else if (max_component(color) * scale > 1.0f) {
+                notes.remark(
+                    scene.source, 0,
+                    "colours of vertices are above 1; surfaces reflect more light than they receive");
+            }
         }
     }
     std::ranges::replace(scene.vertex_colors, kNoColor, Vec3{1, 1, 1});

@@ -19,7 +19,7 @@ Scene area_light_scene(Vec3 radiance) {
         scene.vertices.push_back({p, 0, {0, 0, 0}, 0});
     }
     scene.materials.resize(2, Material{});
-    scene.materials[1].emission = radiance;
+    scene.materials[1].emission.value = radiance;
     scene.triangles = {{0, 1, 2, 1}, {0, 1, 1, 1}, {0, 1, 3, 0}};
     return scene;
 }
@@ -65,7 +65,7 @@ TEST(EmitterTable, PowersAreThoseOfTheFormulae) {
     Scene scene = area_light_scene({3, 2, 1});
     const float area_luminance = luminance({3, 2, 1});
     EXPECT_NEAR(build_emitter_table(scene).total_power, kPiD * 2 * area_luminance, 1e-4);
-    scene.materials[1].emission = {0, 0, 0};
+    scene.materials[1].emission.value = {0, 0, 0};
     scene.delta_emitters = {point_light({1, 1, 1})};
     EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD, 1e-5);
 }

@@ -214,8 +214,8 @@ TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
               "value='gone.png'/></texture></bsdf>");
     const Scene scene = files.load_xml(gone);
     EXPECT_TRUE(has_note(scene, "scene.xml:3: texture is replaced"));
-    expect_near(scene.materials[0].base, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(scene.materials[0].base_texture, -1);
+    expect_near(scene.materials[0].reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(scene.materials[0].reflectance.texture, -1);
     EXPECT_TRUE(mentions(file_error([&] { files.load_xml(gone, {.parameters = {}, .strict = true}); }),
                          "scene.xml:3"));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/emitter_maker.h"
 
+#include <algorithm>
+
 #include "host/scene/file_text.h"
 #include "nearlight/error.h"
 
@@ -65,7 +67,7 @@ Mat4 rotation_of(const Mat4& m, const Location& where) {
     return rotation;
 }
 
-EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures) {
+EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures, NoteSink& notes) {
     EnvironmentLight light;
     if (emitter.type == "constant") {
         light.width = 1;
@@ -75,13 +77,22 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures)
         const std::filesystem::path file =
             resolve_path(*emitter.where.file, emitter.required_string("filename"));
         try {
-            light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)));
+            std::size_t bad_pixels = 0;
+            light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)), bad_pixels);
+            if (bad_pixels > 0) {
+                note(notes, emitter.where,
+                     std::to_string(bad_pixels) +
+                         " pixels of the environment are negative or not finite, and count as black");
+            }
         } catch (const Error& error) {
             throw Error(error.kind(), to_string(Note{*emitter.where.file, emitter.where.line, error.what()}),
                         error.setting());
         }
     }
     light.to_world = rotation_of(emitter.transform("to_world"), emitter.where);
+    if (std::ranges::all_of(light.radiance, is_zero)) {
+        notes.remark(*emitter.where.file, emitter.where.line, "the environment is black");
+    }
     return light;
 }
 
@@ -101,7 +112,7 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
             fail(emitter.where, "a scene can have only one environment");
         }
         emitter.ignore({"cache", "gamma"});
-        scene.environment = make_environment(emitter, textures);
+        scene.environment = make_environment(emitter, textures, notes);
     } else if (emitter.type == "area") {
         fail(emitter.where, "an area light must be nested in a shape");
     } else {

@@ -152,6 +152,14 @@ Vec3 TextureMaker::color(const Object& owner, const std::string& name, Vec3 fall
     return !color ? fallback : light ? color->light : color->reflectance;
 }
 
+int TextureMaker::texture_index(const Object& texture) {
+    const Parameter made = make(texture, Purpose::color);
+    if (made.texture >= 0 && !(made.value == Vec3{1, 1, 1})) {
+        fail(texture.where, "a scaled texture is not supported here");
+    }
+    return made.texture;
+}
+
 Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
     const auto [entry, is_new] = made_.try_emplace({&texture, purpose}, parameter_of(kMissing));
     if (is_new) {  // a texture that contains itself finds grey
@@ -259,7 +267,7 @@ void TextureMaker::warn_of_normals_below(const Parameter& normals, const Locatio
     if (below > 0) {
         note(notes_, where,
              std::to_string(below) + " texels of the normal map '" + image.name +
-                 "' point below the surface; they are mirrored above it");
+                 "' point below the surface");
     }
 }
 
