@@ -62,7 +62,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
+    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say

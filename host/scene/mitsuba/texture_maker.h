@@ -27,10 +27,12 @@ class TextureMaker {
     /// A colour called `name` that is not a reflectance; a texture is replaced by its mean. `light` says that
     /// spectra are those of a light.
     Vec3 color(const Object& owner, const std::string& name, Vec3 fallback, bool light);
+    /// The index into Scene::textures of a texture element, which is made when it is first asked for; −1,
+    /// with a note, if its file cannot be read.
+    int texture_index(const Object& texture);
 
   private:
     Vec3 clamp_reflectance(Vec3 color, const Location& where, const std::string& name);
-    int texture_index(const Object& texture);
     int make_bitmap(const Object& texture);
     int make_checkerboard(const Object& texture);
     Vec3 mean(const Object& texture);
