@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 struct LightCounts {
     std::size_t points = 0;
     std::size_t spots = 0;
+    std::size_t projectors = 0;
+    std::size_t directional = 0;
     std::size_t triangles = 0;
     float power = 0.0f;  ///< luminance of all flux, W
 };
@@ -27,8 +29,9 @@ LightCounts count_lights(const Scene& scene) {
         return static_cast<std::size_t>(std::count_if(table.emitters.begin(), table.emitters.end(),
                                                       [&](const Emitter& e) { return e.type == type; }));
     };
-    return {count(NEARLIGHT_EMITTER_POINT), count(NEARLIGHT_EMITTER_SPOT), count(NEARLIGHT_EMITTER_TRIANGLE),
-            table.total_power};
+    return {count(NEARLIGHT_EMITTER_POINT),     count(NEARLIGHT_EMITTER_SPOT),
+            count(NEARLIGHT_EMITTER_PROJECTOR), count(NEARLIGHT_EMITTER_DIRECTIONAL),
+            count(NEARLIGHT_EMITTER_TRIANGLE),  table.total_power};
 }
 
 std::uint64_t texel_count(const Scene& scene) {
@@ -127,6 +130,8 @@ Json json_lights(const Scene& scene) {
     const EnvironmentLight& environment = scene.environment;
     return {{"points", lights.points},
             {"spots", lights.spots},
+            {"projectors", lights.projectors},
+            {"directional", lights.directional},
             {"triangles", lights.triangles},
             {"environment",
              environment.width > 0 ? Json::array({environment.width, environment.height}) : Json()},
@@ -241,7 +246,8 @@ std::string scene_summary_text(const Scene& scene) {
            row("textures", fmt::format("{} of {} images, {} texels", scene.textures.size(),
                                        scene.images.size(), texel_count(scene))) +
            row("lights",
-               fmt::format("{} points, {} spots, {} triangles, {}; {:.6g} W", lights.points, lights.spots,
+               fmt::format("{} points, {} spots, {} projectors, {} directional, {} triangles, {}; {:.6g} W",
+                           lights.points, lights.spots, lights.projectors, lights.directional,
                            lights.triangles, text_environment(scene.environment), lights.power)) +
            row("camera",
                fmt::format("{}x{}, {:.6g} degrees wide, at {} towards {}", scene.camera.width,

@@ -103,11 +103,11 @@ RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter&
     return endless_ray(emitter.position, sphere_direction(random));
 }
 
-/// The emitters from which walks start: all but the environment.
+/// The emitters from which walks start: those that have a place.
 std::vector<Emitter> lamps(const EmitterTable& table) {
     std::vector<Emitter> result;
     for (const Emitter& emitter : table.emitters) {
-        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT) {
+        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT && emitter.type != NEARLIGHT_EMITTER_DIRECTIONAL) {
             result.push_back(emitter);
         }
     }

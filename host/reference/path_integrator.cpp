@@ -119,7 +119,7 @@ void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface,
     const Vec3 normal = as_float(bsdf.normal());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
-        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(emitter, position));
+        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
     }
     layer += scattered(walk, surface, bsdf, lights_.sample(position, normal, random));
 }

@@ -65,7 +65,7 @@ struct Scene {
     std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
+    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say

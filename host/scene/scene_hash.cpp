@@ -19,7 +19,7 @@ Texture essence(Texture texture) {
 
 Emitter essence(Emitter emitter) {
     emitter.triangle = 0;
-    emitter.area = emitter.probability = emitter.cdf = 0;
+    emitter.probability = emitter.cdf = emitter.pad0 = 0;
     return emitter;
 }
 

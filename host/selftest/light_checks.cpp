@@ -40,7 +40,7 @@ void check_direct_light(Device& device, CheckResult& result) {
     const Bvh bvh = build_scene_bvh(scene);
     const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 128, 96);
     std::vector<IrradiancePacket> expected(receivers.size());
-    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected);
+    direct_reference(EmbreeScene(scene), scene, receivers, expected);
 
     const DeviceScene on_device = upload_scene(device, scene, bvh);
     const Buffer<ReceiverPacket> input(device, receivers);

@@ -54,7 +54,8 @@ bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, 
     for (const Emitter& light : scene.delta_emitters) {
         for (const Vec3 side : {front, -front}) {
             if ((side == front || two_sided) &&
-                !is_zero(delta_light_irradiance(embree, light, stand_off(point, side, extent), side))) {
+                !is_zero(
+                    delta_light_irradiance(scene, embree, light, stand_off(point, side, extent), side))) {
                 return true;
             }
         }

@@ -88,6 +88,18 @@ inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) 
            hit->weights.y * load3(scene->vertex_colors[triangle.v2]);
 }
 
+/// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
+/// other texture.
+inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
+    const global Texture* texture = scene->textures + index;
+    if (texture->kind != NEARLIGHT_TEXTURE_BITMAP) {
+        return (float3)(1.0f);
+    }
+    const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
+    const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
+    return look_up_bitmap(scene, texture, s, t).color;
+}
+
 /// The value of a parameter at the point.
 inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
                             const SurfaceHit* hit) {

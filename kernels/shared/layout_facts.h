@@ -40,6 +40,7 @@
     SIZE(Emitter)                                   \
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
+    OFFSET(Emitter, image)                          \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
     SIZE(PinholeCamera)                             \

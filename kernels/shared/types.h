@@ -104,20 +104,32 @@ typedef struct Triangle {
 #define NEARLIGHT_EMITTER_SPOT 1u
 #define NEARLIGHT_EMITTER_TRIANGLE 2u
 #define NEARLIGHT_EMITTER_ENVIRONMENT 3u
+#define NEARLIGHT_EMITTER_DIRECTIONAL 4u
+#define NEARLIGHT_EMITTER_PROJECTOR 5u
 
-/// One entry of the table of lights, which lists point and spot lights first, then each emissive triangle,
-/// then the environment. An entry is chosen with `probability`, in proportion to its emitted power.
+/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
+/// then each emissive triangle, then the environment. An entry is chosen with `probability`, in proportion to
+/// its emitted power.
+///
+/// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
+/// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
+/// image, inside the image only, so that an even image lights a plane across its axis evenly.
 typedef struct Emitter {
-    Vec3 position;  // point and spot
+    Vec3 position;  // point, spot and projector
     uint type;
-    Vec3 direction;  // spot: unit vector along the axis
+    Vec3 direction;  // spot and projector: unit vector along the axis; directional: that of the light
     uint triangle;   // index into the triangle array
-    Vec3 radiance;   // point and spot: intensity, W/sr; triangle: radiance; environment: mean radiance
-    float area;      // triangle, m²
+    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
+                     // direction, W/m²; triangle: radiance; environment: mean radiance
+    float area;      // triangle: m²; projector: of its image at the distance 1
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
     float cutoff_angle;  // spot: no light beyond this angle, radians; linear between the two
+    Vec3 x_axis;
+    uint image;  // index of the texture plus 1; 0: none
+    Vec3 y_axis;
+    float pad0;
 } Emitter;
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
@@ -265,7 +277,7 @@ typedef struct CloseRange {
 typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
-    uint delta_emitter_count;  // point and spot lights: the first entries of the table
+    uint delta_emitter_count;  // delta lights: the first entries of the table
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
@@ -289,7 +301,7 @@ NEARLIGHT_CHECK_SHARED(Triangle, 16);
 NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
-NEARLIGHT_CHECK_SHARED(Emitter, 64);
+NEARLIGHT_CHECK_SHARED(Emitter, 96);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
 NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);

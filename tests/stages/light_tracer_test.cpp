@@ -117,6 +117,13 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
         const double cone = 2 * kPi * (1 - (std::sin(kPi / 3) - 0.5) / (kPi / 6));
         EXPECT_NEAR(emitted_power(device, spot), 2 * cone, 0.005 * cone);
 
+        // Of the bitmap's green channel (0, 255, 64, 128), the mean is that of the linear values.
+        Scene projector;
+        add_projector(projector, {0, 0.5f, 0}, {1, 2, 3}, 0.5f, 0.25f, {1, 4, 1},
+                      add_small_bitmap(projector));
+        const double mean = (0 + 1 + 0.0512695 + 0.2158605) / 4;
+        EXPECT_NEAR(emitted_power(device, projector), 4 * 0.5 * mean, 0.005 * mean);
+
         Scene lamp;
         Material emissive = lambertian({0, 0, 0});
         emissive.emission = {4, 4, 4};
@@ -142,6 +149,20 @@ TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
         }
         EXPECT_NEAR(up, kPi * 2 * 6, 0.02 * kPi * 12);
         EXPECT_NEAR(down, kPi * 2 * 6, 0.02 * kPi * 12);
+    });
+}
+
+TEST_F(LightTracerTest, DirectionalLightIsWhatMeetsASquare) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_directional_light(scene, {3, 0, -4}, {1, 5, 2});
+    on_each_ray_tree([&](Device& device) {
+        double power = 0;
+        for (const Vpl& vpl : trace_all(
+                 device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7})) {
+            power += vpl.power.y;
+        }
+        EXPECT_NEAR(power, 5 * 6 * 0.8, 0.01 * 5 * 6);
     });
 }
 

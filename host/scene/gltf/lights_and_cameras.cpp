@@ -12,8 +12,6 @@ namespace {
 
 /// Lumens per watt of green light, which exporters take for the ratio of photometric and radiometric units.
 constexpr double kLumensPerWatt = 683;
-/// The distance of directional lights in radii of the scene: their rays differ by a degree at most.
-constexpr float kFarAway = 50.0f;
 constexpr int kUsualHeight = 480;
 
 Vec3 color_of(const tinygltf::Light& light) {
@@ -47,17 +45,11 @@ Emitter spot_emitter(const PlacedLight& placed) {
     return emitter;
 }
 
-/// A spot so far away that its irradiance hardly changes over the scene, and just wide enough to light all of
-/// it.
-Emitter directional_emitter(const PlacedLight& placed, const Aabb& box) {
-    const float radius = std::max(0.5f * length(box.size()), 1e-3f);
-    const float distance = kFarAway * radius;
+Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
-    emitter.type = NEARLIGHT_EMITTER_SPOT;
+    emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
     emitter.direction = forward(placed.to_world);
-    emitter.position = box.center() - distance * emitter.direction;
-    emitter.radiance = color_of(*placed.light) * (distance * distance);
-    emitter.cutoff_angle = emitter.beam_angle = std::asin(1.01f / kFarAway);
+    emitter.radiance = color_of(*placed.light);
     return emitter;
 }
 
@@ -123,7 +115,6 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 }
 
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
-    const Aabb box = bounds(scene);
     for (const PlacedLight& placed : lights) {
         if (!is_finite(color_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
@@ -133,8 +124,7 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
         } else if (placed.light->type == "spot") {
             scene.delta_emitters.push_back(spot_emitter(placed));
         } else if (placed.light->type == "directional") {
-            scene.delta_emitters.push_back(directional_emitter(placed, box));
-            notes.approximation(file.path, 0, "directional lights are replaced by distant spot lights");
+            scene.delta_emitters.push_back(directional_emitter(placed));
         } else {
             notes.approximation(file.path, 0, "a light of type '" + placed.light->type + "' is left out");
         }

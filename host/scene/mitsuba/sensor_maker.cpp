@@ -46,18 +46,6 @@ double fov_of_focal_length(const Object& sensor) {
     return 2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * length)) * kRadian;
 }
 
-double read_fov(const Object& sensor, const SceneCamera& camera) {
-    const double aspect = static_cast<double>(camera.width) / camera.height;
-    if (!sensor.has("fov")) {
-        return horizontal_fov(fov_of_focal_length(sensor), "diagonal", aspect, sensor.where);
-    }
-    const double fov = sensor.number("fov", 0.0);
-    if (!(fov > 0.0 && fov < 180.0)) {
-        fail(sensor.find("fov")->where, "'fov' should be between 0 and 180");
-    }
-    return horizontal_fov(fov, sensor.string("fov_axis", "x"), aspect, sensor.where);
-}
-
 // Scaling the camera does not change the picture, but mirroring would.
 Mat4 without_scale(Mat4 m, const Location& where) {
     for (int column = 0; column < 3; ++column) {
@@ -74,6 +62,18 @@ Mat4 without_scale(Mat4 m, const Location& where) {
 }
 
 }  // namespace
+
+double read_fov(const Object& owner, double aspect) {
+    owner.ignore({"fov_axis"});
+    if (!owner.has("fov")) {
+        return horizontal_fov(fov_of_focal_length(owner), "diagonal", aspect, owner.where);
+    }
+    const double fov = owner.number("fov", 0.0);
+    if (!(fov > 0.0 && fov < 180.0)) {
+        fail(owner.find("fov")->where, "'fov' should be between 0 and 180");
+    }
+    return horizontal_fov(fov, owner.string("fov_axis", "x"), aspect, owner.where);
+}
 
 double horizontal_fov(double fov_degrees, const std::string& axis, double aspect, const Location& where) {
     const double half = std::tan(0.5 * fov_degrees / kRadian);
@@ -105,7 +105,8 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
         scene.samples_per_pixel = positive_integer(*sampler, "sample_count", 4, 1 << 24);
     }
     scene.camera.to_world = without_scale(sensor.transform("to_world"), sensor.where);
-    scene.camera.fov_x_degrees = read_fov(sensor, scene.camera);
+    scene.camera.fov_x_degrees =
+        read_fov(sensor, static_cast<double>(scene.camera.width) / scene.camera.height);
     if (sensor.has("principal_point_offset_x") || sensor.has("principal_point_offset_y")) {
         note(notes, sensor.where,
              "the sensor's principal point is ignored; the middle of the picture is used");
