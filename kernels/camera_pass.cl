@@ -10,12 +10,14 @@
 // chance. Branch 1 of a sample that never divides is absent. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
+#include "lib/camera.cl"
 #include "lib/close_range.cl"
 #include "lib/emitter.cl"
 #include "lib/fresnel.cl"
 #include "lib/material.cl"
 
 #define MAX_CHAIN 24
+#define MAX_HIDDEN 256  // emitters that one camera ray looks through where they are hidden
 
 typedef struct CameraPath {
     float3 origin;
@@ -24,6 +26,10 @@ typedef struct CameraPath {
     float3 emitted;
     uint key;        // key of the random sequence
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
+    float t_min;     // where the first surface may lie on the ray
+    float t_max;
+    float filter_weight;
+    uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
 } CameraPath;
 
 /// Chooses between reflection (true) and the other way. The first division gives each branch one way with its
@@ -176,45 +182,76 @@ inline CameraReceiver absent_receiver(void) {
     receiver.vertex.albedo = store3((float3)(0.0f));
     receiver.vertex.flags = 0;
     receiver.vertex.emitted = store3((float3)(0.0f));
-    receiver.vertex.pad0 = 0.0f;
+    receiver.vertex.filter_weight = 0.0f;
     return receiver;
 }
 
-inline CameraPath start_path(const global PinholeCamera* camera, uint x, uint y, uint sample,
-                             uint sequence_length, uint branch_count, uint seed) {
+inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
+                             uint branch_count, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraPath path;
     path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
-    // A single sample goes through the centre of its pixel.
     const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-    const float2 jitter = sequence_length > 1 ? sample_2d(sample, 0, pixel_key) : (float2)(0.5f);
-    path.origin = load3(camera->origin);
-    path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
-                               ((float)y + jitter.y) * load3(camera->step_y));
+    // A single sample goes through the centre of its pixel, but through any part of the lens.
+    const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
+                                                : middle_of_pixel(x, y);
+    const CameraRay ray = camera_ray(camera, film.position, sample_2d(sample, 1, pixel_key));
+    path.origin = ray.origin;
+    path.direction = ray.direction;
+    path.t_min = ray.t_min;
+    path.t_max = ray.t_max;
     path.throughput = (float3)(1.0f);
     path.emitted = (float3)(0.0f);
     path.undivided = branch_count > 1;
+    path.filter_weight = film.weight;
+    path.flags = film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
     return path;
+}
+
+inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
+    return max_component(load3(scene->materials[hit->material].emission)) > 0.0f;
+}
+
+/// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
+/// planes end at the first one, as in Mitsuba.
+inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraPath* path) {
+    SurfaceHit hit = trace_camera(scene, path->origin, path->direction, path->t_min, path->t_max);
+    for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
+        const float passed = hit.t;
+        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
+        hit = i < MAX_HIDDEN ? trace_camera(scene, origin, path->direction, 0.0f, INFINITY) : no_surface();
+        hit.t += hit.t >= 0.0f ? passed : 0.0f;
+    }
+    return hit;
 }
 
 /// Follows one branch to its receiver. Branch 0 sets `first` to the first surface that it meets, and branch 1
 /// takes it from there.
-inline CameraReceiver follow_path(const SceneView* scene, const global CloseRange* close_range,
-                                  CameraPath* path, uint branch, SurfaceHit* first) {
+inline CameraReceiver follow_path(const SceneView* scene, const global Camera* camera,
+                                  const global CloseRange* close_range, CameraPath* path, uint branch,
+                                  SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
+    receiver.vertex.filter_weight = path->filter_weight;
+    const float3 straight = path->direction;
+    bool sees_sky = !camera->hides_emitters;
     float3 albedo = (float3)(0.0f);
     for (uint step = 0; step < MAX_CHAIN; ++step) {
-        const bool known = step == 0 && branch == 1;
-        const SurfaceHit hit = known ? *first : trace_camera(scene, path->origin, path->direction);
+        SurfaceHit hit;
         if (step == 0) {
+            hit = branch == 1 ? *first : trace_first(scene, camera, path);
             *first = hit;
+        } else {
+            hit = trace_camera(scene, path->origin, path->direction, 0.0f, INFINITY);
         }
         if (hit.t < 0.0f) {
-            path->emitted += path->throughput * environment_radiance(scene, path->direction);
+            if (sees_sky) {
+                path->emitted += path->throughput * environment_radiance(scene, path->direction);
+            }
             break;
         }
         if (step == 0) {
             receiver.vertex.depth = hit.t;
+            receiver.vertex.flags = path->flags;
         }
         if (hit.front) {
             path->emitted += path->throughput * load3(scene->materials[hit.material].emission);
@@ -225,11 +262,13 @@ inline CameraReceiver follow_path(const SceneView* scene, const global CloseRang
             receiver.normal = hit.shading;
             receiver.vertex.throughput = store3(path->throughput);
             receiver.vertex.albedo = store3(albedo);
-            receiver.vertex.flags = in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
+            receiver.vertex.flags |= in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
         }
         if (outcome != 1) {
             break;
         }
+        // A pane that does not turn the path hides no less than air does, as in Mitsuba.
+        sees_sky = sees_sky || any(path->direction != straight);
     }
     receiver.vertex.emitted = store3(path->emitted);
     return receiver;
@@ -254,7 +293,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
     *vertex = from->vertex;
 }
 
-kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
+kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
                         uint branch_count, uint seed, global ReceiverPacket* restrict receivers,
@@ -279,7 +318,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
     for (uint branch = 0; branch < branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
-            receiver = follow_path(&scene, close_range, &path, branch, &first);
+            receiver = follow_path(&scene, camera, close_range, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {
             leave_to_branch_0(&receiver);

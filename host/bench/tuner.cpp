@@ -96,7 +96,7 @@ Work picture_work(Device& device, const Room& room) {
               irradiance(on, packets) {}
         CameraPass camera_pass;
         DirectLight direct_light;
-        Buffer<PinholeCamera> camera;
+        Buffer<Camera> camera;
         Buffer<CloseRange> close_range;
         CameraBand band;
         std::size_t packets;

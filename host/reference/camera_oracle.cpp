@@ -19,7 +19,8 @@ struct Found : ReceiverPoint {
 };
 
 bool is_absent(const Found& found) {
-    return is_zero(found.normal) && is_zero(found.vertex.throughput) && found.vertex.flags == 0;
+    return is_zero(found.normal) && is_zero(found.vertex.throughput) &&
+           (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) == 0;
 }
 
 bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,
@@ -43,14 +44,19 @@ bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, fl
 
 }  // namespace
 
-RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y) {
-    const Vec3 direction = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
-                           (static_cast<float>(y) + 0.5f) * camera.step_y;
-    return {camera.origin, 0.0f, normalize(direction), std::numeric_limits<float>::infinity()};
+RayQuery pixel_ray(const Camera& camera, uint x, uint y) {
+    const Vec3 d = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
+                   (static_cast<float>(y) + 0.5f) * camera.step_y;
+    if (camera.is_orthographic != 0) {
+        return {camera.origin + d, camera.near_clip, camera.forward, camera.far_clip};
+    }
+    const Vec3 direction = normalize(d);
+    const float cosine = dot(direction, camera.forward);
+    return {camera.origin, camera.near_clip / cosine, direction, camera.far_clip / cosine};
 }
 
-CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
-                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, const CloseRange& close_range,
+                                     std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices) {
     const EmbreeScene embree(scene);
     const float extent = max_component(bounds(scene).size());
@@ -65,7 +71,7 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
         const Found found{receiver_at(receivers, i), vertices[i]};
         const RayQuery ray = pixel_ray(camera, x, y);
         const BvhHit hit = x < camera.width && y < camera.height
-                               ? embree.closest_visible_hit(ray.origin, ray.direction, 0.0f, ray.t_max)
+                               ? embree.closest_visible_hit(ray.origin, ray.direction, ray.t_min, ray.t_max)
                                : BvhHit{};
         const bool absent = hit.triangle == ~0u || !surface_at(scene, hit, ray.direction).reflects();
         const bool right = absent ? is_absent(found) : fits(scene, close_range, ray, hit, found, extent);

@@ -42,11 +42,16 @@ class PathTracer {
           settings_(settings),
           embree_(scene),
           lights_(scene),
-          camera_(scene.camera, settings.width, settings.height) {}
+          camera_(scene.camera, settings.width, settings.height),
+          filter_(scene.camera, settings.width, settings.height) {}
 
     void trace_batch(int x, int y, int batch, int batch_size, PixelStatistics& pixel) const;
 
   private:
+    /// The light as the film has it.
+    [[nodiscard]] Vec3 seen(Vec3 light) const {
+        return scene_.camera.is_monochrome ? Vec3{1, 1, 1} * luminance(light) : light;
+    }
     [[nodiscard]] Light gather(const Receiver& receiver, SampleBatch& batch, int sample) const;
     /// Direct light at a vertex of a path (irradiance ÷ π), and the ray on which the path continues.
     struct Step {
@@ -62,6 +67,7 @@ class PathTracer {
     EmbreeScene embree_;
     LightSampler lights_;
     CameraRays camera_;
+    FilterSampler filter_;
 };
 
 struct StepRandom {
@@ -145,9 +151,11 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     SampleBatch batch(settings_.seed, pixel_index, static_cast<std::uint64_t>(batch_index), batch_size);
     BatchSum sum;
     for (int sample = 0; sample < batch_size; ++sample) {
-        const Point2 film =
-            settings_.pixel_centers ? Point2{0.5f, 0.5f} : batch.point(Decision::film, sample);
-        const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
+        const FilterPoint film =
+            settings_.pixel_centers
+                ? FilterPoint{.place = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}}
+                : filter_.sample(x, y, batch.point(Decision::film, sample));
+        const Ray ray = camera_.through(film.place, batch.point(Decision::lens, sample));
         const CameraPath path = trace_camera_path(scene_, embree_, lights_, ray, batch, sample);
         Light light;
         if (!settings_.indirect_only) {
@@ -159,7 +167,8 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
             light.direct += reflectance * gathered.direct;
             light.indirect = reflectance * gathered.indirect;
         }
-        sum.add(light.direct, light.indirect, path);
+        const auto weight = static_cast<float>(film.weight);
+        sum.add(weight * seen(light.direct), weight * seen(light.indirect), path);
     }
     pixel.add(sum, batch_size);
 }

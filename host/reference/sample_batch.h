@@ -13,6 +13,7 @@ namespace nearlight::core {
 /// The decisions of a path that are stratified over a batch. Later decisions use independent random numbers.
 enum class Decision {
     film,
+    lens,
     lobe,
     lobe_direction,
     receiver_light,

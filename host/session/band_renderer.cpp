@@ -93,7 +93,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
                             buffers_.vertices);
-    if (settings.indirect_only) {
+    if (settings.indirect_only || picture_.view.max_depth < 2) {
         buffers_.direct.fill_zero();
     } else {
         stages_.direct_light.run(scene_, buffers_.receivers, packets, direct_samples_per_sample(settings),

@@ -100,14 +100,16 @@ inline SurfaceHit trace_opaque(const SceneView* scene, float3 origin, float3 dir
     return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
 }
 
-/// The nearest surface on a ray, glass included, for camera paths only. Its t is negative if there is none.
-inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 direction) {
+/// The nearest surface on a ray from t_min to t_max, glass included, for camera paths only. Its t is negative
+/// if there is none.
+inline SurfaceHit trace_camera(const SceneView* scene, float3 origin, float3 direction, float t_min,
+                               float t_max) {
     const global TreeTriangles* triangles = scene->tree_triangles;
     const global uint* ids = scene->triangle_ids;
-    RayHit hit = tree_closest_hit(scene->nodes, triangles, origin, direction, 0.0f, INFINITY);
+    RayHit hit = tree_closest_hit(scene->nodes, triangles, origin, direction, t_min, t_max);
     if (scene->info->has_glass) {
         const RayHit glass =
-            tree_closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, 0.0f, hit.t);
+            tree_closest_hit(scene->glass_nodes, scene->glass_triangles, origin, direction, t_min, hit.t);
         if (glass.slot != ~0u) {
             hit = glass;
             triangles = scene->glass_triangles;

@@ -39,8 +39,11 @@
     OFFSET(Emitter, cutoff_angle)                   \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
-    SIZE(PinholeCamera)                             \
-    OFFSET(PinholeCamera, step_y)                   \
+    SIZE(Camera)                                    \
+    OFFSET(Camera, step_y)                          \
+    OFFSET(Camera, focus_distance)                  \
+    OFFSET(Camera, filter_radius)                   \
+    OFFSET(Camera, filter_signed)                   \
     SIZE(Vpl)                                       \
     OFFSET(Vpl, power)                              \
     SIZE(Importon)                                  \
@@ -57,7 +60,7 @@
     OFFSET(GatherParams, group_size)                \
     OFFSET(GatherParams, recorded_vpls)             \
     SIZE(CameraVertex)                              \
-    OFFSET(CameraVertex, emitted)                   \
+    OFFSET(CameraVertex, filter_weight)             \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \

@@ -4,7 +4,7 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/reference/close_range_oracle.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 
@@ -44,7 +44,7 @@ Result classify(Device& device, const std::vector<Corners>& corners, const Close
 CloseRange square_region(float range) {
     SceneCamera camera;
     camera.fov_x_degrees = 90;
-    return make_close_range(make_pinhole_camera(camera, 100, 100), range);
+    return make_close_range(make_camera(camera, 100, 100), range);
 }
 
 TEST_F(TriangleClassifierTest, NearestPointInsideTheFrustumDecides) {
@@ -110,7 +110,7 @@ TEST_F(TriangleClassifierTest, AgreesWithAQuadraticProgrammeOnRandomTriangles) {
     SceneCamera camera;
     camera.to_world = look_at({0.3, -0.2, 0.5}, {-1, 0.4, 1.5}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 55;
-    const CloseRange region = make_close_range(make_pinhole_camera(camera, 320, 200), kRange);
+    const CloseRange region = make_close_range(make_camera(camera, 320, 200), kRange);
     Pcg32 random(11);
     std::vector<Corners> corners(20'000);
     for (Corners& t : corners) {
