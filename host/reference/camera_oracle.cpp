@@ -44,17 +44,6 @@ bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, fl
 
 }  // namespace
 
-RayQuery pixel_ray(const Camera& camera, uint x, uint y) {
-    const Vec3 d = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
-                   (static_cast<float>(y) + 0.5f) * camera.step_y;
-    if (camera.is_orthographic != 0) {
-        return {camera.origin + d, camera.near_clip, camera.forward, camera.far_clip};
-    }
-    const Vec3 direction = normalize(d);
-    const float cosine = dot(direction, camera.forward);
-    return {camera.origin, camera.near_clip / cosine, direction, camera.far_clip / cosine};
-}
-
 CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, const CloseRange& close_range,
                                      std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices) {

@@ -6,11 +6,9 @@
 
 #include "host/base/math.h"
 #include "host/reference/embree_scene.h"
+#include "host/scene/camera.h"
 
 namespace nearlight::core {
-
-/// The ray through the centre of a pixel, and of the lens; the direction has unit length.
-RayQuery pixel_ray(const Camera& camera, uint x, uint y);
 
 struct CameraComparison {
     std::size_t receivers = 0;  ///< receivers that are present

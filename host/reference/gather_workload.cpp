@@ -7,7 +7,6 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
-#include "host/reference/camera_oracle.h"
 #include "host/scene/camera.h"
 #include "host/scene/distribution.h"
 #include "host/scene/emitters.h"

@@ -81,6 +81,17 @@ Camera make_camera(const SceneCamera& camera, int width, int height) {
     return result;
 }
 
+RayQuery pixel_ray(const Camera& camera, uint x, uint y) {
+    const Vec3 d = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
+                   (static_cast<float>(y) + 0.5f) * camera.step_y;
+    if (camera.is_orthographic != 0) {
+        return {camera.origin + d, camera.near_clip, camera.forward, camera.far_clip};
+    }
+    const Vec3 direction = normalize(d);
+    const float cosine = dot(direction, camera.forward);
+    return {camera.origin, camera.near_clip / cosine, direction, camera.far_clip / cosine};
+}
+
 std::optional<FilmPosition> film_position(const SceneCamera& camera, Vec3 point) {
     const Vec3 local = transform_point(inverse(camera.to_world), point);
     if (!(local.z > 0.0f)) {

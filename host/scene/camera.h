@@ -25,6 +25,9 @@ PictureWindow picture_window(const SceneCamera& camera, int width, int height);
 /// or a field of view that is not between 0 and 180 degrees.
 Camera make_camera(const SceneCamera& camera, int width, int height);
 
+/// The ray through the centre of a pixel, and of the lens; the direction has unit length.
+RayQuery pixel_ray(const Camera& camera, uint x, uint y);
+
 /// The point on the film, in pixels from the top left corner, where the camera sees `point` through the
 /// middle of its lens. Empty for points that are not in front of the camera.
 struct FilmPosition {

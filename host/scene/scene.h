@@ -65,7 +65,7 @@ struct SceneCamera {
     double focus_distance = 1.0;   ///< along +Z, for a thin lens
     double near_clip = 0.0;        ///< surfaces are seen between these distances along +Z
     double far_clip = std::numeric_limits<double>::infinity();
-    PixelFilter filter;
+    PixelFilter filter{};
     bool sample_border =
         false;  ///< pixels at the border take light from beyond it, as far as the filter goes
     bool hide_emitters = false;  ///< emitters and the environment are not seen directly

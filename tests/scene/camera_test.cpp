@@ -12,7 +12,7 @@ Vec3 direction(const Camera& camera, float x, float y) {
     return normalize(camera.corner + camera.step_x * x + camera.step_y * y);
 }
 
-void expect_near(Vec3 a, Vec3 b) {
+void expect_same(Vec3 a, Vec3 b) {
     EXPECT_NEAR(a.x, b.x, 1e-5f);
     EXPECT_NEAR(a.y, b.y, 1e-5f);
     EXPECT_NEAR(a.z, b.z, 1e-5f);
@@ -24,12 +24,12 @@ TEST(Camera, LocalFrameHasXToTheLeftAndYUp) {
     const Camera pinhole = make_camera(camera, 200, 100);
     EXPECT_EQ(pinhole.width, 200u);
     EXPECT_EQ(pinhole.height, 100u);
-    expect_near(pinhole.origin, {0, 0, 0});
-    expect_near(direction(pinhole, 100, 50), {0, 0, 1});
-    expect_near(direction(pinhole, 0, 50), normalize({1, 0, 1}));
-    expect_near(direction(pinhole, 200, 50), normalize({-1, 0, 1}));
-    expect_near(direction(pinhole, 0, 0), normalize({1, 0.5f, 1}));
-    expect_near(direction(pinhole, 100, 100), normalize({0, -0.5f, 1}));
+    expect_same(pinhole.origin, {0, 0, 0});
+    expect_same(direction(pinhole, 100, 50), {0, 0, 1});
+    expect_same(direction(pinhole, 0, 50), normalize({1, 0, 1}));
+    expect_same(direction(pinhole, 200, 50), normalize({-1, 0, 1}));
+    expect_same(direction(pinhole, 0, 0), normalize({1, 0.5f, 1}));
+    expect_same(direction(pinhole, 100, 100), normalize({0, -0.5f, 1}));
 }
 
 TEST(Camera, SeesAKnownPointWhereItIs) {
@@ -40,7 +40,7 @@ TEST(Camera, SeesAKnownPointWhereItIs) {
     const Camera pinhole = make_camera(camera, 400, 300);
     // The point is 10 m ahead, 5 m to the left and 2.5 m up, so it is half way to the left edge and a third
     // of the way to the top.
-    expect_near(direction(pinhole, 100, 100), normalize(Vec3{20, 4.5f, -8} - Vec3{10, 2, -3}));
+    expect_same(direction(pinhole, 100, 100), normalize(Vec3{20, 4.5f, -8} - Vec3{10, 2, -3}));
 }
 
 TEST(Camera, FieldOfViewIsHorizontalAlsoInAPortrait) {
@@ -57,7 +57,7 @@ TEST(Camera, MirroringTransformMirrorsThePicture) {
     const Camera plain = make_camera(camera, 64, 48);
     camera.to_world = camera.to_world * scaling(-1, 1, 1);
     const Camera mirrored = make_camera(camera, 64, 48);
-    expect_near(direction(plain, 10, 5), direction(mirrored, 54, 5));
+    expect_same(direction(plain, 10, 5), direction(mirrored, 54, 5));
 }
 
 TEST(Camera, OrthographicRaysAreParallelAndAsFarApartAsPixelsAre) {
@@ -68,10 +68,10 @@ TEST(Camera, OrthographicRaysAreParallelAndAsFarApartAsPixelsAre) {
     camera.far_clip = 4.0;
     const Camera made = make_camera(camera, 60, 30);
     EXPECT_NEAR(length(made.forward), 1.0f, 1e-6f);
-    expect_near(made.forward, normalize(Vec3{3, -1, -5}));
+    expect_same(made.forward, normalize(Vec3{3, -1, -5}));
     EXPECT_NEAR(length(made.step_x), 6.0f / 60, 1e-6f);  // 2 local units, scaled by 3
     EXPECT_NEAR(length(made.step_y), 6.0f / 60, 1e-6f);
-    expect_near(made.corner + made.step_x * 30 + made.step_y * 15, {0, 0, 0});
+    expect_same(made.corner + made.step_x * 30 + made.step_y * 15, {0, 0, 0});
     EXPECT_FLOAT_EQ(made.near_clip, 1.0f);  // scaled by 2, unlike the distance to the far one
     EXPECT_FLOAT_EQ(made.far_clip, 4.5f);
 }
