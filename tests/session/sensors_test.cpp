@@ -51,34 +51,34 @@ class SensorsTest : public test::DeviceTest {
 TEST_F(SensorsTest, LensBlursAPointToTheCircleOfConfusion) {
     // A small square of radiance 1 and side s at the distance D. On the plane at distance 1, the lens spreads
     // its (s/D)² evenly over the disc of radius A·|1/D − 1/F|.
-    constexpr double kSide = 0.02, kRadius = 0.3, kFocus = 2.0;
+    constexpr double kSide = 0.08, kRadius = 0.3, kFocus = 2.0;
     for (const double distance : {1.2, 3.5}) {
         Scene scene;
         add_screen(scene, static_cast<float>(kSide), static_cast<float>(distance), glowing(1000.0f));
         scene.camera.fov_x_degrees = 40;
-        scene.camera.width = scene.camera.height = 64;
+        scene.camera.width = scene.camera.height = 32;
         scene.camera.aperture_radius = kRadius;
         scene.camera.focus_distance = kFocus;
         scene.max_depth = 1;
         const double disc = kRadius * std::abs(1.0 / distance - 1.0 / kFocus);
-        const double pixel = 2.0 * std::tan(20.0 * std::numbers::pi / 180.0) / 64;
+        const double pixel = 2.0 * std::tan(20.0 * std::numbers::pi / 180.0) / 32;
         const double spot = kSide / distance;
-        on_each_picture(scene, 1024, [&](const Image& image) {
+        on_each_picture(scene, 4096, [&](const Image& image) {
             double flux = 0.0, second_moment = 0.0;
-            for (int y = 0; y < 64; ++y) {
-                for (int x = 0; x < 64; ++x) {
+            for (int y = 0; y < 32; ++y) {
+                for (int x = 0; x < 32; ++x) {
                     const double light = value(image, "R", x, y) * pixel * pixel;
-                    const double r = std::hypot(x - 31.5, y - 31.5) * pixel;
+                    const double r = std::hypot(x - 15.5, y - 15.5) * pixel;
                     flux += light;
                     second_moment += light * r * r;
                     EXPECT_TRUE(light == 0.0 || r < disc + spot + pixel) << x << " " << y;
                 }
             }
             const double expected_flux = 1000.0 * spot * spot;
-            EXPECT_NEAR(flux, expected_flux, 0.03 * expected_flux);
+            EXPECT_NEAR(flux, expected_flux, 0.05 * expected_flux);
             // A disc's is R²/2; the spot and the pixel add their own, s²/6 each.
             const double expected_moment = disc * disc / 2 + (spot * spot + pixel * pixel) / 6;
-            EXPECT_NEAR(second_moment / flux, expected_moment, 0.04 * expected_moment);
+            EXPECT_NEAR(second_moment / flux, expected_moment, 0.05 * expected_moment);
         });
     }
 }
@@ -190,7 +190,7 @@ TEST_F(SensorsTest, HiddenEmittersAreSeenInMirrorsOnly) {
     // A lamp before the left half of the view, behind the camera a second one, and a mirror on the right.
     Scene scene;
     add_screen(scene, 4.0f, 1.0f, glowing(5.0f), 2.0f);
-    add_screen(scene, 20.0f, -3.0f, glowing(7.0f));
+    add_quad(scene, {-10, -10, -3}, {20, 0, 0}, {0, 20, 0}, add_material(scene, glowing(7.0f)));
     Material mirror = lambertian({0, 0, 0});
     mirror.lobe = NEARLIGHT_LOBE_CONDUCTOR;
     mirror.eta = {0, 0, 0};
@@ -241,21 +241,22 @@ TEST_F(SensorsTest, DepthOneIsEmissionAlone) {
     Scene scene = court_under_sky();
     scene.camera.width = scene.camera.height = 16;
     scene.max_depth = 1;
-    on_each_picture(scene, 4, [&](const Image& image) {
-        double sky = 0.0;
+    on_each_picture(scene, 1, [&](const Image& image) {
+        int surfaces = 0;
         for (int y = 0; y < 16; ++y) {
             for (int x = 0; x < 16; ++x) {
-                const bool is_surface = value(image, "albedo.R", x, y) > 0.0f;
-                sky += static_cast<double>(value(image, "R", x, y));
-                EXPECT_TRUE(value(image, "depth.Z", x, y) == 0.0f || !is_surface ||
-                            value(image, "R", x, y) < 2.0f);
+                const bool is_surface = value(image, "depth.Z", x, y) > 0.0f;
+                surfaces += is_surface ? 1 : 0;
                 EXPECT_EQ(value(image, "indirect.R", x, y), 0.0f);
-                if (value(image, "closerange.Y", x, y) == 1.0f) {
+                if (is_surface) {
                     EXPECT_EQ(value(image, "R", x, y), 0.0f) << x << " " << y;
+                } else {
+                    EXPECT_GT(value(image, "R", x, y), 0.1f) << x << " " << y;
                 }
             }
         }
-        EXPECT_GT(sky, 0.0);
+        EXPECT_GT(surfaces, 50);
+        EXPECT_LT(surfaces, 250);
     });
 }
 
