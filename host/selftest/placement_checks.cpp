@@ -8,7 +8,7 @@
 #include "host/reference/test_rays.h"
 #include "host/reference/test_rooms.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/reflectance.h"
 #include "host/stages/close_range.h"
@@ -89,7 +89,7 @@ void check_classifier(Device& device, CheckResult& result) {
     SceneCamera camera;
     camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 55;
-    const CloseRange region = make_close_range(make_pinhole_camera(camera, 320, 200), kRange);
+    const CloseRange region = make_close_range(make_camera(camera, 320, 200), kRange);
     Buffer<uint> flags(device, kPlacementTriangles);
     Buffer<float> areas(device, kPlacementTriangles);
     TriangleClassifier(device).classify(

@@ -120,6 +120,20 @@ TEST_F(GltfLoader, Lights) {
     }
 }
 
+TEST_F(GltfLoader, OrthographicCamerasHaveTheirSize) {
+    const json size = {{"xmag", 3}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}};
+    gltf_.root["cameras"] = {{{"type", "orthographic"}, {"orthographic", size}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"camera", 0}, {"translation", {0, 0, 3}}}};
+    const SceneCamera camera = load().camera;
+    EXPECT_EQ(camera.kind, CameraKind::orthographic);
+    EXPECT_EQ(camera.width, 720);
+    EXPECT_EQ(camera.height, 480);
+    expect_close(transform_vector(camera.to_world, {1, 0, 0}), {-3, 0, 0});
+    expect_close(transform_vector(camera.to_world, {0, 0, 1}), {0, 0, -1});
+    gltf_.root["cameras"][0]["orthographic"]["xmag"] = 0;
+    EXPECT_TRUE(mentions(file_error([&] { load(); }), "has no size above 0"));
+}
+
 TEST_F(GltfLoader, CamerasLookAlongMinusZ) {
     gltf_.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}},
                              {{"type", "perspective"},

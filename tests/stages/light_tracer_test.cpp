@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/close_range.h"
 #include "host/stages/joint_programs.h"
 #include "tests/support/device_fixture.h"
@@ -200,7 +200,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
     add_point_light(scene, {0, 0, 0}, {1, 1, 1});
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 64, 64), 5.0f);
+    const CloseRange range = make_close_range(make_camera(scene.camera, 64, 64), 5.0f);
     // On the sphere of radius 1 the region is where |x| < z and |y| < z.
     const auto is_inside = [](const Vpl& v, float slack) {
         return std::max(std::abs(v.position.x), std::abs(v.position.y)) < v.position.z + slack;

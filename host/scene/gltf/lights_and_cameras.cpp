@@ -69,18 +69,30 @@ Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
     return to_world;
 }
 
-SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
-    if (placed.camera->type != "perspective") {
-        file.fail("camera '" + placed.node + "' is not a perspective camera");
+void set_size(SceneCamera& camera, double aspect) {
+    camera.height = kUsualHeight;
+    camera.width = static_cast<int>(std::lround(std::clamp(kUsualHeight * aspect, 1.0, 16384.0)));
+}
+
+SceneCamera orthographic(const GltfFile& file, const PlacedCamera& placed) {
+    const tinygltf::OrthographicCamera& source = placed.camera->orthographic;
+    if (!(source.xmag > 0) || !(source.ymag > 0)) {
+        file.fail("camera '" + placed.node + "' has no size above 0");
     }
+    SceneCamera camera;
+    set_size(camera, source.xmag / source.ymag);
+    camera.kind = CameraKind::orthographic;
+    camera.to_world = camera_to_world(file, placed) * scaling(source.xmag, source.xmag, 1);
+    return camera;
+}
+
+SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
     const tinygltf::PerspectiveCamera& source = placed.camera->perspective;
     if (!(source.yfov > 0) || !(source.yfov < std::numbers::pi)) {
         file.fail("camera '" + placed.node + "' has no field of view between 0 and 180 degrees");
     }
     SceneCamera camera;
-    const double aspect = source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0;
-    camera.height = kUsualHeight;
-    camera.width = static_cast<int>(std::lround(std::clamp(kUsualHeight * aspect, 1.0, 16384.0)));
+    set_size(camera, source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0);
     camera.fov_x_degrees =
         360.0 / std::numbers::pi *
         std::atan(std::tan(source.yfov / 2) * camera.width / static_cast<double>(camera.height));
@@ -136,7 +148,8 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
     std::string names;
     for (const PlacedCamera& placed : cameras) {
         if (name.empty() || name == placed.node || name == placed.camera->name) {
-            return perspective(file, placed);
+            return placed.camera->type == "orthographic" ? orthographic(file, placed)
+                                                         : perspective(file, placed);
         }
         names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
     }

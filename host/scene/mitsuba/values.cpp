@@ -38,6 +38,13 @@ std::string snake_case(const std::string& name) {
     return snake;
 }
 
+std::string lower_case(std::string text) {
+    for (char& c : text) {
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return text;
+}
+
 double parse_number(const std::string& text, const Location& where) {
     const std::size_t first = text.find_first_not_of(" \t\r\n+");
     const std::size_t last = text.find_last_not_of(" \t\r\n");
