@@ -97,7 +97,7 @@ Work picture_work(Device& device, const Room& room) {
               indirect(on, packets) {}
         CameraPass camera_pass;
         ReceiverPaths receiver_paths;
-        Buffer<PinholeCamera> camera;
+        Buffer<Camera> camera;
         Buffer<CloseRange> close_range;
         CameraBand band;
         std::size_t packets;

@@ -305,6 +305,7 @@ void add_render_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
+    add_filter_option(command, options->scene.filter);
     command
         .add_option("--spp", options->settings.gather.samples_per_pixel,
                     "Camera samples per pixel, for antialiasing")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host/base/random.h"
@@ -16,6 +17,22 @@ std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, u
     constexpr uint kTile = NEARLIGHT_TILE_SIZE;
     const std::size_t tile = y / kTile * layout.tile_columns() + x / kTile;
     return {(tile * layout.samples + sample) * layout.branches + branch, y % kTile * kTile + x % kTile};
+}
+
+/// The packet and the lane of the sample whose position and depth a pixel shows: the first on its own square
+/// that met something, otherwise the first that did; empty if none did.
+std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSamples& samples,
+                                                                const FilmLayout& layout, uint x, uint y) {
+    for (const uint required : {NEARLIGHT_VERTEX_OWN_PIXEL, 0u}) {
+        for (uint s = 0; s < layout.samples; ++s) {
+            const auto place = place_of(layout, x, y, s, 0);
+            const CameraVertex& vertex = samples.vertices[place.first * NEARLIGHT_PACKET_SIZE + place.second];
+            if (vertex.depth > 0.0f && (vertex.flags & required) == required) {
+                return place;
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -44,9 +61,9 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
             samples.vertices.push_back({.throughput = color(),
                                         .depth = depth,
                                         .albedo = color(),
-                                        .flags = random.next() % 2,
+                                        .flags = random.next() % 4,
                                         .emitted = color(),
-                                        .pad0 = 0});
+                                        .filter_weight = 2.0f * random.uniform() - 0.5f});
         }
     }
     return samples;
@@ -66,9 +83,10 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const int axis = static_cast<int>(c);
             const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
             const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
-            const double direct =
-                channel(vertex.emitted, axis) + reflectance / kPi * (&samples.direct[packet].r[0])[at];
-            const double indirect = reflectance / kPi *
+            const double weight = vertex.filter_weight;
+            const double direct = weight * (channel(vertex.emitted, axis) +
+                                            reflectance / kPi * (&samples.direct[packet].r[0])[at]);
+            const double indirect = weight * reflectance / kPi *
                                     (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
                                      static_cast<double>((&samples.indirect[packet].r[0])[at]));
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
@@ -77,13 +95,8 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
                 out[NEARLIGHT_LAYER_DIRECT + c] + out[NEARLIGHT_LAYER_INDIRECT + c];
             out[NEARLIGHT_LAYER_ALBEDO + c] += reflectance / layout.samples;
             normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
-            if (s % layout.branches == 0 && out[NEARLIGHT_LAYER_DEPTH] == 0.0 && vertex.depth > 0) {
-                out[NEARLIGHT_LAYER_POSITION + c] = (&receiver.px[0])[at];
-            }
         }
         if (s % layout.branches == 0) {
-            out[NEARLIGHT_LAYER_DEPTH] =
-                out[NEARLIGHT_LAYER_DEPTH] == 0.0 ? vertex.depth : out[NEARLIGHT_LAYER_DEPTH];
             out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
                 static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
         }
@@ -91,6 +104,14 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (std::size_t c = 0; c < 3; ++c) {
         out[NEARLIGHT_LAYER_NORMAL + c] = normal[c] / length;
+    }
+    if (const auto shown = shown_sample(samples, layout, x, y)) {
+        const auto [packet, lane] = *shown;
+        out[NEARLIGHT_LAYER_DEPTH] = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane].depth;
+        for (std::size_t c = 0; c < 3; ++c) {
+            out[NEARLIGHT_LAYER_POSITION + c] =
+                (&samples.receivers[packet].px[0])[c * NEARLIGHT_PACKET_SIZE + lane];
+        }
     }
     return out;
 }

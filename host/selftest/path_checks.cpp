@@ -69,7 +69,7 @@ double pair_geometry(const EmbreeScene& embree, const ReceiverPoint& x, const Vp
 Vec3 light_at(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     Vec3 irradiance{0, 0, 0};
     for (const Emitter& emitter : scene.delta_emitters) {
-        irradiance += delta_light_irradiance(embree, emitter, light.position, light.normal);
+        irradiance += delta_light_irradiance(scene, embree, emitter, light.position, light.normal);
     }
     return irradiance;
 }

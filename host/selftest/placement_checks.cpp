@@ -8,7 +8,7 @@
 #include "host/reference/test_rays.h"
 #include "host/reference/test_rooms.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/reflectance.h"
 #include "host/stages/close_range.h"
@@ -54,7 +54,8 @@ bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, 
     for (const Emitter& light : scene.delta_emitters) {
         for (const Vec3 side : {front, -front}) {
             if ((side == front || two_sided) &&
-                !is_zero(delta_light_irradiance(embree, light, stand_off(point, side, extent), side))) {
+                !is_zero(
+                    delta_light_irradiance(scene, embree, light, stand_off(point, side, extent), side))) {
                 return true;
             }
         }
@@ -88,7 +89,7 @@ void check_classifier(Device& device, CheckResult& result) {
     SceneCamera camera;
     camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 55;
-    const CloseRange region = make_close_range(make_pinhole_camera(camera, 320, 200), kRange);
+    const CloseRange region = make_close_range(make_camera(camera, 320, 200), kRange);
     Buffer<uint> flags(device, kPlacementTriangles);
     Buffer<float> areas(device, kPlacementTriangles);
     TriangleClassifier(device).classify(

@@ -17,7 +17,7 @@
 #include "host/reference/test_rays.h"
 #include "host/reference/test_rooms.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/reflectance.h"
 #include "host/stages/close_range.h"
@@ -206,7 +206,7 @@ void check_patch_vpls(Device& device, CheckResult& result) {
         scene.triangles[i].material = i % 2 == 0 ? 0 : static_cast<uint>(scene.materials.size()) - 1;
     }
     scene.camera.to_world = look_at({0.3, -0.2, -1.5}, {-0.1, 0.1, 1.0}, {0.3, 1, 0.2});
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 320, 200), 1.5f);
+    const CloseRange range = make_close_range(make_camera(scene.camera, 320, 200), 1.5f);
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const float extent = on_device.host_info.extent;
     const std::vector<SurfaceSample> samples = random_samples(scene, kSamples);

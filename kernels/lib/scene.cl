@@ -100,14 +100,20 @@ inline SurfaceHit no_surface(void) {
     return none;
 }
 
-/// The nearest surface on a ray before t_max. Its t is negative if there is none.
-inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
-    const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, 0.0f, t_max);
+/// The nearest surface on a ray from t_min to t_max. Its t is negative if there is none.
+inline SurfaceHit trace_between(const SceneView* scene, float3 origin, float3 direction, float t_min,
+                                float t_max) {
+    const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, t_min, t_max);
     if (hit.slot == ~0u) {
         return no_surface();
     }
     const TreeTriangle triangle = tree_triangle(scene->tree_triangles, hit.slot);
     return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
+}
+
+/// The nearest surface on a ray before t_max. Its t is negative if there is none.
+inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
+    return trace_between(scene, origin, direction, 0.0f, t_max);
 }
 
 /// True if no surface lies between two points that both stand off their surfaces.

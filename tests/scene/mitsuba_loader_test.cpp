@@ -67,6 +67,46 @@ TEST(MitsubaEmitter, AreaPointSpotConstantEnvmap) {
     expect_near(transform_vector(scene.environment.to_world, {0, 0, 1}), {1, 0, 0});
 }
 
+TEST(MitsubaEmitter, SpotTextureProjectorAndDirectional) {
+    const SceneFiles files;
+    write_image(files.path("wide.exr"), make_image(4, 2, {"R", "G", "B"}));
+    const std::string bitmap = "type='bitmap'><string name='filename' value='wide.exr'/></texture>";
+    const Scene scene = files.load_xml(
+        "<emitter type='spot'><float name='cutoff_angle' value='45'/><texture name='texture' " + bitmap +
+        to_world("<translate x='1'/>") +
+        "</emitter><emitter type='projector'><float name='fov' value='90'/><float name='scale' value='2'/>"
+        "<texture name='irradiance' " +
+        bitmap + to_world("<lookat origin='0,5,0' target='0,0,0' up='0,0,1'/>") +
+        "</emitter><emitter type='directional'><vector name='direction' x='0' y='-2' z='0'/>"
+        "<rgb name='irradiance' value='1,2,3'/></emitter>"
+        "<emitter type='directional'>" +
+        to_world("<rotate y='1' angle='90'/>") + "</emitter>");
+    ASSERT_EQ(scene.delta_emitters.size(), 4u);
+    const Emitter& spot = scene.delta_emitters[0];
+    EXPECT_EQ(spot.image, 1u);
+    expect_near(spot.radiance, {1, 1, 1});  // the default
+    expect_near(spot.x_axis, {0.5f, 0, 0});
+    expect_near(spot.y_axis, {0, 0.5f, 0});
+    const Emitter& projector = scene.delta_emitters[1];
+    EXPECT_EQ(projector.image, 2u);
+    expect_near(projector.radiance, Vec3{2, 2, 2} * kPi);
+    expect_near(projector.direction, {0, -1, 0});
+    EXPECT_NEAR(projector.area, 2.0f, 1e-5f);      // 2 wide, 1 high
+    expect_near(projector.y_axis, {0, 0, -1.0f});  // the top row lies on the side of +Y
+    EXPECT_NEAR(length(projector.x_axis), 0.5f, 1e-6f);
+    expect_near(scene.delta_emitters[2].direction, {0, -1, 0});
+    expect_near(scene.delta_emitters[2].radiance, {1, 2, 3});
+    expect_near(scene.delta_emitters[3].direction, {1, 0, 0});
+    EXPECT_TRUE(has_note(files.load_xml("<emitter type='spot'>" + to_world("<scale x='2'/>") + "</emitter>"),
+                         "distorts its beam"));
+    EXPECT_TRUE(mentions(file_error([&] {
+                             files.load_xml(
+                                 "<emitter type='directional'><vector name='direction' x='0' y='0' "
+                                 "z='0'/></emitter>");
+                         }),
+                         "is zero"));
+}
+
 double fov_x(const SceneFiles& files, const std::string& body, int width, int height) {
     return files
         .load_xml("<sensor type='perspective'>" + body +
@@ -119,7 +159,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
     const std::pair<const char*, const char*> cases[] = {
         {"<shape type='blob'/>", "unknown shape 'blob'; known ones are obj"},
         {"<bsdf type='phong' id='p'/><shape type='cube'><ref id='p'/></shape>", "unknown bsdf 'phong'"},
-        {"<emitter type='directional'/>", "unknown emitter"},
+        {"<emitter type='collimated'/>", "unknown emitter"},
         {"<sensor type='fisheye'/>", "unknown sensor"},
         {"<shape type='cube'><ref id='nobody'/></shape>", "nothing has the id 'nobody'"},
         {"<bsdf type='diffuse' id='a'/><bsdf type='diffuse' id='a'/>", "used twice"},

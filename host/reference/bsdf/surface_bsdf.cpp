@@ -196,10 +196,13 @@ SurfaceDraw SurfaceBsdf::sample(double part, BsdfRandom random) const {
 BsdfValue SurfaceBsdf::albedo(int steps) const {
     BsdfValue sum;
     const bool is_delta = has_specular() && specular_->sample(parameters_, wo_, {}).is_delta;
-    const double scale = 1.0 / (double(steps) * steps * steps);
-    const auto place = [&](int i) { return (i + 0.5) / steps; };
-    for (int i = 0; i < steps * steps * steps; ++i) {
-        const BsdfRandom random{place(i % steps), place(i / steps % steps), place(i / steps / steps)};
+    const int count = steps * steps * steps;
+    const double scale = 1.0 / count;
+    const auto place = [&](int i) { return (i % steps + 0.5) / steps; };
+    for (int i = 0; i < count; ++i) {
+        // Directions are on a grid. Lobes are chosen by multiples of the golden section, which are even, too.
+        const double turns = 0.6180339887498949 * i;
+        const BsdfRandom random{turns - std::floor(turns), place(i), place(i / steps)};
         sum.diffuse += has_diffuse() ? sample_diffuse(random).weight * scale : Vec3d{};
         if (has_specular() && !is_delta) {
             const BsdfDraw draw = specular_->sample(parameters_, wo_, random);

@@ -57,7 +57,7 @@ class SurfaceBsdf {
     [[nodiscard]] SurfaceDraw sample_diffuse(BsdfRandom random) const;
     [[nodiscard]] SurfaceDraw sample_specular(BsdfRandom random) const;
 
-    /// ∫ D |cosθi| dωi and ∫ S |cosθi| dωi for the transport of flux, by steps³ stratified samples of each;
+    /// ∫ D |cosθi| dωi and ∫ S |cosθi| dωi for the transport of flux, by steps³ even samples of each;
     /// exact for mirrors and smooth glass, whose estimate() is (without the shadowing of maps).
     [[nodiscard]] BsdfValue albedo(int steps) const;
 

@@ -51,6 +51,11 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
+// Mitsuba turns a mirrored sphere or cylinder inside out, and no other shape.
+bool turns_inside_out(const Object& shape, const Mat4& to_world) {
+    return (shape.type == "sphere" || shape.type == "cylinder") && linear_determinant(to_world) < 0.0;
+}
+
 }  // namespace
 
 void ShapeMaker::add(const Object& shape) {
@@ -93,7 +98,7 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
                 {.to_world = to_world,
                  .materials = {&material, 1},
                  .face_normals = shape.boolean("face_normals", false),
-                 .flip_normals = shape.boolean("flip_normals", false)},
+                 .flip_normals = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world)},
                 notes_);
     if (shape.has("max_smooth_angle")) {
         note(notes_, shape.where,

@@ -222,7 +222,7 @@ inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2
     if (u >= ways.facets) {
         u -= ways.facets;
         if (u < ways.clearcoat) {
-            sample.wi = mirror(wo, sample_clearcoat_facet(bsdf, v));
+            reflect_at(wo, sample_clearcoat_facet(bsdf, v), &sample);
         } else {
             sample.wi = square_to_cosine_hemisphere(v);
             sample.wi.z *= u - ways.clearcoat < ways.even ? 1.0f : -1.0f;
@@ -238,11 +238,13 @@ inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2
     float cos_far;
     const float reflectance = fresnel_dielectric(cosine, eta, &cos_far);
     if (is_thin(bsdf) || u < facet_reflection_share(bsdf, reflectance)) {
-        sample.wi = mirror(wo, m);
-        sample.wi.z *= thin_through ? -1.0f : 1.0f;
+        reflect_at(wo, m, &sample);
+        if (thin_through) {
+            sample.wi.z = -sample.wi.z;
+            sample.wi = dot(sample.wi, m) < 0.0f ? sample.wi : (float3)(0.0f);
+        }
     } else {
-        sample.wi = normalize((cosine / eta - cos_far) * m - wo / eta);
-        sample.eta = eta;
+        refract_at(wo, m, cos_far, eta, &sample);
     }
     return sample;
 }

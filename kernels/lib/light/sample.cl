@@ -23,16 +23,24 @@ typedef struct LightSample {
     uint is_delta;
 } LightSample;
 
-inline LightSample sample_delta(const global Emitter* emitter, float3 x) {
+inline LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
     LightSample sample;
+    sample.pdf = 1.0f;
+    sample.is_delta = 1;
+    if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
+        sample.direction = -load3(emitter->direction);
+        sample.target = x;
+        sample.radiance = load3(emitter->radiance);
+        sample.infinite = 1;
+        return sample;
+    }
     sample.target = load3(emitter->position);
     const float3 to_light = sample.target - x;
     const float squared = dot(to_light, to_light);
     sample.direction = squared > 0.0f ? to_light * rsqrt(squared) : (float3)(0.0f, 0.0f, 1.0f);
-    sample.radiance = squared > 0.0f ? delta_intensity(emitter, -sample.direction) / squared : (float3)(0.0f);
-    sample.pdf = 1.0f;
+    sample.radiance =
+        squared > 0.0f ? delta_intensity(scene, emitter, -sample.direction) / squared : (float3)(0.0f);
     sample.infinite = 0;
-    sample.is_delta = 1;
     return sample;
 }
 
@@ -65,12 +73,12 @@ inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, 
         sample.is_delta = 0;
         return sample;
     }
-    return sample_delta(emitter, x);
+    return sample_delta(scene, emitter, x);
 }
 
 /// The delta light `index`, below exact_light_count().
 inline LightSample exact_light(const SceneView* scene, uint index, float3 x) {
-    return sample_delta(scene->emitters + index, x);
+    return sample_delta(scene, scene->emitters + index, x);
 }
 
 /// Whether some light is not summed exactly, so that sample_light() has something to choose from.
