@@ -60,19 +60,7 @@ double spot_solid_angle(double beam, double cutoff) {
 
 /// The mean of the light's image.
 Vec3 mean_image(const Scene& scene, const Emitter& emitter) {
-    if (emitter.image == 0) {
-        return {1, 1, 1};
-    }
-    const SceneTexture& texture = scene.textures[emitter.image - 1];
-    if (texture.image < 0) {
-        return (texture.parameters.color0 + texture.parameters.color1) * 0.5f;
-    }
-    Vec3 sum{0, 0, 0};
-    const std::vector<std::uint32_t>& texels = scene.images[static_cast<std::size_t>(texture.image)].texels;
-    for (const std::uint32_t texel : texels) {
-        sum += decode_texel(texel) / static_cast<float>(texels.size());
-    }
-    return sum;
+    return mean_value(scene, {{1, 1, 1}, static_cast<int>(emitter.image) - 1});
 }
 
 /// The luminance of all flux that a light emits, W; for lights that are infinitely far away, of what enters
