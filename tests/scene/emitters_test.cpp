@@ -72,7 +72,11 @@ TEST(EmitterTable, PowersAreThoseOfTheFormulae) {
 
 TEST(EmitterTable, PowersOfProjectorsAndDirectionalLights) {
     Scene scene = area_light_scene({0, 0, 0});
-    scene.images.push_back({"one bright texel", 2, 2, {0xff000000u, 0xff000000u, 0xff000000u, 0xffffffffu}});
+    scene.images.push_back({"one bright texel",
+                            2,
+                            2,
+                            NEARLIGHT_TEXELS_SRGB8,
+                            {0xff000000u, 0xff000000u, 0xff000000u, 0xffffffffu}});
     scene.textures.resize(1);
     scene.textures[0].image = 0;
     Emitter projector = point_light({3, 3, 3});
