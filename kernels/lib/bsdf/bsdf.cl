@@ -92,10 +92,10 @@ inline float diffuse_transmission(const SceneView* scene, uint curve, float cosi
     return curve_value(scene->curves, curve, cosine);
 }
 
-/// ∫ D |cosθi| dωi, as if all light arrived at the angle at which half the cosine-weighted hemisphere lies.
+/// About ∫ D |cosθi| dωi: at the cosine ½, a boundary lets through as much as on the mean over a hemisphere.
 inline float3 d_albedo(const SceneView* scene, const Bsdf* bsdf, float cosine) {
     return bsdf->diffuse * (diffuse_transmission(scene, bsdf->curve, cosine) *
-                            diffuse_transmission(scene, bsdf->curve, 0.7071f));
+                            diffuse_transmission(scene, bsdf->curve, 0.5f));
 }
 
 /// About what the surface reflects and lets through in all of what arrives evenly from everywhere.

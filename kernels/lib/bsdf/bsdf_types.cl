@@ -35,6 +35,7 @@ typedef struct Bsdf {
     float metallic, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
         clearcoat_gloss;  // principled
     uint front;           // 1: the viewer is on the front (outer) side
+    uint flux;            // 1: wo points to where light comes from, as on paths of flux
 } Bsdf;
 
 /// A direction drawn from a BSDF.

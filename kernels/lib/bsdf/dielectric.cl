@@ -101,7 +101,9 @@ inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     const float reflectance = fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
-    return mix(bsdf->transmission, bsdf->specular, reflectance);
+    // Light out of the denser side meets facets a second time more often.
+    const float escape = mix(1.0f, facet_escape(bsdf), bsdf->eta.x < 1.0f ? 1.0f : 0.5f);
+    return escape * mix(bsdf->transmission, bsdf->specular, reflectance);
 }
 
 #endif

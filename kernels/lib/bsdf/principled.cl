@@ -176,6 +176,13 @@ inline float3 principled_refraction(const Bsdf* bsdf, const PrincipledWays* ways
            ((1.0f - bsdf->metallic) * bsdf->spec_trans * (1.0f - reflectance) * refraction);
 }
 
+/// Whether the facet with the normal m has the light on its far side. Only with this condition of Mitsuba's
+/// does it let light through a thin sheet; for an oblique viewer it is not the same from both ends.
+inline bool facet_passes(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) {
+    const float3 light = bsdf->flux ? (float3)(wo.xy, -wo.z) : wi;
+    return dot(light, m) < 0.0f;
+}
+
 /// S for light that comes through a thin sheet: as if facets on the viewer's side reflected the direction,
 /// and evenly.
 inline float3 thin_passage(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi, float* pdf) {
@@ -184,7 +191,7 @@ inline float3 thin_passage(const Bsdf* bsdf, const PrincipledWays* ways, float3 
     float3 m;
     float cos_far;
     float passage = facet_reflection(&facets, wo, reflected, &m, pdf);
-    if (dot(wi, m) >= 0.0f) {
+    if (!facet_passes(bsdf, wo, wi, m)) {
         passage = 0.0f;
         *pdf = 0.0f;
     }
@@ -241,7 +248,7 @@ inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2
         reflect_at(wo, m, &sample);
         if (thin_through) {
             sample.wi.z = -sample.wi.z;
-            sample.wi = dot(sample.wi, m) < 0.0f ? sample.wi : (float3)(0.0f);
+            sample.wi = facet_passes(bsdf, wo, sample.wi, m) ? sample.wi : (float3)(0.0f);
         }
     } else {
         refract_at(wo, m, cos_far, eta, &sample);

@@ -176,6 +176,7 @@ inline Bsdf black_bsdf(void) {
     bsdf.metallic = bsdf.anisotropic = bsdf.spec_trans = bsdf.spec_tint = bsdf.sheen = bsdf.sheen_tint =
         bsdf.flatness = bsdf.clearcoat = bsdf.clearcoat_gloss = 0.0f;
     bsdf.front = 1;
+    bsdf.flux = 0;
     return bsdf;
 }
 
@@ -297,6 +298,7 @@ inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceB
 inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mode) {
     SurfaceBsdf s;
     s.bsdf = black_bsdf();
+    s.bsdf.flux = mode == BSDF_FLUX;
     s.frame = make_frame(hit->shading);
     s.geometric = hit->geometric;
     s.wo = -direction;
