@@ -34,6 +34,16 @@ double tangent2(double cosine) {
 
 }  // namespace
 
+BsdfRandom even_random(int index) {
+    constexpr double kGrowth = 1.2207440846057596;  // x⁴ = x + 1
+    const auto fraction = [&](double step) {
+        const double turns = 0.5 + step * index;
+        return turns - std::floor(turns);
+    };
+    return {fraction(1 / (kGrowth * kGrowth * kGrowth)), fraction(1 / kGrowth),
+            fraction(1 / (kGrowth * kGrowth))};
+}
+
 SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, double choice,
                          Transport transport)
     : frame_(front_frame(surface)), transport_(transport) {
@@ -193,16 +203,12 @@ SurfaceDraw SurfaceBsdf::sample(double part, BsdfRandom random) const {
     return draw;
 }
 
-BsdfValue SurfaceBsdf::albedo(int steps) const {
+BsdfValue SurfaceBsdf::albedo(int samples) const {
     BsdfValue sum;
     const bool is_delta = has_specular() && specular_->sample(parameters_, wo_, {}).is_delta;
-    const int count = steps * steps * steps;
-    const double scale = 1.0 / count;
-    const auto place = [&](int i) { return (i % steps + 0.5) / steps; };
-    for (int i = 0; i < count; ++i) {
-        // Directions are on a grid. Lobes are chosen by multiples of the golden section, which are even, too.
-        const double turns = 0.6180339887498949 * i;
-        const BsdfRandom random{turns - std::floor(turns), place(i), place(i / steps)};
+    const double scale = 1.0 / samples;
+    for (int i = 0; i < samples; ++i) {
+        const BsdfRandom random = even_random(i);
         sum.diffuse += has_diffuse() ? sample_diffuse(random).weight * scale : Vec3d{};
         if (has_specular() && !is_delta) {
             const BsdfDraw draw = specular_->sample(parameters_, wo_, random);

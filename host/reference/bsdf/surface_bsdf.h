@@ -26,6 +26,10 @@ struct SurfaceDraw : BsdfDraw {
     bool is_diffuse = false;  ///< drawn from D
 };
 
+/// Numbers that fill the unit cube evenly as `index` counts up, for quadrature [Roberts, The Unreasonable
+/// Effectiveness of Quasirandom Sequences, 2018].
+BsdfRandom even_random(int index);
+
 /// The material at a hit, with masks, blends, sides and maps resolved. Which side of a mask or blend is taken
 /// is decided by `choice`, uniform in [0, 1): expectations over it are those of the whole material. Where
 /// opacity is 0 or 1 it does not matter. Directions are unit vectors away from the surface.
@@ -57,9 +61,9 @@ class SurfaceBsdf {
     [[nodiscard]] SurfaceDraw sample_diffuse(BsdfRandom random) const;
     [[nodiscard]] SurfaceDraw sample_specular(BsdfRandom random) const;
 
-    /// ∫ D |cosθi| dωi and ∫ S |cosθi| dωi for the transport of flux, by steps³ even samples of each;
-    /// exact for mirrors and smooth glass, whose estimate() is (without the shadowing of maps).
-    [[nodiscard]] BsdfValue albedo(int steps) const;
+    /// ∫ D |cosθi| dωi and ∫ S |cosθi| dωi for the transport of flux, by the numbers of even_random(); exact
+    /// for mirrors and smooth glass, whose estimate() is (without the shadowing of maps).
+    [[nodiscard]] BsdfValue albedo(int samples) const;
 
     /// The model that was resolved. Where a one-sided surface shows its back, it has neither D nor S.
     [[nodiscard]] const BsdfParameters& parameters() const { return parameters_; }
