@@ -20,7 +20,8 @@ struct Mesh {
     std::vector<std::array<float, 2>>
         uvs;  ///< one a position, or empty; v = 0 at the bottom row of a texture
     std::vector<std::array<uint, 3>> triangles;
-    std::vector<uint> groups;  ///< one a triangle: index into MeshPlacement::materials; empty: all 0
+    bool face_normals = false;  ///< the file asks for flat facets
+    std::vector<uint> groups;   ///< one a triangle: index into MeshPlacement::materials; empty: all 0
 };
 
 struct MeshPlacement {

@@ -75,9 +75,9 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool 
                            .delta_emitter_count = emitters.delta_emitter_count,
                            .has_glass = has_glass ? 1u : 0u,
                            .extent = max_component(size),
+                           .light_node_count = static_cast<uint>(emitters.light_tree.size()),
                            .pad0 = 0,
-                           .pad1 = 0,
-                           .pad2 = 0};
+                           .pad1 = 0};
     on_device.has_lobes = std::any_of(scene.materials.begin(), scene.materials.end(), divides_camera_paths);
     on_device.mean_albedo = estimate_mean_albedo(scene);
     on_device.total_power = emitters.total_power;
@@ -98,6 +98,7 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool 
     on_device.environment_pixels = put(environment.pixels);
     on_device.row_cdf = put(environment.row_cdf);
     on_device.column_cdf = put(environment.column_cdf);
+    on_device.light_nodes = put(emitters.light_tree);
     on_device.info = put(std::vector{on_device.host_info});
     return on_device;
 }

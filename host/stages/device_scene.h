@@ -20,6 +20,7 @@ struct DeviceScene {
     Buffer<float> environment_pixels;  ///< RGBA
     Buffer<float> row_cdf;
     Buffer<float> column_cdf;
+    Buffer<LightNode> light_nodes;
     Buffer<SceneInfo> info;
 
     // The host needs these without asking the device.
@@ -35,7 +36,7 @@ struct DeviceScene {
         visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
-        visit(info);
+        visit(light_nodes), visit(info);
     }
 };
 

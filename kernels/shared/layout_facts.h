@@ -38,6 +38,9 @@
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
     OFFSET(Emitter, image)                          \
+    SIZE(LightNode)                                 \
+    OFFSET(LightNode, cos_spread)                   \
+    OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
     SIZE(PinholeCamera)                             \
