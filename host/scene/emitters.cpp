@@ -2,6 +2,7 @@
 #include "host/scene/emitters.h"
 
 #include "host/scene/distribution.h"
+#include "host/scene/light_tree.h"
 #include "host/scene/texture.h"
 
 namespace nearlight::core {
@@ -153,6 +154,7 @@ EmitterTable build_emitter_table(const Scene& scene) {
         table.emitters[i].cdf = cdf[i];
         table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
     }
+    table.light_tree = build_light_tree(scene, table.emitters);
     table.total_power = static_cast<float>(total);
     return table;
 }

@@ -24,7 +24,8 @@ struct Mesh {
         uvs;                   ///< one a position, or empty; v = 0 at the bottom row of a texture
     std::vector<Vec3> colors;  ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
-    std::vector<uint> groups;  ///< one a triangle: index into MeshPlacement::materials; empty: all 0
+    bool face_normals = false;  ///< the file asks for flat facets
+    std::vector<uint> groups;   ///< one a triangle: index into MeshPlacement::materials; empty: all 0
 };
 
 struct MeshPlacement {

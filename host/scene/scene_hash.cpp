@@ -19,7 +19,8 @@ Texture essence(Texture texture) {
 
 Emitter essence(Emitter emitter) {
     emitter.triangle = 0;
-    emitter.probability = emitter.cdf = emitter.pad0 = 0;
+    emitter.tree_way = 0;
+    emitter.probability = emitter.cdf = 0;
     return emitter;
 }
 

@@ -16,13 +16,14 @@
         const global Vec3 *restrict scene_vertex_colors, const global float *restrict scene_curves,          \
         const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
-        const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
+        const global float *restrict scene_column_cdf, const global LightNode *restrict scene_light_nodes,   \
+        const global SceneInfo *restrict scene_info
 #define SCENE_VIEW                                                                                        \
     {                                                                                                     \
         scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,           \
             scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_curves,             \
             scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf, \
-            scene_info                                                                                    \
+            scene_light_nodes, scene_info                                                                 \
     }
 
 typedef struct SceneView {
@@ -41,6 +42,7 @@ typedef struct SceneView {
     const global float4* environment_pixels;
     const global float* row_cdf;
     const global float* column_cdf;
+    const global LightNode* light_nodes;
     const global SceneInfo* info;
 } SceneView;
 

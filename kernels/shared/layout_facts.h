@@ -41,6 +41,9 @@
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
     OFFSET(Emitter, image)                          \
+    SIZE(LightNode)                                 \
+    OFFSET(LightNode, cos_spread)                   \
+    OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
     SIZE(Camera)                                    \

@@ -129,8 +129,23 @@ typedef struct Emitter {
     Vec3 x_axis;
     uint image;  // index of the texture plus 1; 0: none
     Vec3 y_axis;
-    float pad0;
+    uint tree_way;  // triangle: the way to it through the tree of lights, the lowest bit first; 1: second
+                    // child
 } Emitter;
+
+/// A node of the tree of emissive triangles: the bounds of all lights below it. The first child stands behind
+/// its parent.
+typedef struct LightNode {
+    Vec3 low;
+    float power;  // luminance of the emitted flux, W
+    Vec3 high;
+    float cos_spread;  // all fronts face within this angle of the axis
+    Vec3 axis;
+    uint second_child;  // 0: a leaf
+    uint emitter;       // leaf: index into the table of lights
+    uint pad0, pad1, pad2;
+} LightNode;
+#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 32  // bits of Emitter.tree_way
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
@@ -305,7 +320,8 @@ typedef struct SceneInfo {
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
-    uint pad0, pad1;
+    uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint pad0;
 } SceneInfo;
 
 #ifdef __cplusplus
@@ -326,6 +342,7 @@ NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Emitter, 96);
+NEARLIGHT_CHECK_SHARED(LightNode, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
