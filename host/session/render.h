@@ -31,7 +31,7 @@ struct RenderReport {
     float clamp_radius = 0;  ///< m
     uint max_depth = 0;      ///< maximum path length, as Mitsuba counts it
     FilterKind filter = FilterKind::box;
-    uint passes = 0;         ///< number of passes that were begun
+    uint passes = 0;  ///< number of passes that were begun
     // The next five count all passes together.
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
