@@ -7,7 +7,7 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include types.h and film_layers.h.
+/// place where it expands must include bsdf_query.h, types.h and film_layers.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -72,6 +72,10 @@
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
+    SIZE(BsdfQuery)                                 \
+    OFFSET(BsdfQuery, choice)                       \
+    SIZE(BsdfAnswer)                                \
+    OFFSET(BsdfAnswer, weight)                      \
     VALUE(NEARLIGHT_TILE_SIZE)                      \
     VALUE(tiles_across(0))                          \
     VALUE(tiles_across(1))                          \

@@ -56,7 +56,6 @@ struct Drawn {
     double delta = 0;            ///< mirror images and the like
     double weight = 0;           ///< mean, green
     double weight_of_delta = 0;  ///< its part by mirror images and the like
-    double largest_mismatch = 0;
 };
 
 Drawn draw(BsdfProbe& probe, const BsdfScene& scene, Vec3 wo, uint parts, uint mode) {
