@@ -10,16 +10,22 @@
 // chance. Branch 1 of a sample that never divides is absent. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
+#include "lib/camera.cl"
 #include "lib/close_range.cl"
 #include "lib/receiver_path.cl"
 
 #define MAX_CHAIN 24
+#define MAX_HIDDEN 256  // emitters that one camera ray looks through where they are hidden
 
 typedef struct CameraPath {
     PathRay ray;
     float3 emitted;
     uint key;        // key of the random sequence
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
+    float t_min;     // where the first surface may lie on the ray
+    float t_max;
+    float filter_weight;
+    uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
 } CameraPath;
 
 /// The ways on from a surface.
@@ -125,26 +131,31 @@ inline CameraReceiver absent_receiver(void) {
     receiver.vertex.albedo = store3((float3)(0.0f));
     receiver.vertex.flags = 0;
     receiver.vertex.emitted = store3((float3)(0.0f));
-    receiver.vertex.pad0 = 0.0f;
+    receiver.vertex.filter_weight = 0.0f;
     return receiver;
 }
 
-inline CameraPath start_path(const global PinholeCamera* camera, uint x, uint y, uint sample,
-                             uint sequence_length, uint branch_count, uint seed) {
+inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
+                             uint branch_count, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraPath path;
     path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
-    // A single sample goes through the centre of its pixel.
     const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-    const float2 jitter = sequence_length > 1 ? sample_2d(sample, 0, pixel_key) : (float2)(0.5f);
-    path.ray.origin = load3(camera->origin);
-    path.ray.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
-                                   ((float)y + jitter.y) * load3(camera->step_y));
+    // A single sample goes through the centre of its pixel, but through any part of the lens.
+    const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
+                                                : middle_of_pixel(x, y);
+    const CameraRay ray = camera_ray(camera, film.position, sample_2d(sample, 1, pixel_key));
+    path.ray.origin = ray.origin;
+    path.ray.direction = ray.direction;
     path.ray.throughput = (float3)(1.0f);
-    path.ray.normal = path.ray.direction;
+    path.ray.normal = ray.direction;
     path.ray.pdf = 0.0f;
+    path.t_min = ray.t_min;
+    path.t_max = ray.t_max;
     path.emitted = (float3)(0.0f);
     path.undivided = branch_count > 1;
+    path.filter_weight = film.weight;
+    path.flags = film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
     return path;
 }
 
@@ -156,7 +167,7 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
     receiver->vertex.throughput = store3(path->ray.throughput);
     receiver->vertex.albedo = store3(albedo);
-    receiver->vertex.flags = in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
+    receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
 }
 
 /// How camera paths are followed.
@@ -165,25 +176,56 @@ typedef struct CameraLimits {
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
 } CameraLimits;
 
-/// Follows one branch to its receiver. Branch 0 sets `first` to the first surface that it meets, and branch 1
+inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
+    return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
+}
+
+/// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
+/// planes end at the first one, as in Mitsuba.
+inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraPath* path) {
+    const float3 direction = path->ray.direction;
+    SurfaceHit hit = trace_between(scene, path->ray.origin, direction, path->t_min, path->t_max);
+    for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
+        const float passed = hit.t;
+        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
+        hit = i < MAX_HIDDEN ? trace_surface(scene, origin, direction, INFINITY) : no_surface();
+        hit.t += hit.t >= 0.0f ? passed : 0.0f;
+    }
+    return hit;
+}
+
+/// The surface that the path meets at a step. Branch 0 sets `first` to that of the first step, and branch 1
 /// takes it from there.
-inline CameraReceiver follow_path(const SceneView* scene, const global CloseRange* close_range,
-                                  const CameraLimits* limits, CameraPath* path, uint branch,
-                                  SurfaceHit* first) {
+inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera, const CameraPath* path,
+                             uint step, uint branch, SurfaceHit* first) {
+    if (step > 0) {
+        return trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
+    }
+    if (branch == 0) {
+        *first = trace_first(scene, camera, path);
+    }
+    return *first;
+}
+
+/// Follows one branch to its receiver.
+inline CameraReceiver follow_path(const SceneView* scene, const global Camera* camera,
+                                  const global CloseRange* close_range, const CameraLimits* limits,
+                                  CameraPath* path, uint branch, SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
+    receiver.vertex.filter_weight = path->filter_weight;
+    const float3 straight = path->ray.direction;
+    bool sees_sky = !camera->hides_emitters;
     for (uint step = 0; step < min(limits->max_edges, (uint)MAX_CHAIN); ++step) {
-        const bool known = step == 0 && branch == 1;
-        const SurfaceHit hit =
-            known ? *first : trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
-        if (step == 0) {
-            *first = hit;
+        const SurfaceHit hit = trace_step(scene, camera, path, step, branch, first);
+        if (hit.t >= 0.0f || sees_sky) {
+            path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
         }
-        path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
         if (hit.t < 0.0f) {
             break;
         }
         if (step == 0) {
             receiver.vertex.depth = hit.t;
+            receiver.vertex.flags = path->flags;
         }
         const SurfaceNumbers numbers = surface_numbers(path->key, step);
         const SurfaceBsdf surface =
@@ -199,6 +241,8 @@ inline CameraReceiver follow_path(const SceneView* scene, const global CloseRang
         if (way != WAY_ON) {
             break;
         }
+        // A pane that does not turn the path hides no less than air does, as in Mitsuba.
+        sees_sky = sees_sky || any(path->ray.direction != straight);
     }
     receiver.vertex.emitted = store3(path->emitted);
     return receiver;
@@ -224,7 +268,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
     *vertex = from->vertex;
 }
 
-kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
+kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
                         uint branch_count, uint max_edges, uint light_samples, uint seed,
@@ -250,7 +294,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
     for (uint branch = 0; branch < branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
-            receiver = follow_path(&scene, close_range, &limits, &path, branch, &first);
+            receiver = follow_path(&scene, camera, close_range, &limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {
             leave_to_branch_0(&receiver);

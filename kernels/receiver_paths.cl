@@ -31,7 +31,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     at.x = receiver_position(receiver, lane);
     at.n = receiver_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
-    ReceivedLight light = no_light();
+    ReceivedLight light = nothing_received();
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const PathLimits limits = {max_edges > surfaces ? max_edges - surfaces : 0, clamp_radius,

@@ -25,8 +25,7 @@ inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, fl
     const float3 origin = load3(region->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     const float margin = ROUNDING_MARGIN * max_component(reach);
-    // Positions are relative to the camera, through which all planes go, so that numbers are small where
-    // accuracy matters.
+    // Positions and planes are relative to the camera, so that numbers are small where accuracy matters.
     Polygon polygon;
     polygon.vertices[0] = a - origin;
     polygon.vertices[1] = b - origin;
@@ -34,7 +33,7 @@ inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, fl
     polygon.count = 3;
     for (int i = 0; i < 5; ++i) {
         const global float* plane = region->planes[i];
-        clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), margin);
+        clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), plane[3] + margin);
     }
     const float range = region->range + margin;
     return squared_distance_to_polygon(&polygon, normal) < range * range;

@@ -19,7 +19,8 @@ struct Found : ReceiverPoint {
 };
 
 bool is_absent(const Found& found) {
-    return is_zero(found.normal) && is_zero(found.vertex.throughput) && found.vertex.flags == 0;
+    return is_zero(found.normal) && is_zero(found.vertex.throughput) &&
+           (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) == 0;
 }
 
 /// Where no surface has S, random numbers do not matter.
@@ -48,14 +49,8 @@ bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, fl
 
 }  // namespace
 
-RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y) {
-    const Vec3 direction = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
-                           (static_cast<float>(y) + 0.5f) * camera.step_y;
-    return {camera.origin, 0.0f, normalize(direction), std::numeric_limits<float>::infinity()};
-}
-
-CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
-                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, const CloseRange& close_range,
+                                     std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices) {
     const EmbreeScene embree(scene);
     const float extent = max_component(bounds(scene).size());
@@ -70,7 +65,7 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
         const Found found{receiver_at(receivers, i), vertices[i]};
         const RayQuery ray = pixel_ray(camera, x, y);
         const BvhHit hit = x < camera.width && y < camera.height
-                               ? embree.closest_hit(ray.origin, ray.direction, 0.0f, ray.t_max)
+                               ? embree.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max)
                                : BvhHit{};
         const bool absent =
             hit.triangle == ~0u || !bsdf_at(scene, surface_at(scene, hit, ray.direction), ray).has_diffuse();

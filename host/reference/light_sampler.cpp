@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/base/math.h"
+#include "host/reference/delta_light.h"
 #include "host/reference/spherical_triangle.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
@@ -16,28 +17,9 @@ namespace {
 // With more delta lights than this, they are chosen by power like all other lights.
 constexpr uint kMaxExactLights = 16;
 
-/// Intensity (W/sr) of a point or spot light in the unit direction away from it.
-Vec3 intensity(const Emitter& emitter, Vec3 direction) {
-    if (emitter.type == NEARLIGHT_EMITTER_POINT) {
-        return emitter.radiance;
-    }
-    const float angle = std::acos(std::clamp(dot(direction, emitter.direction), -1.0f, 1.0f));
-    if (angle <= emitter.beam_angle) {
-        return emitter.radiance;
-    }
-    if (angle >= emitter.cutoff_angle) {
-        return {0, 0, 0};
-    }
-    return emitter.radiance * ((emitter.cutoff_angle - angle) / (emitter.cutoff_angle - emitter.beam_angle));
-}
-
 /// Density per steradian of a point that is uniform over a triangle, seen under the given cosine.
 double area_density(const Emitter& emitter, double distance, double cosine) {
     return cosine > 0.0 ? distance * distance / (cosine * static_cast<double>(emitter.area)) : 0.0;
-}
-
-bool is_delta_light(const Emitter& emitter) {
-    return emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT;
 }
 
 /// The barycentric weights of the second and the third corner at a point of the triangle.
@@ -53,11 +35,9 @@ Point2 weights_at(const std::array<Vec3, 3>& corners, Vec3 point) {
 
 }  // namespace
 
-Vec3 delta_light_irradiance(const EmbreeScene& embree, const Emitter& emitter, Vec3 position, Vec3 normal) {
-    if (!is_delta_light(emitter)) {
-        return {0, 0, 0};
-    }
-    const LightPick pick = LightSampler::exact_light(emitter, position);
+Vec3 delta_light_irradiance(const Scene& scene, const EmbreeScene& embree, const Emitter& emitter,
+                            Vec3 position, Vec3 normal) {
+    const LightPick pick = LightSampler::exact_light(scene, emitter, position);
     const float cosine = dot(normal, pick.direction);
     if (cosine <= 0.0f || is_zero(pick.radiance) || !LightSampler::is_visible(embree, position, pick)) {
         return {0, 0, 0};
@@ -78,18 +58,15 @@ std::span<const Emitter> LightSampler::exact_lights() const {
     return std::span(table_.emitters).first(sampled_first_);
 }
 
-LightPick LightSampler::exact_light(const Emitter& emitter, Vec3 position) {
-    LightPick pick;
-    pick.is_delta = true;
-    pick.target = emitter.position;
-    pick.density = 1.0;
-    const Vec3 to_light = emitter.position - position;
-    const float distance2 = dot(to_light, to_light);
-    if (distance2 > 0.0f) {
-        pick.direction = to_light / std::sqrt(distance2);
-        pick.radiance = intensity(emitter, -pick.direction) / distance2;
-    }
-    return pick;
+LightPick LightSampler::exact_light(const Scene& scene, const Emitter& emitter, Vec3 position) {
+    const DeltaLight light = delta_light_at(scene, emitter, position);
+    return {.direction = light.direction,
+            .target = emitter.position,
+            .radiance = light.irradiance,
+            .density = 1.0,
+            .infinite = light.infinite,
+            .is_delta = true,
+            .can_be_met = false};
 }
 
 std::array<Vec3, 3> LightSampler::corners_of(uint triangle) const {
@@ -173,7 +150,7 @@ LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) c
     } else if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         pick = triangle_pick(emitter, position, random.place);
     } else {
-        pick = exact_light(emitter, position);
+        pick = exact_light(scene_, emitter, position);
     }
     pick.density *= choice_probability(emitter);
     return pick;
@@ -221,7 +198,7 @@ Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, 
                                       LightRandom random) const {
     Vec3 sum{0, 0, 0};
     for (const Emitter& emitter : exact_lights()) {
-        sum += delta_light_irradiance(embree, emitter, position, normal);
+        sum += delta_light_irradiance(scene_, embree, emitter, position, normal);
     }
     const LightPick pick = sample(position, normal, random);
     const float cosine = dot(normal, pick.direction);

@@ -15,7 +15,8 @@ namespace nearlight::core {
 
 /// Irradiance (W/m²) that a delta light sends to a point that stands off its surface; 0 for emitters of other
 /// types.
-Vec3 delta_light_irradiance(const EmbreeScene& embree, const Emitter& emitter, Vec3 position, Vec3 normal);
+Vec3 delta_light_irradiance(const Scene& scene, const EmbreeScene& embree, const Emitter& emitter,
+                            Vec3 position, Vec3 normal);
 
 /// Uniform random numbers in [0, 1): `pick` chooses a light, `place` a place on it.
 struct LightRandom {
@@ -45,7 +46,7 @@ class LightSampler {
     /// The delta lights, if they are few enough to be summed all; otherwise none, and sample() has them too.
     [[nodiscard]] std::span<const Emitter> exact_lights() const;
     /// What the delta light sends to a point. A pick of no use has a black radiance.
-    [[nodiscard]] static LightPick exact_light(const Emitter& emitter, Vec3 position);
+    [[nodiscard]] static LightPick exact_light(const Scene& scene, const Emitter& emitter, Vec3 position);
     /// Light at a point (with the unit normal `normal`) from one of the lights that are not summed exactly. A
     /// pick of no use, as where there are none, has a black radiance.
     [[nodiscard]] LightPick sample(Vec3 position, Vec3 normal, LightRandom random) const;

@@ -119,7 +119,7 @@ void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface,
     const Vec3 normal = as_float(bsdf.normal());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
-        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(emitter, position));
+        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
     }
     layer += scattered(walk, surface, bsdf, lights_.sample(position, normal, random));
 }
@@ -158,13 +158,37 @@ void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, con
                      as_float(bsdf.normal()), as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
 }
 
+/// The first surface that the camera sees. Where emitters are hidden, the ray goes on behind them to any
+/// distance.
+BvhHit PathIntegrator::first_hit(const Ray& ray) const {
+    BvhHit hit = embree_.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max);
+    while (scene_.camera.hide_emitters && hit.triangle != ~0u) {
+        const Surface surface = surface_at(scene_, hit, ray.direction);
+        if (!(max_component(surface.material->emission.value) > 0.0f)) {
+            break;
+        }
+        const float passed = hit.t;
+        const Vec3 behind = stand_off(surface.position, -surface.geometric_normal, lights_.extent());
+        hit = embree_.closest_hit(behind, ray.direction, 0.0f, kInfinity);
+        hit.t += passed;
+    }
+    return hit;
+}
+
 PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
     PathLight light;
     Walk walk;
     walk.ray = ray;
+    bool sees_sky = !scene_.camera.hide_emitters;
     for (;;) {
-        const BvhHit hit = embree_.closest_hit(walk.ray.origin, walk.ray.direction, 0.0f, kInfinity);
-        add_emission(walk, hit, light);
+        const BvhHit hit = walk.vertices == 0
+                               ? first_hit(walk.ray)
+                               : embree_.closest_hit(walk.ray.origin, walk.ray.direction, 0.0f, kInfinity);
+        // A pane that does not turn the path hides no less than air does, as in Mitsuba.
+        sees_sky = sees_sky || walk.ray.direction != ray.direction;
+        if (hit.triangle != ~0u || sees_sky) {
+            add_emission(walk, hit, light);
+        }
         if (hit.triangle == ~0u) {
             return light;
         }

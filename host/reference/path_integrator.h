@@ -40,6 +40,7 @@ class PathIntegrator {
     struct VertexRandom;
     static VertexRandom vertex_random(SampleBatch& batch, int sample, int vertex);
 
+    [[nodiscard]] BvhHit first_hit(const Ray& ray) const;
     void add_emission(const Walk& walk, const BvhHit& hit, PathLight& light) const;
     void add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                            const LightRandom& random, PathLight& light) const;

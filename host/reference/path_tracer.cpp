@@ -27,14 +27,23 @@ class PathTracer {
     PathTracer(const Scene& scene, const PathTracerSettings& settings)
         : settings_(settings),
           integrator_(scene, settings.max_depth, settings.clamp_radius),
-          camera_(scene.camera, settings.width, settings.height) {}
+          camera_(scene.camera, settings.width, settings.height),
+          filter_(scene.camera, settings.width, settings.height),
+          is_monochrome_(scene.camera.is_monochrome) {}
 
     void trace_batch(int x, int y, int batch, int batch_size, PixelStatistics& pixel) const;
 
   private:
+    /// The light as the film has it.
+    [[nodiscard]] Vec3 seen(Vec3 light) const {
+        return is_monochrome_ ? Vec3{1, 1, 1} * luminance(light) : light;
+    }
+
     PathTracerSettings settings_;
     PathIntegrator integrator_;
     CameraRays camera_;
+    FilterSampler filter_;
+    bool is_monochrome_;
 };
 
 void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, PixelStatistics& pixel) const {
@@ -43,12 +52,15 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     SampleBatch batch(settings_.seed, pixel_index, static_cast<std::uint64_t>(batch_index), batch_size);
     BatchSum sum;
     for (int sample = 0; sample < batch_size; ++sample) {
-        const Point2 film =
-            settings_.pixel_centers ? Point2{0.5f, 0.5f} : batch.point(Decision::film, sample);
-        const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
+        const FilterPoint film =
+            settings_.pixel_centers
+                ? FilterPoint{.place = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}}
+                : filter_.sample(x, y, batch.point(Decision::film, sample));
+        const Ray ray = camera_.through(film.place, batch.point(Decision::lens, sample));
         const PathLight light = integrator_.trace(ray, batch, sample);
-        sum.add(settings_.indirect_only ? Vec3{0, 0, 0} : as_float(light.direct), as_float(light.indirect),
-                light.camera);
+        const auto weight = static_cast<float>(film.weight);
+        sum.add(settings_.indirect_only ? Vec3{0, 0, 0} : weight * seen(as_float(light.direct)),
+                weight * seen(as_float(light.indirect)), light.camera);
     }
     pixel.add(sum, batch_size);
 }

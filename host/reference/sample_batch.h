@@ -14,6 +14,7 @@ namespace nearlight::core {
 /// use independent random numbers.
 enum class Decision {
     film,
+    lens,
     first_part,  ///< x: which material of a mask or blend, y: which part of the BSDF
     first_lobe,  ///< x: which lobe of the part, y: which light
     first_direction,

@@ -2,6 +2,8 @@
 #include "host/scene/emitters.h"
 
 #include "host/scene/distribution.h"
+#include "host/scene/light_tree.h"
+#include "host/scene/texture.h"
 
 namespace nearlight::core {
 namespace {
@@ -57,9 +59,16 @@ double spot_solid_angle(double beam, double cutoff) {
     return 2 * kPiD * (1 - mean_cosine);
 }
 
-/// The luminance of all flux that a light emits, W; for an environment, of what enters the scene's sphere.
-double emitted_power(const Emitter& emitter, float scene_radius) {
-    const double radiance = luminance(emitter.radiance);
+/// The mean of the light's image.
+Vec3 mean_image(const Scene& scene, const Emitter& emitter) {
+    return mean_value(scene, {{1, 1, 1}, static_cast<int>(emitter.image) - 1});
+}
+
+/// The luminance of all flux that a light emits, W; for lights that are infinitely far away, of what enters
+/// the scene's sphere.
+double emitted_power(const Scene& scene, const Emitter& emitter, float scene_radius) {
+    const double radiance = luminance(emitter.radiance * mean_image(scene, emitter));
+    const double scene_disc = kPiD * scene_radius * scene_radius;
     switch (emitter.type) {
         case NEARLIGHT_EMITTER_POINT:
             return 4 * kPiD * radiance;
@@ -67,9 +76,13 @@ double emitted_power(const Emitter& emitter, float scene_radius) {
             return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
         case NEARLIGHT_EMITTER_TRIANGLE:
             return kPiD * emitter.area * radiance;
+        case NEARLIGHT_EMITTER_DIRECTIONAL:
+            return scene_disc * radiance;
+        case NEARLIGHT_EMITTER_PROJECTOR:
+            return emitter.area * radiance;
         default:
             // From each direction light passes through the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
-            return kPiD * scene_radius * scene_radius * 4 * kPiD * radiance;
+            return scene_disc * 4 * kPiD * radiance;
     }
 }
 
@@ -117,19 +130,22 @@ void add_distributions(const EnvironmentLight& environment, EnvironmentTable& ta
 
 }  // namespace
 
+bool is_delta_light(const Emitter& emitter) {
+    return emitter.type != NEARLIGHT_EMITTER_TRIANGLE && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT;
+}
+
 EmitterTable build_emitter_table(const Scene& scene) {
-    const float scene_radius = scene.environment.width > 0 ? bounding_sphere(scene).radius : 0.0f;
+    const float scene_radius = bounding_sphere(scene).radius;
     EmitterTable table;
     std::vector<double> powers;
     double total = 0;
     for (const Emitter& emitter : collect_emitters(scene)) {
-        const double power = emitted_power(emitter, scene_radius);
+        const double power = emitted_power(scene, emitter, scene_radius);
         if (!(power > 0)) {
             continue;
         }
         table.emitters.push_back(emitter);
-        table.delta_emitter_count +=
-            emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT ? 1u : 0u;
+        table.delta_emitter_count += is_delta_light(emitter) ? 1u : 0u;
         powers.push_back(power);
         total += power;
     }
@@ -138,6 +154,7 @@ EmitterTable build_emitter_table(const Scene& scene) {
         table.emitters[i].cdf = cdf[i];
         table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
     }
+    table.light_tree = build_light_tree(scene, table.emitters);
     table.total_power = static_cast<float>(total);
     return table;
 }

@@ -28,6 +28,13 @@ constexpr Parameter textured(int texture, float scale = 1.0f) {
     return {{scale, scale, scale}, texture};
 }
 
+/// All parameters of a material.
+inline constexpr Parameter Material::*kMaterialParameters[] = {
+    &Material::reflectance, &Material::specular,       &Material::transmission, &Material::roughness,
+    &Material::emission,    &Material::metallic,       &Material::anisotropic,  &Material::spec_trans,
+    &Material::spec_tint,   &Material::sheen,          &Material::sheen_tint,   &Material::flatness,
+    &Material::clearcoat,   &Material::clearcoat_gloss};
+
 /// A material of the model that is white where it reflects or lets light through, smooth, emits nothing, and
 /// has the index 1.5. Its parameters have no textures, and its D has no curve.
 Material plain_material(uint model);

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "host/base/math.h"
+#include "host/scene/pixel_filter.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -47,11 +49,27 @@ struct EnvironmentLight {
     Mat4 to_world;               ///< rotation only
 };
 
+enum class CameraKind { perspective, orthographic };
+
+/// The camera, with what its film and the integrator say about what it shows.
 struct SceneCamera {
     Mat4 to_world;  ///< looks along +Z, +Y up, +X to the left of the picture (Mitsuba's convention)
-    double fov_x_degrees = 40.0;
-    int width = 640;
+    CameraKind kind = CameraKind::perspective;
+    double fov_x_degrees = 40.0;  ///< of the whole film; an orthographic film is 2 wide in local units
+    int width = 640;              ///< pixels of the picture, which may be a part of the film
     int height = 480;
+    double center_x = 0.0;   ///< the picture's middle on the film, from the axis to the right, in film widths
+    double center_y = 0.0;   ///< downwards, in film widths as well
+    double film_part = 1.0;  ///< width of the picture / width of the film
+    double aperture_radius = 0.0;  ///< of a thin lens; 0: a pinhole
+    double focus_distance = 1.0;   ///< along +Z, for a thin lens
+    double near_clip = 0.0;        ///< surfaces are seen between these distances along +Z
+    double far_clip = std::numeric_limits<double>::infinity();
+    PixelFilter filter{};
+    bool sample_border =
+        false;  ///< pixels at the border take light from beyond it, as far as the filter goes
+    bool hide_emitters = false;  ///< emitters and the environment are not seen directly
+    bool is_monochrome = false;  ///< the picture has the luminance of its light in all channels
 };
 
 struct Scene {
@@ -65,7 +83,7 @@ struct Scene {
     std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
+    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say

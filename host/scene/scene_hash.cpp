@@ -19,7 +19,8 @@ Texture essence(Texture texture) {
 
 Emitter essence(Emitter emitter) {
     emitter.triangle = 0;
-    emitter.area = emitter.probability = emitter.cdf = 0;
+    emitter.tree_way = 0;
+    emitter.probability = emitter.cdf = 0;
     return emitter;
 }
 
@@ -49,6 +50,23 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.environment.to_world.m);
 }
 
+void add_camera(Hasher& hasher, const SceneCamera& camera) {
+    hasher.add(camera.to_world.m);
+    hasher.add(camera.fov_x_degrees);
+    hasher.add(camera.width);
+    hasher.add(camera.height);
+    hasher.add(static_cast<int>(camera.kind));
+    for (const double number :
+         {camera.center_x, camera.center_y, camera.film_part, camera.aperture_radius, camera.focus_distance,
+          camera.near_clip, camera.far_clip, camera.filter.radius, camera.filter.b, camera.filter.c}) {
+        hasher.add(number);
+    }
+    hasher.add(static_cast<int>(camera.filter.kind));
+    for (const bool choice : {camera.sample_border, camera.hide_emitters, camera.is_monochrome}) {
+        hasher.add(static_cast<int>(choice));
+    }
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
@@ -60,10 +78,7 @@ std::uint64_t scene_hash(const Scene& scene) {
     hasher.add_array(scene.transmission_curves);
     add_textures(hasher, scene);
     add_lights(hasher, scene);
-    hasher.add(scene.camera.to_world.m);
-    hasher.add(scene.camera.fov_x_degrees);
-    hasher.add(scene.camera.width);
-    hasher.add(scene.camera.height);
+    add_camera(hasher, scene.camera);
     hasher.add(scene.max_depth);
     hasher.add(scene.samples_per_pixel);
     return hasher.hash64();

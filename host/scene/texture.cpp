@@ -9,68 +9,54 @@
 namespace nearlight::core {
 namespace {
 
-/// The part of x above its floor, in [0, 1]; rounding gives 1 for a tiny negative x. 0 if x is not finite.
-float fraction(float x) {
-    return std::isfinite(x) ? x - std::floor(x) : 0.0f;
+/// The index of the texel that stands at place i of a row or column of n texels.
+int wrap_texel(int i, int n, uint wrap) {
+    if (wrap == NEARLIGHT_WRAP_CLAMP) {
+        return std::clamp(i, 0, n - 1);
+    }
+    const int period = wrap == NEARLIGHT_WRAP_MIRROR ? 2 * n : n;
+    i %= period;
+    i += i < 0 ? period : 0;
+    return i < n ? i : period - 1 - i;
 }
 
-/// The coordinate within the bitmap, in [0, 1], that x stands for.
-float fold(float x, uint wrap) {
-    if (wrap == NEARLIGHT_WRAP_MIRROR) {
-        const float r = 2.0f * fraction(0.5f * x);
-        return r > 1.0f ? 2.0f - r : r;
+/// A coordinate near 0 where the texture looks the same, so that large coordinates lose no precision.
+float reduce_coordinate(float s, uint wrap) {
+    if (!std::isfinite(s)) {
+        return 0.0f;
     }
-    return wrap == NEARLIGHT_WRAP_CLAMP ? (std::isfinite(x) ? std::clamp(x, 0.0f, 1.0f) : 0.0f) : fraction(x);
+    return wrap == NEARLIGHT_WRAP_CLAMP ? std::clamp(s, -1.0f, 2.0f) : s - 2.0f * std::floor(0.5f * s);
 }
-
-/// The row or column of the texel with the index i, which is from −1 to n. Beyond the edges of a bitmap that
-/// does not repeat lies the texel of the edge, also where it is mirrored there.
-int texel_index(int i, int n, uint wrap) {
-    if (wrap == NEARLIGHT_WRAP_REPEAT) {
-        return i < 0 ? i + n : (i >= n ? i - n : i);
-    }
-    return std::clamp(i, 0, n - 1);
-}
-
-Vec3 mix(Vec3 a, Vec3 b, float weight) {
-    return a * (1.0f - weight) + b * weight;
-}
-
-/// A bitmap, looked up at points that fold() gives.
-struct Bitmap {
-    const TextureImage& image;
-    const Texture& texture;
-
-    [[nodiscard]] Vec3 texel(int column, int row) const {
-        const int x = texel_index(column, image.width, texture.wrap_s);
-        const int y = texel_index(row, image.height, texture.wrap_t);
-        return texel_color(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                      static_cast<std::size_t>(x));
-    }
-    [[nodiscard]] Vec3 nearest(float x, float y) const {
-        return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
-    }
-    [[nodiscard]] Vec3 bilinear(float x, float y) const {
-        const float left = std::floor(x - 0.5f);
-        const float top = std::floor(y - 0.5f);
-        const int x0 = static_cast<int>(left);
-        const int y0 = static_cast<int>(top);
-        const float weight = x - 0.5f - left;
-        return mix(mix(texel(x0, y0), texel(x0 + 1, y0), weight),
-                   mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), weight), y - 0.5f - top);
-    }
-};
 
 Vec3 bitmap_color(const TextureImage& image, const Texture& texture, float s, float t) {
-    const Bitmap bitmap{image, texture};
-    const float x = fold(s, texture.wrap_s) * static_cast<float>(image.width);
-    const float y = (1.0f - fold(t, texture.wrap_t)) * static_cast<float>(image.height);
-    return texture.filter == NEARLIGHT_FILTER_NEAREST ? bitmap.nearest(x, y) : bitmap.bilinear(x, y);
+    const auto texel = [&](int column, int row) {
+        const int x = wrap_texel(column, image.width, texture.wrap_s);
+        const int y = wrap_texel(row, image.height, texture.wrap_t);
+        return texel_color(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                      static_cast<std::size_t>(x));
+    };
+    const float centre = texture.filter == NEARLIGHT_FILTER_NEAREST ? 0.0f : 0.5f;
+    const float x = reduce_coordinate(s, texture.wrap_s) * static_cast<float>(image.width) - centre;
+    const float y = (1.0f - reduce_coordinate(t, texture.wrap_t)) * static_cast<float>(image.height) - centre;
+    const int x0 = static_cast<int>(std::floor(x));
+    const int y0 = static_cast<int>(std::floor(y));
+    if (texture.filter == NEARLIGHT_FILTER_NEAREST) {
+        return texel(x0, y0);
+    }
+    const float fx = x - static_cast<float>(x0);
+    const float fy = y - static_cast<float>(y0);
+    Vec3 color{0, 0, 0};
+    for (int i = 0; i < 4; ++i) {
+        const float wx = (i & 1) != 0 ? fx : 1.0f - fx;
+        const float wy = (i & 2) != 0 ? fy : 1.0f - fy;
+        color += texel(x0 + (i & 1), y0 + (i >> 1)) * (wx * wy);
+    }
+    return color;
 }
 
 /// The parameter that a checkerboard has at (s, t).
 const Parameter& field_at(const Texture& texture, float s, float t) {
-    return (fraction(s) < 0.5f) == (fraction(t) < 0.5f) ? texture.color0 : texture.color1;
+    return (s - std::floor(s) > 0.5f) == (t - std::floor(t) > 0.5f) ? texture.color0 : texture.color1;
 }
 
 Vec3 mean_color(const TextureImage& image) {
@@ -118,8 +104,8 @@ Vec3 texel_color(const TextureImage& image, std::size_t texel) {
     const std::uint32_t word = image.words[texel];
     if (image.format == NEARLIGHT_TEXELS_LINEAR8) {
         return Vec3{static_cast<float>(word & 255u), static_cast<float>((word >> 8u) & 255u),
-                    static_cast<float>((word >> 16u) & 255u)} *
-               (1.0f / 255.0f);
+                    static_cast<float>((word >> 16u) & 255u)} /
+               255.0f;
     }
     return decode_texel(word);
 }

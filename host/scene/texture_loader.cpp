@@ -203,20 +203,26 @@ int add_texture(Scene& scene, const SceneTexture& texture) {
     return static_cast<int>(scene.textures.size() - 1);
 }
 
-EnvironmentLight load_environment(const std::filesystem::path& file, float scale) {
+EnvironmentLight load_environment(const std::filesystem::path& file, float scale, std::size_t& bad_pixels) {
     const Image image = read_image(file);
     const bool linear = holds_floats(file);
     EnvironmentLight light;
     light.width = image.width;
     light.height = image.height;
+    bad_pixels = 0;
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     light.radiance.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::array<float, 3> rgb = rgb_at(image, i);
+        bool is_bad = false;
         for (float& value : rgb) {
             value = (linear ? value : srgb_to_linear(value)) * scale;
-            value = std::isfinite(value) ? std::max(value, 0.0f) : 0.0f;
+            if (!(value >= 0.0f && std::isfinite(value))) {
+                is_bad = true;
+                value = 0.0f;
+            }
         }
+        bad_pixels += is_bad ? 1 : 0;
         light.radiance.push_back({rgb[0], rgb[1], rgb[2]});
     }
     return light;

@@ -58,8 +58,8 @@ void throw_unless_file(const Error& error);
 SceneTexture plain_texture(int image);
 /// Adds a texture to the scene and returns its index.
 int add_texture(Scene& scene, const SceneTexture& texture);
-/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Throws
-/// Error(ErrorKind::file).
-EnvironmentLight load_environment(const std::filesystem::path& image, float scale);
+/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Pixels that are negative or
+/// not finite are black in that channel, and `bad_pixels` counts them. Throws Error(ErrorKind::file).
+EnvironmentLight load_environment(const std::filesystem::path& image, float scale, std::size_t& bad_pixels);
 
 }  // namespace nearlight::core

@@ -174,7 +174,7 @@ TransmissionCurve smooth_coat_curve(double eta) {
 }
 
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann) {
-    const Microfacets microfacets(alpha, beckmann, eta > 1.0 ? 32 : 96);
+    const Microfacets microfacets(alpha, beckmann, eta > 1.0 ? 32 : 256);
     return make_curve([&](double cosine) {
         return microfacets.mean(std::max(cosine, kMinCosine), [&](const Direction& view, const Direction& m) {
             return transmitted(microfacets, eta, view, m);

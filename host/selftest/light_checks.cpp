@@ -15,12 +15,12 @@
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
 #include "host/reference/test_rooms.h"
+#include "host/scene/camera.h"
 #include "host/scene/emitters.h"
-#include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/metropolis_chains.h"
+#include "host/stages/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -40,12 +40,13 @@ void check_direct_light(Device& device, CheckResult& result) {
     const Bvh bvh = build_scene_bvh(scene);
     const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 128, 96);
     std::vector<IrradiancePacket> expected(receivers.size());
-    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected);
+    direct_reference(EmbreeScene(scene), scene, receivers, expected);
 
     const DeviceScene on_device = upload_scene(device, scene, bvh);
     const Buffer<ReceiverPacket> input(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
-    DirectLight(device).run(on_device, input, receivers.size(), 1, 1, irradiance);
+    Buffer<IrradiancePacket> indirect(device, receivers.size());
+    ReceiverPaths(device).run(on_device, input, receivers.size(), {.seed = 1}, irradiance, indirect);
     const std::vector<IrradiancePacket> found = irradiance.download();
     EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
@@ -125,14 +126,14 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
 
 void check_camera_pass(Device& device, CheckResult& result) {
     const Scene scene = make_sphere_room(kLightTriangles);
-    const PinholeCamera camera = make_pinhole_camera(scene.camera, 150, 101);
+    const Camera camera = make_camera(scene.camera, 150, 101);
     const CloseRange region = make_close_range(camera, 4.0f);
     const CameraBand band{.tile_row_count = tiles_across(camera.height)};
     const std::size_t packets = packet_count(band, camera.width);
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
-    CameraPass(device).run(on_device, Buffer<PinholeCamera>(device, std::span(&camera, 1)), camera.width,
+    CameraPass(device).run(on_device, Buffer<Camera>(device, std::span(&camera, 1)), camera.width,
                            Buffer<CloseRange>(device, std::span(&region, 1)), band, 1, receivers, vertices);
     const CameraComparison comparison =
         compare_with_embree(scene, camera, region, receivers.download(), vertices.download());

@@ -99,6 +99,11 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
 
 /// Direct light of a batch's receivers, and what their rays find.
 void BandRenderer::trace_receivers(std::size_t packets) {
+    if (picture_.settings.indirect_only && !picture_.settings.compensate) {
+        buffers_.direct.fill_zero();
+        buffers_.indirect.fill_zero();
+        return;
+    }
     stages_.receiver_paths.run(scene_, buffers_.receivers, packets, path_settings(picture_), buffers_.direct,
                                buffers_.indirect);
     if (picture_.settings.indirect_only) {

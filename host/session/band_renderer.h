@@ -77,7 +77,7 @@ class BandRenderer {
     BandStages& stages_;
     const DeviceScene& scene_;
     const Picture& picture_;
-    Buffer<PinholeCamera> camera_;
+    Buffer<Camera> camera_;
     Buffer<CloseRange> close_range_;
     VplBuffer own_vpls_;  ///< empty if picture.vpls is on this device
     BatchBuffers buffers_;

@@ -13,7 +13,7 @@ std::size_t packet_count(const CameraBand& band, uint image_width) {
 CameraPass::CameraPass(Device& device)
     : program_(device, "camera_pass.cl", kViewProgram), camera_pass_(program_, "camera_pass") {}
 
-void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
+void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
     const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;

@@ -30,7 +30,7 @@ class CameraPass {
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
     /// kernels/camera_pass.cl states.
-    void run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
+    void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);
 

@@ -102,8 +102,8 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
             .has_specular = std::ranges::any_of(
                 scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
-            .pad0 = 0,
-            .pad1 = 0};
+            .light_node_count = static_cast<uint>(emitters.light_tree.size()),
+            .pad0 = 0};
 }
 
 /// Uploads everything but the tree.
@@ -137,6 +137,7 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.environment_pixels = put(environment.pixels);
     on_device.row_cdf = put(environment.row_cdf);
     on_device.column_cdf = put(environment.column_cdf);
+    on_device.light_nodes = put(emitters.light_tree);
     on_device.info = put(std::vector{on_device.host_info});
     return on_device;
 }

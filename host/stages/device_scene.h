@@ -21,6 +21,7 @@ struct DeviceScene {
     Buffer<float> environment_pixels;  ///< RGBA
     Buffer<float> row_cdf;
     Buffer<float> column_cdf;
+    Buffer<LightNode> light_nodes;
     Buffer<SceneInfo> info;
 
     // The host needs these without asking the device.
@@ -42,7 +43,7 @@ struct DeviceScene {
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(vertex_colors), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
-        visit(info);
+        visit(light_nodes), visit(info);
     }
 };
 

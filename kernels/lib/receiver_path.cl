@@ -27,7 +27,7 @@ typedef struct ReceivedLight {
     float3 indirect;  // over at least one more surface
 } ReceivedLight;
 
-inline ReceivedLight no_light(void) {
+inline ReceivedLight nothing_received(void) {
     ReceivedLight none;
     none.direct = none.indirect = (float3)(0.0f);
     return none;
@@ -223,7 +223,7 @@ inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, flo
 /// What one ray of a receiver brings.
 inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
                                float2 u, uint4 keys) {
-    ReceivedLight light = no_light();
+    ReceivedLight light = nothing_received();
     const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
     // Where only near surfaces can bring light, the ray need not go farther.
     const bool far = scene->info->has_specular || has_sampled_lights(scene);
@@ -243,7 +243,7 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
 /// All light of a receiver except what VPLs bring.
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
                                     uint4 keys) {
-    ReceivedLight light = no_light();
+    ReceivedLight light = nothing_received();
     if (limits->max_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }

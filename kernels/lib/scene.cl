@@ -16,13 +16,14 @@
         const global Vec3 *restrict scene_vertex_colors, const global float *restrict scene_curves,          \
         const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
-        const global float *restrict scene_column_cdf, const global SceneInfo *restrict scene_info
+        const global float *restrict scene_column_cdf, const global LightNode *restrict scene_light_nodes,   \
+        const global SceneInfo *restrict scene_info
 #define SCENE_VIEW                                                                                        \
     {                                                                                                     \
         scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,           \
             scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_curves,             \
             scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf, \
-            scene_info                                                                                    \
+            scene_light_nodes, scene_info                                                                 \
     }
 
 typedef struct SceneView {
@@ -41,6 +42,7 @@ typedef struct SceneView {
     const global float4* environment_pixels;
     const global float* row_cdf;
     const global float* column_cdf;
+    const global LightNode* light_nodes;
     const global SceneInfo* info;
 } SceneView;
 
@@ -100,14 +102,20 @@ inline SurfaceHit no_surface(void) {
     return none;
 }
 
-/// The nearest surface on a ray before t_max. Its t is negative if there is none.
-inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
-    const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, 0.0f, t_max);
+/// The nearest surface on a ray from t_min to t_max. Its t is negative if there is none.
+inline SurfaceHit trace_between(const SceneView* scene, float3 origin, float3 direction, float t_min,
+                                float t_max) {
+    const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, t_min, t_max);
     if (hit.slot == ~0u) {
         return no_surface();
     }
     const TreeTriangle triangle = tree_triangle(scene->tree_triangles, hit.slot);
     return make_surface_hit(scene, &triangle, scene->triangle_ids[hit.slot], direction, hit);
+}
+
+/// The nearest surface on a ray before t_max. Its t is negative if there is none.
+inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
+    return trace_between(scene, origin, direction, 0.0f, t_max);
 }
 
 /// True if no surface lies between two points that both stand off their surfaces.

@@ -6,9 +6,10 @@
 #include "lib/scene.cl"
 #include "lib/srgb_table.cl"
 
-/// What a texture says at a point.
+/// What a parameter is at a point. A number takes from a texture the luminance of its colour, as in Mitsuba.
 typedef struct TextureValue {
     float3 color;
+    float2 number;    // where the parameter is one number or two
     float2 gradient;  // of the colour's luminance along u and v; 0 but for bitmaps with bilinear filter
 } TextureValue;
 
@@ -50,7 +51,7 @@ inline float reduce_coordinate(float s, uint wrap) {
 }
 
 inline TextureValue look_up_bitmap(const SceneView* scene, const global Texture* texture, float s, float t) {
-    TextureValue value = {(float3)(0.0f), (float2)(0.0f)};
+    TextureValue value = {(float3)(0.0f), (float2)(0.0f), (float2)(0.0f)};
     const bool nearest = texture->filter == NEARLIGHT_FILTER_NEAREST;
     const float2 size = (float2)((float)texture->width, (float)texture->height);
     const float x = reduce_coordinate(s, texture->wrap_s) * size.x - (nearest ? 0.0f : 0.5f);
@@ -87,30 +88,43 @@ inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) 
            hit->weights.y * load3(scene->vertex_colors[triangle.v2]);
 }
 
-/// The value of a parameter at the point, and its gradient as TextureValue has it.
+/// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
+/// other texture.
+inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
+    const global Texture* texture = scene->textures + index;
+    if (texture->kind != NEARLIGHT_TEXTURE_BITMAP) {
+        return (float3)(1.0f);
+    }
+    const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
+    const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
+    return look_up_bitmap(scene, texture, s, t).color;
+}
+
+/// The value of a parameter at the point.
 inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
                             const SurfaceHit* hit) {
-    TextureValue value = {load3(parameter->value), (float2)(0.0f)};
+    TextureValue texel = {(float3)(1.0f), (float2)(0.0f), (float2)(0.0f)};
+    float3 scale = load3(parameter->value);
     for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
         const float s = texture->u_scale * hit->uv.x + texture->u_shear * hit->uv.y + texture->u_offset;
         const float t = texture->v_shear * hit->uv.x + texture->v_scale * hit->uv.y + texture->v_offset;
-        if (texture->kind != NEARLIGHT_TEXTURE_CHECKERBOARD) {
-            TextureValue texel = {(float3)(1.0f), (float2)(0.0f)};
-            if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
-                texel = look_up_bitmap(scene, texture, s, t);
-            } else {
-                texel.color = interpolated_color(scene, hit);
-            }
-            value.gradient = texel.gradient * value.color.x;
-            value.color *= texel.color;
+        if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
+            texel = look_up_bitmap(scene, texture, s, t);
+            break;
+        }
+        if (texture->kind == NEARLIGHT_TEXTURE_VERTEX_COLOR) {
+            texel.color = interpolated_color(scene, hit);
             break;
         }
         const bool same = (s - floor(s) > 0.5f) == (t - floor(t) > 0.5f);
         parameter = same ? &texture->color0 : &texture->color1;
-        value.color *= load3(parameter->value);
+        scale *= load3(parameter->value);
     }
-    return value;
+    texel.number = scale.xy * luminance(texel.color);
+    texel.gradient *= scale.x;
+    texel.color *= scale;
+    return texel;
 }
 
 #endif

@@ -40,10 +40,17 @@
     SIZE(Emitter)                                   \
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
+    OFFSET(Emitter, image)                          \
+    SIZE(LightNode)                                 \
+    OFFSET(LightNode, cos_spread)                   \
+    OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
-    SIZE(PinholeCamera)                             \
-    OFFSET(PinholeCamera, step_y)                   \
+    SIZE(Camera)                                    \
+    OFFSET(Camera, step_y)                          \
+    OFFSET(Camera, focus_distance)                  \
+    OFFSET(Camera, filter_radius)                   \
+    OFFSET(Camera, filter_signed)                   \
     SIZE(Vpl)                                       \
     OFFSET(Vpl, power)                              \
     SIZE(Importon)                                  \
@@ -60,7 +67,7 @@
     OFFSET(GatherParams, group_size)                \
     OFFSET(GatherParams, has_curves)                \
     SIZE(CameraVertex)                              \
-    OFFSET(CameraVertex, emitted)                   \
+    OFFSET(CameraVertex, filter_weight)             \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \

@@ -104,21 +104,48 @@ typedef struct Triangle {
 #define NEARLIGHT_EMITTER_SPOT 1u
 #define NEARLIGHT_EMITTER_TRIANGLE 2u
 #define NEARLIGHT_EMITTER_ENVIRONMENT 3u
+#define NEARLIGHT_EMITTER_DIRECTIONAL 4u
+#define NEARLIGHT_EMITTER_PROJECTOR 5u
 
-/// One entry of the table of lights, which lists point and spot lights first, then each emissive triangle,
-/// then the environment. An entry is chosen with `probability`, in proportion to its emitted power.
+/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
+/// then each emissive triangle, then the environment. An entry is chosen with `probability`, in proportion to
+/// its emitted power.
+///
+/// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
+/// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
+/// image, inside the image only, so that an even image lights a plane across its axis evenly.
 typedef struct Emitter {
-    Vec3 position;  // point and spot
+    Vec3 position;  // point, spot and projector
     uint type;
-    Vec3 direction;  // spot: unit vector along the axis
+    Vec3 direction;  // spot and projector: unit vector along the axis; directional: that of the light
     uint triangle;   // index into the triangle array
-    Vec3 radiance;   // point and spot: intensity, W/sr; triangle: radiance; environment: mean radiance
-    float area;      // triangle, m²
+    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
+                     // direction, W/m²; triangle: radiance; environment: mean radiance
+    float area;      // triangle: m²; projector: of its image at the distance 1
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
     float cutoff_angle;  // spot: no light beyond this angle, radians; linear between the two
+    Vec3 x_axis;
+    uint image;  // index of the texture plus 1; 0: none
+    Vec3 y_axis;
+    uint tree_way;  // triangle: the way to it through the tree of lights, the lowest bit first; 1: second
+                    // child
 } Emitter;
+
+/// A node of the tree of emissive triangles: the bounds of all lights below it. The first child stands behind
+/// its parent.
+typedef struct LightNode {
+    Vec3 low;
+    float power;  // luminance of the emitted flux, W
+    Vec3 high;
+    float cos_spread;  // all fronts face within this angle of the axis
+    Vec3 axis;
+    uint second_child;  // 0: a leaf
+    uint emitter;       // leaf: index into the table of lights
+    uint pad0, pad1, pad2;
+} LightNode;
+#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 32  // bits of Emitter.tree_way
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
@@ -131,18 +158,41 @@ typedef struct Environment {
     float pad0;
 } Environment;
 
-/// A pinhole camera. The ray through the film position (x, y), in pixels from the top left corner, starts at
-/// `origin` in the direction corner + x·step_x + y·step_y (not normalised).
-typedef struct PinholeCamera {
+/// Cells of a reconstruction filter's table, from the middle of the pixel to the filter's radius.
+#define NEARLIGHT_FILTER_CELLS 120
+#define NEARLIGHT_FILTER_ENTRIES (NEARLIGHT_FILTER_CELLS + 4)  // one more than cells, and padding
+
+/// A camera with its film. The film position (x, y), in pixels from the top left corner, stands for the
+/// vector d = corner + x·step_x + y·step_y. A pinhole's ray starts at `origin` in the direction d. The rays
+/// of a lens start at origin + a·lens_x + b·lens_y, where (a, b) lies on the unit disc, and meet at origin +
+/// focus_distance·d. An orthographic camera's ray starts at origin + d in the direction `forward`. Surfaces
+/// are seen from near_clip to far_clip, metres along `forward`; what lies beyond is as if it were not there.
+///
+/// The samples of a pixel are placed with a density in proportion to the filter's absolute value, separately
+/// in x and y. Entry i of the tables is the integral from 0 to i · radius / cells of the filter's absolute
+/// value and of the filter itself.
+typedef struct Camera {
     Vec3 origin;
     uint width;
     Vec3 corner;
     uint height;
     Vec3 step_x;
-    float pad0;
+    uint is_orthographic;
     Vec3 step_y;
-    float pad1;
-} PinholeCamera;
+    uint hides_emitters;  // 1: emitters and the environment are not seen directly
+    Vec3 forward;         // unit vector
+    float near_clip;
+    Vec3 lens_x;  // half-axes of the lens; zero for a pinhole
+    float far_clip;
+    Vec3 lens_y;
+    float focus_distance;          // in lengths of `forward`
+    float film_min_x, film_min_y;  // samples lie within these film positions
+    float film_max_x, film_max_y;
+    float filter_radius;  // pixels; 0: a box over the pixel's own square, which needs no tables
+    float pad0, pad1, pad2;
+    float filter_absolute[NEARLIGHT_FILTER_ENTRIES];
+    float filter_signed[NEARLIGHT_FILTER_ENTRIES];
+} Camera;
 
 /// A virtual point light, which stands for the Lambertian part of what its surface reflects. It sends the
 /// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
@@ -248,13 +298,14 @@ typedef struct CameraVertex {
     float depth;      // distance from the camera to the first surface seen, m; 0: no surface
     Vec3 albedo;      // Lambertian albedo of the first diffuse surface
     uint flags;
-    Vec3 emitted;  // radiance of lights and environment seen on the way
-    float pad0;
+    Vec3 emitted;         // radiance of lights and environment seen on the way
+    float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
 } CameraVertex;
-#define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
+#define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
+#define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel
 
 /// The close range: the points inside the view frustum and nearer to the camera than `range`. A point p is
-/// inside where dot(plane.xyz, p) + w ≥ 0 for each of the five planes, which go through or lie at the camera.
+/// inside where dot(plane.xyz, p − origin) + w ≥ 0 for each of the five planes.
 typedef struct CloseRange {
     float planes[5][4];
     Vec3 origin;
@@ -265,11 +316,12 @@ typedef struct CloseRange {
 typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
-    uint delta_emitter_count;  // point and spot lights: the first entries of the table
+    uint delta_emitter_count;  // delta lights: the first entries of the table
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
-    uint pad0, pad1;
+    uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint pad0;
 } SceneInfo;
 
 #ifdef __cplusplus
@@ -289,9 +341,10 @@ NEARLIGHT_CHECK_SHARED(Triangle, 16);
 NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
-NEARLIGHT_CHECK_SHARED(Emitter, 64);
+NEARLIGHT_CHECK_SHARED(Emitter, 96);
+NEARLIGHT_CHECK_SHARED(LightNode, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 64);
-NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
+NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);
 static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&

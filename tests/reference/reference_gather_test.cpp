@@ -72,9 +72,10 @@ TEST(ReferenceGather, DirectLightIsIntensityOverDistanceSquared) {
     spot.cutoff_angle = degrees_to_radians(60);
     const std::vector<ReceiverPacket> receivers{two_receivers()};
     std::vector<IrradiancePacket> irradiance(1);
-    direct_reference(embree, lights.delta_emitters, receivers, irradiance);
+    direct_reference(embree, lights, receivers, irradiance);
     EXPECT_NEAR(irradiance[0].r[0], 1.0f, 1e-5);
-    direct_reference(embree, std::vector<Emitter>{spot}, receivers, irradiance);
+    lights.delta_emitters = {spot};
+    direct_reference(embree, lights, receivers, irradiance);
     EXPECT_NEAR(irradiance[0].r[0], 0.5f, 1e-4);
 }
 

@@ -128,6 +128,24 @@ TEST(MitsubaShape, MirroredMeshesKeepMitsubasFront) {
     }
 }
 
+TEST(MitsubaShape, MirroredSpheresAndCylindersTurnInsideOut) {
+    const SceneFiles files;
+    const auto outward = [&](const char* type, const std::string& body) {
+        const Scene scene = files.load_xml(shape(type, body));
+        const Triangle t = scene.triangles[scene.triangles.size() / 2];
+        const Vec3 a = scene.vertices[t.v0].position;
+        const Vec3 n = cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a);
+        return dot(n, {a.x, a.y, 0}) > 0.0f;
+    };
+    const std::string flip = "<boolean name='flip_normals' value='true'/>";
+    for (const char* type : {"sphere", "cylinder"}) {
+        EXPECT_TRUE(outward(type, "")) << type;
+        EXPECT_FALSE(outward(type, to_world("<scale value='1,1,-1'/>"))) << type;
+        EXPECT_TRUE(outward(type, to_world("<scale value='-1,-1,1'/>"))) << type;
+        EXPECT_TRUE(outward(type, flip + to_world("<scale value='-1'/>"))) << type;
+    }
+}
+
 TEST(MitsubaShape, InstancesAreCopies) {
     const SceneFiles files;
     const Scene scene = files.load_xml("<shape type='shapegroup' id='g'>" + shape("rectangle") +
@@ -214,8 +232,8 @@ TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
               "value='gone.png'/></texture></bsdf>");
     const Scene scene = files.load_xml(gone);
     EXPECT_TRUE(has_note(scene, "scene.xml:3: texture is replaced"));
-    expect_near(scene.materials[0].base, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(scene.materials[0].base_texture, -1);
+    expect_near(scene.materials[0].reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(scene.materials[0].reflectance.texture, -1);
     EXPECT_TRUE(mentions(file_error([&] { files.load_xml(gone, {.parameters = {}, .strict = true}); }),
                          "scene.xml:3"));
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/reference/close_range_oracle.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/session/session.h"
 #include "host/stages/close_range.h"
 #include "tests/session/rendering.h"
@@ -60,7 +60,7 @@ double albedo_sum(uint first, uint last) {
 /// Fraction of the sphere's area in triangles that reach into the view.
 double share_in_view() {
     const Scene scene = unit_furnace();
-    const CloseRange region = make_close_range(make_pinhole_camera(scene.camera, 24, 24), 10.0f);
+    const CloseRange region = make_close_range(make_camera(scene.camera, 24, 24), 10.0f);
     double inside = 0;
     double all = 0;
     for (const Triangle& triangle : scene.triangles) {

@@ -7,8 +7,8 @@
 #include "host/base/receivers.h"
 #include "host/reference/camera_oracle.h"
 #include "host/reference/lobe.h"
+#include "host/scene/camera.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -31,7 +31,7 @@ struct GBuffer {
 class Shooting {
   public:
     Shooting(Device& device, const Scene& scene, int width, int height, float range = 1.0f)
-        : camera(make_pinhole_camera(scene.camera, width, height)),
+        : camera(make_camera(scene.camera, width, height)),
           region(make_close_range(camera, range)),
           device_(&device),
           pass_(device),
@@ -55,14 +55,14 @@ class Shooting {
                      seed);
     }
 
-    PinholeCamera camera;
+    Camera camera;
     CloseRange region;
 
   private:
     Device* device_;
     CameraPass pass_;
     SceneOnDevice scene_;
-    Buffer<PinholeCamera> cameras_;
+    Buffer<Camera> cameras_;
     Buffer<CloseRange> regions_;
 };
 

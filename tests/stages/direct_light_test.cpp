@@ -70,21 +70,32 @@ void add_spot(Scene& scene, Vec3 position, Vec3 axis, float beam, float cutoff) 
     spot.cutoff_angle = degrees_to_radians(cutoff);
 }
 
-/// With sixteen point and spot lights, all are used, so the result is exact except at shadow edges.
-TEST_F(DirectLightTest, SixteenPointAndSpotLightsAgreeWithEmbree) {
+/// With sixteen delta lights, all are used, so the result is exact except at shadow edges.
+TEST_F(DirectLightTest, SixteenDeltaLightsAgreeWithEmbree) {
     Scene scene = scattered_squares();
+    const int bitmap = add_small_bitmap(scene);
     Pcg32 random(5);
     for (int i = 0; i < 16; ++i) {
         const Vec3 position = random_vector(random);
-        if (i % 2 == 0) {
+        const Vec3 direction = random_vector(random);
+        if (i % 4 == 0) {
             add_point_light(scene, position, {1, 2, 0.5f});
+        } else if (i % 4 == 1) {
+            add_spot(scene, position, direction, 20, 50);
+            Emitter& spot = scene.delta_emitters.back();
+            const auto [x, y] = orthonormal_basis(spot.direction);
+            spot.x_axis = x * 0.4f;
+            spot.y_axis = y * 0.4f;
+            spot.image = i % 8 == 1 ? static_cast<uint>(bitmap + 1) : 0;
+        } else if (i % 4 == 2) {
+            add_projector(scene, position, direction, 0.7f, 0.4f, {1, 3, 2}, i % 8 == 2 ? bitmap : -1);
         } else {
-            add_spot(scene, position, random_vector(random), 20, 50);
+            add_directional_light(scene, direction, {0.3f, 0.2f, 0.1f});
         }
     }
     const std::vector<ReceiverPacket> receivers = random_receivers(2000);
     std::vector<IrradiancePacket> expected(receivers.size());
-    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
+    direct_reference(EmbreeScene(scene), scene, receivers, expected, 1);
     on_each_ray_tree([&](Device& device) {
         const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 1);
         std::size_t lit = 0;
@@ -113,6 +124,27 @@ TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
         EXPECT_NEAR(irradiance_at(e, 0).x, 2.0f, 1e-5f);                           // 8 / 2²
         EXPECT_NEAR(irradiance_at(e, 1).y, 4.0f / 8.0f * std::sqrt(0.5f), 1e-5f);  // 45°, r² = 8
         EXPECT_TRUE(is_zero(irradiance_at(e, 2)) && is_zero(irradiance_at(e, 3)));
+    });
+}
+
+/// A plane across the axis of a projector is evenly lit inside its image, and not at all outside.
+TEST_F(DirectLightTest, ProjectorLightsAPlaneEvenly) {
+    Scene scene;
+    add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
+    add_projector(scene, {0, 0, 2}, {0, 0, -1}, 1.0f, 0.5f, {8, 4, 2}, -1);
+    const Vec3 x = normalize(scene.delta_emitters[0].x_axis);
+    const Vec3 y = normalize(scene.delta_emitters[0].y_axis);
+    std::vector<ReceiverPoint> points;
+    for (const auto& [s, t] :
+         {std::pair{0.0f, 0.0f}, {1.9f, 0.9f}, {-1.9f, -0.9f}, {2.1f, 0.0f}, {0.0f, 1.1f}}) {
+        points.push_back({x * s + y * t, {0, 0, 1}});
+    }
+    points.push_back({{0, 0, 4}, {0, 0, -1}});  // behind
+    on_each_ray_tree([&](Device& device) {
+        const auto e = illuminate(device, scene, test::pack_receivers(points), 1);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(irradiance_at(e, i).x, i < 3 ? 2.0f : 0.0f, 1e-5f) << "receiver " << i;
+        }
     });
 }
 
@@ -232,7 +264,7 @@ TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
     }
     const std::vector<ReceiverPacket> receivers = test::pack_receivers(cluster());
     std::vector<IrradiancePacket> expected(receivers.size());
-    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected, 1);
+    direct_reference(EmbreeScene(scene), scene, receivers, expected, 1);
     on_each_ray_tree([&](Device& device) {
         const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 2048);
         double want = 0;

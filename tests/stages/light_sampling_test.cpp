@@ -106,6 +106,43 @@ Scene lamps_and_sky(bool with_sky) {
     return scene;
 }
 
+/// A hall of 40 × 10 × 3 m with 200 lamps below its ceiling, octahedra of 8 triangles, some much brighter
+/// than others.
+Scene hall_of_lamps() {
+    Scene scene;
+    const uint plaster = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    add_quad(scene, {-20, -5, 0}, {40, 0, 0}, {0, 10, 0}, plaster);
+    std::array<uint, 3> lamps{};
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        Material lamp = lambertian({0, 0, 0});
+        lamp.emission = Vec3{1, 0.9f, 0.8f} * (10.0f * static_cast<float>(1 + 2 * i));
+        lamps[i] = add_material(scene, lamp);
+    }
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 c{-19.5f + 2.0f * static_cast<float>(i % 20), -4.5f + static_cast<float>(i / 20), 2.7f};
+        constexpr float r = 0.08f;
+        for (const float x : {-r, r}) {
+            for (const float y : {-r, r}) {
+                for (const float z : {-r, r}) {
+                    const bool swaps = x * y * z < 0;
+                    const Vec3 a = c + Vec3{x, 0, 0};
+                    const Vec3 b = c + Vec3{0, y, 0};
+                    add_triangle(scene, swaps ? b : a, swaps ? a : b, c + Vec3{0, 0, z},
+                                 lamps[static_cast<std::size_t>(i) % lamps.size()]);
+                }
+            }
+        }
+    }
+    return scene;
+}
+
+/// The same scene on the device without its tree of lights.
+void leave_out_tree(SceneOnDevice& scene) {
+    SceneInfo info = scene.buffers.host_info;
+    info.light_node_count = 0;
+    scene.buffers.info.upload(std::span(&info, 1));
+}
+
 using Float4 = std::array<float, 4>;
 constexpr Float4 kOrigin{0, 0, 0, 0};
 constexpr Float4 kUp{0, 0, 1, 0};
@@ -155,6 +192,73 @@ TEST_F(LightSamplingTest, DensitiesIntegrateToTheShareOfSamplesThatAreOfUse) {
                 visible += sample[3] / kCount;
             }
             EXPECT_NEAR(integral, visible, 0.01);
+        }
+    });
+}
+
+TEST_F(LightSamplingTest, DensitiesOfTheLightTreeIntegrateToItsShareOfUse) {
+    constexpr uint kCount = 1u << 18;
+    on_each_device([&](Device& device) {
+        KernelProbe densities(device, kDensityProbe);
+        KernelProbe samples(device, kSampleProbe);
+        const SceneOnDevice hall(densities.device(), hall_of_lamps());
+        const SceneOnDevice same_hall(samples.device(), hall_of_lamps());
+        ASSERT_GT(hall.buffers.host_info.light_node_count, 0u);
+        for (const Float4& normal : {kUp, Float4{0, 0, 0, 0}, Float4{0.8f, 0, -0.6f, 0}}) {
+            const Float4 place{3.1f, 0.4f, 2.5f, 0};
+            Buffer<float> density(densities.device(), kCount);
+            densities.kernel().launch(kCount, 8, hall.buffers, place, normal, kCount, density);
+            double integral = 0;
+            double squares = 0;
+            for (const float value : density.download()) {
+                const double term = 4 * double(kPi) * value;
+                integral += term / kCount;
+                squares += term * term / kCount;
+            }
+            const double deviation = std::sqrt((squares - integral * integral) / kCount);
+            Buffer<Float4> out(samples.device(), kCount);
+            samples.kernel().launch(kCount, 8, same_hall.buffers, place, normal, kCount, out);
+            double visible = 0;
+            uint different = 0;
+            for (const auto& [pdf, asked, ratio, is_visible] : out.download()) {
+                visible += is_visible / kCount;
+                different += is_visible > 0 && std::abs(pdf - asked) > 2e-3f * pdf ? 1 : 0;
+            }
+            EXPECT_GT(visible, 0.3);
+            EXPECT_LT(deviation, 0.04);
+            EXPECT_NEAR(integral, visible, 4 * deviation);
+            EXPECT_LE(different, kCount / 500) << "more than samples at an edge";
+        }
+    });
+}
+
+/// Means and variances of one-sample estimates on the floor, with the tree and with the table of powers.
+TEST_F(LightSamplingTest, LightTreeHasTheSameMeanAndLessVariance) {
+    constexpr uint kCount = 1u << 16;
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, kCombinedProbe);
+        SceneOnDevice with_tree(probe.device(), hall_of_lamps());
+        SceneOnDevice by_power(probe.device(), hall_of_lamps());
+        leave_out_tree(by_power);
+        Buffer<Float4> out(probe.device(), kCount);
+        for (const Float4& place :
+             {Float4{0.3f, 0.2f, 0.01f, 0}, {-15, 3, 0.01f, 0}, {19, -4.8f, 0.01f, 0}}) {
+            const auto moments = [&](const SceneOnDevice& hall, const Float4& normal) {
+                probe.kernel().launch(kCount, 8, hall.buffers, place, normal, 1u, 0u, kCount, out);
+                double sum = 0;
+                double squares = 0;
+                for (const Float4& sample : out.download()) {
+                    sum += sample[1] / kCount;
+                    squares += double(sample[1]) * sample[1] / kCount;
+                }
+                return std::pair{sum, squares - sum * sum};
+            };
+            for (const Float4& normal : {kUp, Float4{0.6f, 0, 0.8f, 0}}) {
+                const auto [mean, variance] = moments(with_tree, normal);
+                const auto [power_mean, power_variance] = moments(by_power, normal);
+                EXPECT_NEAR(mean, power_mean, 5 * std::sqrt((variance + power_variance) / kCount));
+                EXPECT_LT(10 * variance, power_variance);
+            }
         }
     });
 }

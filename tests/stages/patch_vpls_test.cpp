@@ -2,7 +2,7 @@
 #include "host/stages/patch_vpls.h"
 
 #include "host/base/random.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
@@ -54,7 +54,7 @@ struct PatchResult {
 
 PatchResult make_patches(Device& device, const Scene& scene, bool whole_triangles) {
     const SceneOnDevice on_device(device, scene);
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 64, 64), 2.6f);
+    const CloseRange range = make_close_range(make_camera(scene.camera, 64, 64), 2.6f);
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&range, 1));
     region.whole_triangles = whole_triangles;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/texture_maker.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/scene/file_text.h"
@@ -87,6 +88,17 @@ const Object& inner_texture(const Object& texture) {
     return *nested.front();
 }
 
+// How many textures are looked up one after the other.
+int nesting(const Scene& scene, const Parameter& parameter) {
+    if (parameter.texture < 0) {
+        return 0;
+    }
+    const Texture& texture = scene.textures[static_cast<std::size_t>(parameter.texture)].parameters;
+    return texture.kind == NEARLIGHT_TEXTURE_CHECKERBOARD
+               ? 1 + std::max(nesting(scene, texture.color0), nesting(scene, texture.color1))
+               : 1;
+}
+
 constexpr const char* kKnownTextures = "bitmap, checkerboard, mesh_attribute, scale";
 
 }  // namespace
@@ -150,6 +162,14 @@ Vec3 TextureMaker::color(const Object& owner, const std::string& name, Vec3 fall
     }
     const std::optional<Color> color = owner.color(name);
     return !color ? fallback : light ? color->light : color->reflectance;
+}
+
+int TextureMaker::texture_index(const Object& texture) {
+    const Parameter made = make(texture, Purpose::color);
+    if (made.texture >= 0 && !(made.value == Vec3{1, 1, 1})) {
+        fail(texture.where, "a scaled texture is not supported here");
+    }
+    return made.texture;
 }
 
 Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
@@ -217,7 +237,12 @@ Parameter TextureMaker::make_checkerboard(const Object& texture, Purpose purpose
         std::swap(made.parameters.color0, made.parameters.color1);
     }
     set_uv_map(made.parameters, read_uv_map(texture), false);
-    return textured(add_texture(scene_, made));
+    const Parameter board = textured(add_texture(scene_, made));
+    if (nesting(scene_, board) > NEARLIGHT_MAX_BSDF_NESTING) {
+        fail(texture.where, "more than " + std::to_string(NEARLIGHT_MAX_BSDF_NESTING) +
+                                " checkerboards lie within each other");
+    }
+    return board;
 }
 
 Parameter TextureMaker::make_vertex_colors(const Object& texture, Purpose purpose) {
@@ -257,9 +282,9 @@ void TextureMaker::warn_of_normals_below(const Parameter& normals, const Locatio
         below += texel_color(image, i).z * normals.value.z <= 0.5f ? 1 : 0;
     }
     if (below > 0) {
-        note(notes_, where,
-             std::to_string(below) + " texels of the normal map '" + image.name +
-                 "' point below the surface; they are mirrored above it");
+        note(
+            notes_, where,
+            std::to_string(below) + " texels of the normal map '" + image.name + "' point below the surface");
     }
 }
 

@@ -39,6 +39,12 @@ class TextureMaker {
     /// A colour called `name` that is not a reflectance; a texture is replaced by its mean, with a note.
     /// `light` says that spectra are those of a light.
     Vec3 color(const Object& owner, const std::string& name, Vec3 fallback, bool light);
+    /// A texture element as a colour, which is made when it is first asked for; grey, with a note, if its
+    /// file cannot be read.
+    Parameter texture(const Object& texture) { return make(texture, Purpose::color); }
+    /// The index into Scene::textures of a texture element; −1, with a note, if its file cannot be read.
+    /// Calls fail() for one that scales another.
+    int texture_index(const Object& texture);
 
   private:
     enum class Purpose { color, number, height, normals };

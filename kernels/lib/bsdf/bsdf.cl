@@ -7,6 +7,7 @@
 #include "lib/bsdf/dielectric.cl"
 #include "lib/bsdf/null.cl"
 #include "lib/bsdf/plastic.cl"
+#include "lib/bsdf/principled.cl"
 #include "lib/bsdf/surface.cl"
 #include "lib/bsdf/thin_dielectric.cl"
 #include "lib/curve.cl"
@@ -39,8 +40,10 @@ inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
             return plastic_eval(bsdf, wo, wi, pdf);
         case NEARLIGHT_BSDF_CONDUCTOR:
             return conductor_eval(bsdf, wo, wi, pdf);
-        default:
+        case NEARLIGHT_BSDF_DIELECTRIC:
             return dielectric_eval(bsdf, wo, wi, pdf);
+        default:
+            return principled_eval(bsdf, wo, wi, pdf);
     }
 }
 
@@ -56,6 +59,8 @@ inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
             return dielectric_sample(bsdf, wo, u, v);
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
             return thin_dielectric_sample(bsdf, wo, u);
+        case NEARLIGHT_BSDF_PRINCIPLED:
+            return principled_sample(bsdf, wo, u, v);
         case NEARLIGHT_BSDF_NULL:
             return null_sample(wo);
         default:
@@ -73,6 +78,8 @@ inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
             return dielectric_albedo(bsdf, wo);
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
             return thin_dielectric_albedo(bsdf, wo);
+        case NEARLIGHT_BSDF_PRINCIPLED:
+            return principled_albedo(bsdf, wo);
         case NEARLIGHT_BSDF_NULL:
             return (float3)(1.0f);
         default:
@@ -85,10 +92,10 @@ inline float diffuse_transmission(const SceneView* scene, uint curve, float cosi
     return curve_value(scene->curves, curve, cosine);
 }
 
-/// ∫ D |cosθi| dωi, as if all light arrived at the angle at which half the cosine-weighted hemisphere lies.
+/// About ∫ D |cosθi| dωi: at the cosine ½, a boundary lets through as much as on the mean over a hemisphere.
 inline float3 d_albedo(const SceneView* scene, const Bsdf* bsdf, float cosine) {
     return bsdf->diffuse * (diffuse_transmission(scene, bsdf->curve, cosine) *
-                            diffuse_transmission(scene, bsdf->curve, 0.7071f));
+                            diffuse_transmission(scene, bsdf->curve, 0.5f));
 }
 
 /// About what the surface reflects and lets through in all of what arrives evenly from everywhere.

@@ -4,10 +4,13 @@
 // A BSDF is D + S: D is its Lambertian part, S everything else (coat, metal, glass). VPLs stand for D alone
 // (docs/method.md). Files of this folder hold S of one model each, as four functions:
 //
-//     float3     MODEL_eval(bsdf, wo, wi)     S(wo, wi) · |cosθi|; 0 for what is a mirror image or a
-//     refraction float      MODEL_pdf(bsdf, wo, wi)      density of MODEL_sample, per steradian BsdfSample
-//     MODEL_sample(bsdf, wo, u, v) a direction drawn from S float3     MODEL_albedo(bsdf, wo)       ∫ S
-//     |cosθi| dωi, or an estimate of it, which only steers sampling
+//     float3     MODEL_eval(bsdf, wo, wi, &pdf)  S(wo, wi) · |cosθi| without mirror images and refractions at
+//     a
+//                                                smooth surface; pdf: density of MODEL_sample, per steradian
+//     BsdfSample MODEL_sample(bsdf, wo, u, v)    a direction drawn from S. Its weight and density are set
+//     only
+//                                                where is_delta; other ones follow from MODEL_eval (bsdf.cl)
+//     float3     MODEL_albedo(bsdf, wo)          an estimate of ∫ S |cosθi| dωi, which only steers sampling
 //
 // Directions are unit vectors in the frame of the surface, away from it. wo points to the viewer (the side
 // that a path comes from) and has wo.z > 0; wi.z < 0 where S lets light through. What a surface lets through
@@ -32,11 +35,12 @@ typedef struct Bsdf {
     float metallic, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
         clearcoat_gloss;  // principled
     uint front;           // 1: the viewer is on the front (outer) side
+    uint flux;            // 1: wo points to where light comes from, as on paths of flux
 } Bsdf;
 
 /// A direction drawn from a BSDF.
 typedef struct BsdfSample {
-    float3 wi;
+    float3 wi;      // 0 where nothing could be drawn
     float3 weight;  // BSDF · |cosθi| ÷ density; 0 where nothing could be drawn
     float pdf;      // density per steradian; 0 for a mirror image, a refraction and what passes straight on
     float eta;      // index on wi's side ÷ index on wo's; 1 where the direction stays on wo's side
@@ -45,7 +49,7 @@ typedef struct BsdfSample {
 
 inline BsdfSample no_bsdf_sample(void) {
     BsdfSample sample;
-    sample.wi = (float3)(0.0f, 0.0f, 1.0f);
+    sample.wi = (float3)(0.0f);
     sample.weight = (float3)(0.0f);
     sample.pdf = 0.0f;
     sample.eta = 1.0f;

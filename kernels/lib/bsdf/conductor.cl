@@ -26,10 +26,10 @@ inline BsdfSample conductor_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     return sample;
 }
 
-/// Exact for smooth metal; without the light that rough metal loses between its facets.
+/// Exact for smooth metal.
 inline float3 conductor_albedo(const Bsdf* bsdf, float3 wo) {
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
-    return bsdf->specular * fresnel_conductor(cosine, bsdf->eta, bsdf->k);
+    return bsdf->specular * facet_escape(bsdf) * fresnel_conductor(cosine, bsdf->eta, bsdf->k);
 }
 
 #endif

@@ -50,19 +50,37 @@ inline float3 dielectric_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf
     return tint * (share * value);
 }
 
-/// Direction of a mirror image or a refraction about the facet m, chosen by `u`. `sample` gets its wi, its
-/// eta and a tint, which is its weight if the facet is the surface itself.
+/// Gives `sample` the mirror image of wo about the facet m. One that leaves the viewer's side is none of this
+/// surface, and wi stays 0.
+inline void reflect_at(float3 wo, float3 m, BsdfSample* sample) {
+    const float3 wi = mirror(wo, m);
+    if (wi.z > 0.0f) {
+        sample->wi = wi;
+    }
+}
+
+/// Gives `sample` the refraction of wo about the facet m, and its eta. One that stays on the viewer's side is
+/// none of this surface, and wi stays 0.
+inline void refract_at(float3 wo, float3 m, float cos_far, float eta, BsdfSample* sample) {
+    const float3 wi = (dot(wo, m) / eta - cos_far) * m - wo / eta;
+    if (wi.z < 0.0f) {
+        sample->wi = normalize(wi);
+        sample->eta = eta;
+    }
+}
+
+/// Direction of a mirror image or a refraction about the facet m, chosen by `u`. `sample` gets a tint, too,
+/// which is its weight if the facet is the surface itself.
 inline void choose_at_boundary(const Bsdf* bsdf, float3 wo, float3 m, float u, BsdfSample* sample) {
     const float cos_near = clamp(dot(wo, m), 0.0f, 1.0f);
     const float eta = bsdf->eta.x;
     float cos_far;
     if (u < fresnel_dielectric(cos_near, eta, &cos_far)) {
-        sample->wi = mirror(wo, m);
+        reflect_at(wo, m, sample);
         sample->weight = bsdf->specular;
     } else {
-        sample->wi = normalize((cos_near / eta - cos_far) * m - wo / eta);
+        refract_at(wo, m, cos_far, eta, sample);
         sample->weight = bsdf->transmission;
-        sample->eta = eta;
     }
 }
 
@@ -83,7 +101,9 @@ inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     const float reflectance = fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
-    return mix(bsdf->transmission, bsdf->specular, reflectance);
+    // Light out of the denser side meets facets a second time more often.
+    const float escape = mix(1.0f, facet_escape(bsdf), bsdf->eta.x < 1.0f ? 1.0f : 0.5f);
+    return escape * mix(bsdf->transmission, bsdf->specular, reflectance);
 }
 
 #endif

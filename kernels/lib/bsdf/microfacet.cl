@@ -132,6 +132,12 @@ inline float facing_cosine(const Bsdf* bsdf, float3 wo) {
     return mix(wo.z, 0.65f, 0.4f * fmin(bsdf->alpha.x + bsdf->alpha.y, 2.0f));
 }
 
+/// About the share of light that leaves rough facets after one reflection, for all directions of it together.
+inline float facet_escape(const Bsdf* bsdf) {
+    const float alpha = fmin(0.5f * (bsdf->alpha.x + bsdf->alpha.y), 1.0f);
+    return 1.0f - (bsdf->flags & NEARLIGHT_MATERIAL_BECKMANN ? 0.4f : 0.6f) * alpha * sqrt(alpha);
+}
+
 inline float3 mirror(float3 wo, float3 m) {
     return 2.0f * dot(wo, m) * m - wo;
 }

@@ -30,11 +30,11 @@ inline BsdfSample plastic_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     return sample;
 }
 
-/// Exact for a smooth coat. Facets of a rough one are seen less obliquely than the surface.
+/// Exact for a smooth coat.
 inline float3 plastic_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
-    return bsdf->specular * fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
+    return bsdf->specular * facet_escape(bsdf) * fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
 }
 
 #endif

@@ -102,46 +102,46 @@ inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
 }
 
 /// Makes parameter `index` of a material (counted from `reflectance`) part of the BSDF.
-inline void set_parameter(Bsdf* bsdf, uint index, float3 value) {
+inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
     switch (index) {
         case 0:
-            bsdf->base = value;
+            bsdf->base = value->color;
             break;
         case 1:
-            bsdf->specular = value;
+            bsdf->specular = value->color;
             break;
         case 2:
-            bsdf->transmission = value;
+            bsdf->transmission = value->color;
             break;
         case 3:
-            bsdf->alpha = value.xy;
+            bsdf->alpha = value->number;
             break;
         case 5:
-            bsdf->metallic = value.x;
+            bsdf->metallic = value->number.x;
             break;
         case 6:
-            bsdf->anisotropic = value.x;
+            bsdf->anisotropic = value->number.x;
             break;
         case 7:
-            bsdf->spec_trans = value.x;
+            bsdf->spec_trans = value->number.x;
             break;
         case 8:
-            bsdf->spec_tint = value.x;
+            bsdf->spec_tint = value->number.x;
             break;
         case 9:
-            bsdf->sheen = value.x;
+            bsdf->sheen = value->number.x;
             break;
         case 10:
-            bsdf->sheen_tint = value.x;
+            bsdf->sheen_tint = value->number.x;
             break;
         case 11:
-            bsdf->flatness = value.x;
+            bsdf->flatness = value->number.x;
             break;
         case 12:
-            bsdf->clearcoat = value.x;
+            bsdf->clearcoat = value->number.x;
             break;
         default:
-            bsdf->clearcoat_gloss = value.x;
+            bsdf->clearcoat_gloss = value->number.x;
     }
 }
 
@@ -176,6 +176,7 @@ inline Bsdf black_bsdf(void) {
     bsdf.metallic = bsdf.anisotropic = bsdf.spec_trans = bsdf.spec_tint = bsdf.sheen = bsdf.sheen_tint =
         bsdf.flatness = bsdf.clearcoat = bsdf.clearcoat_gloss = 0.0f;
     bsdf.front = 1;
+    bsdf.flux = 0;
     return bsdf;
 }
 
@@ -234,7 +235,7 @@ inline const global Material* resolve_step(const SceneView* scene, const Surface
     uint child = 0;
     switch (material->model) {
         case NEARLIGHT_BSDF_MASK: {
-            const float opacity = clamp(value->color.x, 0.0f, 1.0f);
+            const float opacity = clamp(value->number.x, 0.0f, 1.0f);
             if (!(*u < opacity)) {
                 return 0;
             }
@@ -242,7 +243,7 @@ inline const global Material* resolve_step(const SceneView* scene, const Surface
             break;
         }
         case NEARLIGHT_BSDF_BLEND: {
-            const float weight = clamp(value->color.x, 0.0f, 1.0f);
+            const float weight = clamp(value->number.x, 0.0f, 1.0f);
             child = *u < weight;
             *u = child ? *u / weight : (*u - weight) / (1.0f - weight);
             break;
@@ -264,7 +265,9 @@ inline const global Material* resolve_step(const SceneView* scene, const Surface
             float3 dv;
             position_derivatives(scene, hit, &du, &dv);
             const float3 n = bumped_normal(hit, &front, du, dv, value->gradient);
-            tilt_frame(s, n, world_to_frame(&front, du), *u);
+            // Mitsuba's tangent under a bump map is this derivative in world space, taken for one in the
+            // frame. Only anisotropy shows it.
+            tilt_frame(s, n, du, *u);
         }
     }
     return scene->materials + material->child[child];
@@ -281,7 +284,7 @@ inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceB
     for (uint i = 1; i < 14; ++i) {
         if (used >> i & 1u) {
             const TextureValue value = look_up(scene, &material->reflectance + i, hit);
-            set_parameter(&s->bsdf, i, value.color);
+            set_parameter(&s->bsdf, i, &value);
         }
     }
     const bool front = dot(s->wo, s->frame.n) > 0.0f;
@@ -295,6 +298,7 @@ inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceB
 inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mode) {
     SurfaceBsdf s;
     s.bsdf = black_bsdf();
+    s.bsdf.flux = mode == BSDF_FLUX;
     s.frame = make_frame(hit->shading);
     s.geometric = hit->geometric;
     s.wo = -direction;

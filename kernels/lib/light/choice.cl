@@ -3,7 +3,7 @@
 #ifndef NEARLIGHT_LIB_LIGHT_CHOICE
 #define NEARLIGHT_LIB_LIGHT_CHOICE
 
-#include "lib/scene.cl"
+#include "lib/light/tree.cl"
 
 /// Up to this many delta lights are all summed. If there are more, they are chosen by chance like the other
 /// lights.
@@ -36,20 +36,56 @@ inline float exact_share(const SceneView* scene) {
     return count == 0 ? 0.0f : scene->emitters[count - 1].cdf;
 }
 
-/// Chooses among the lights that are not summed exactly; there must be one. `probability` gets that of the
-/// choice.
-inline uint choose_light(const SceneView* scene, float u, float* probability) {
+/// A part of the distribution.
+typedef struct CdfRange {
+    float low, high;
+} CdfRange;
+
+/// The part of the distribution that belongs to emissive triangles.
+inline CdfRange triangle_share(const SceneView* scene) {
+    const uint delta_count = scene->info->delta_emitter_count;
+    const uint last = scene->info->emitter_count - 1;
+    CdfRange share;
+    share.low = delta_count == 0 ? 0.0f : scene->emitters[delta_count - 1].cdf;
+    share.high = scene->emitters[last].type != NEARLIGHT_EMITTER_ENVIRONMENT ? 1.0f
+                 : last == 0                                                 ? 0.0f
+                                                                             : scene->emitters[last - 1].cdf;
+    return share;
+}
+
+/// Chooses among the lights that are not summed exactly, for a receiver at x with the normal n (zero: light
+/// counts from all sides); there must be a light. All triangles together have the share of their power, and
+/// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
+/// ~0u if the choice brings nothing.
+inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
     const float low = exact_share(scene);
-    const uint index = max(choose_emitter(scene, low + u * (1.0f - low)), exact_light_count(scene));
+    const float place = low + u * (1.0f - low);
+    if (scene->info->light_node_count > 0) {
+        const CdfRange share = triangle_share(scene);
+        if (place >= share.low && (place < share.high || share.high >= 1.0f)) {
+            const float width = share.high - share.low;
+            const float within = fmin((place - share.low) / width, 0x1.fffffep-1f);
+            const uint index = choose_in_light_tree(scene, x, n, within, probability);
+            *probability *= width / (1.0f - low);
+            return index;
+        }
+    }
+    const uint index = max(choose_emitter(scene, place), exact_light_count(scene));
     *probability = scene->emitters[index].probability / (1.0f - low);
     return index;
 }
 
 /// The probability with which choose_light() picks this entry of the table.
-inline float choice_probability(const SceneView* scene, uint index) {
-    return index < exact_light_count(scene)
-               ? 0.0f
-               : scene->emitters[index].probability / (1.0f - exact_share(scene));
+inline float choice_probability(const SceneView* scene, uint index, float3 x, float3 n) {
+    if (index < exact_light_count(scene)) {
+        return 0.0f;
+    }
+    const float sampled_share = 1.0f - exact_share(scene);
+    if (scene->info->light_node_count > 0 && scene->emitters[index].type == NEARLIGHT_EMITTER_TRIANGLE) {
+        const CdfRange share = triangle_share(scene);
+        return light_tree_probability(scene, index, x, n) * (share.high - share.low) / sampled_share;
+    }
+    return scene->emitters[index].probability / sampled_share;
 }
 
 /// The entry of a triangle in the table, or ~0u for a triangle that does not emit. Triangles lie in the table

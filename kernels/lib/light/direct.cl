@@ -57,7 +57,10 @@ inline float3 direct_irradiance_mis(const SceneView* scene, float3 x, float3 n, 
 inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, float3 n, float2 choice,
                                           float2 u) {
     float probability;
-    const uint index = choose_light(scene, choice.x, &probability);
+    const uint index = choose_light(scene, x, n, choice.x, &probability);
+    if (index == ~0u) {
+        return no_light(x);
+    }
     LightSample light;
     if (scene->emitters[index].type != NEARLIGHT_EMITTER_ENVIRONMENT) {
         light = sample_emitter(scene, index, x, u);

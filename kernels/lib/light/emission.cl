@@ -38,27 +38,55 @@ inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
            to_world_frame((float3)(r * cos(phi), r * sin(phi), 0.0f), from);
 }
 
+inline float entry_area(const SceneView* scene) {
+    return M_PI_F * scene->environment->scene_radius * scene->environment->scene_radius;
+}
+
 inline EmittedParticle emit_from_environment(const SceneView* scene, float2 u_position, float2 u_direction) {
     EmittedParticle particle;
     float pdf;
     float3 radiance;
     const float3 from = sample_environment(scene, u_direction, &pdf, &radiance);
-    const float radius = scene->environment->scene_radius;
     particle.origin = entry_point(scene, from, u_position);
     particle.direction = -from;
-    particle.flux = pdf > 0.0f ? radiance * (M_PI_F * radius * radius / pdf) : (float3)(0.0f);
+    particle.flux = pdf > 0.0f ? radiance * (entry_area(scene) / pdf) : (float3)(0.0f);
     particle.from_delta = 0;
     return particle;
 }
 
-inline EmittedParticle emit_from_point(const global Emitter* emitter, float2 u_direction) {
+inline EmittedParticle emit_from_point(const SceneView* scene, const global Emitter* emitter,
+                                       float2 u_direction) {
     const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
     const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;
     const float3 axis = is_spot ? load3(emitter->direction) : (float3)(0.0f, 0.0f, 1.0f);
     EmittedParticle particle;
     particle.origin = load3(emitter->position);
     particle.direction = to_world_frame(square_to_cone(u_direction, cos_max), axis);
-    particle.flux = delta_intensity(emitter, particle.direction) * (2.0f * M_PI_F * (1.0f - cos_max));
+    particle.flux = delta_intensity(scene, emitter, particle.direction) * (2.0f * M_PI_F * (1.0f - cos_max));
+    particle.from_delta = 1;
+    return particle;
+}
+
+/// A particle through a uniform point of the image plane at the distance 1, on which dω = cos³ dA.
+inline EmittedParticle emit_from_projector(const SceneView* scene, const global Emitter* emitter, float2 st) {
+    const float3 x_axis = load3(emitter->x_axis);
+    const float3 y_axis = load3(emitter->y_axis);
+    EmittedParticle particle;
+    particle.origin = load3(emitter->position);
+    particle.direction =
+        normalize(load3(emitter->direction) + x_axis * ((st.x - 0.5f) / dot(x_axis, x_axis)) +
+                  y_axis * ((st.y - 0.5f) / dot(y_axis, y_axis)));
+    particle.flux = load3(emitter->radiance) * image_color(scene, emitter, st) * emitter->area;
+    particle.from_delta = 1;
+    return particle;
+}
+
+inline EmittedParticle emit_from_direction(const SceneView* scene, const global Emitter* emitter,
+                                           float2 u_position) {
+    EmittedParticle particle;
+    particle.direction = load3(emitter->direction);
+    particle.origin = entry_point(scene, -particle.direction, u_position);
+    particle.flux = load3(emitter->radiance) * entry_area(scene);
     particle.from_delta = 1;
     return particle;
 }
@@ -71,8 +99,12 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
         particle = emit_from_triangle(scene, emitter, u_position, u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         particle = emit_from_environment(scene, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
+        particle = emit_from_direction(scene, emitter, u_position);
+    } else if (emitter->type == NEARLIGHT_EMITTER_PROJECTOR) {
+        particle = emit_from_projector(scene, emitter, u_direction);
     } else {
-        particle = emit_from_point(emitter, u_direction);
+        particle = emit_from_point(scene, emitter, u_direction);
     }
     particle.flux /= emitter->probability;
     return particle;

@@ -23,16 +23,24 @@ typedef struct LightSample {
     uint is_delta;
 } LightSample;
 
-inline LightSample sample_delta(const global Emitter* emitter, float3 x) {
+inline LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
     LightSample sample;
+    sample.pdf = 1.0f;
+    sample.is_delta = 1;
+    if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
+        sample.direction = -load3(emitter->direction);
+        sample.target = x;
+        sample.radiance = load3(emitter->radiance);
+        sample.infinite = 1;
+        return sample;
+    }
     sample.target = load3(emitter->position);
     const float3 to_light = sample.target - x;
     const float squared = dot(to_light, to_light);
     sample.direction = squared > 0.0f ? to_light * rsqrt(squared) : (float3)(0.0f, 0.0f, 1.0f);
-    sample.radiance = squared > 0.0f ? delta_intensity(emitter, -sample.direction) / squared : (float3)(0.0f);
-    sample.pdf = 1.0f;
+    sample.radiance =
+        squared > 0.0f ? delta_intensity(scene, emitter, -sample.direction) / squared : (float3)(0.0f);
     sample.infinite = 0;
-    sample.is_delta = 1;
     return sample;
 }
 
@@ -51,6 +59,18 @@ inline LightSample sample_area_light(const SceneView* scene, const global Emitte
     return sample;
 }
 
+/// A sample of no use.
+inline LightSample no_light(float3 x) {
+    LightSample sample;
+    sample.direction = (float3)(0.0f, 0.0f, 1.0f);
+    sample.target = x;
+    sample.radiance = (float3)(0.0f);
+    sample.pdf = 0.0f;
+    sample.infinite = 1;
+    sample.is_delta = 0;
+    return sample;
+}
+
 /// Light from the entry `index` of the table, with the density that it has once this light is chosen.
 inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
@@ -65,12 +85,12 @@ inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, 
         sample.is_delta = 0;
         return sample;
     }
-    return sample_delta(emitter, x);
+    return sample_delta(scene, emitter, x);
 }
 
 /// The delta light `index`, below exact_light_count().
 inline LightSample exact_light(const SceneView* scene, uint index, float3 x) {
-    return sample_delta(scene->emitters + index, x);
+    return sample_delta(scene, scene->emitters + index, x);
 }
 
 /// Whether some light is not summed exactly, so that sample_light() has something to choose from.
@@ -78,12 +98,15 @@ inline bool has_sampled_lights(const SceneView* scene) {
     return scene->info->emitter_count > exact_light_count(scene);
 }
 
-/// Light at x, whose surface has the normal n, from one of the lights that are not summed exactly; there must
-/// be one. A sample of no use has a black radiance, and its pdf may be 0.
+/// Light at x, whose surface has the normal n (zero: light counts from both sides), from one of the lights
+/// that are not summed exactly; there must be one. A sample of no use has a black radiance, and its pdf may
+/// be 0.
 inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, float2 choice, float2 u) {
-    (void)n;
     float probability;
-    const uint index = choose_light(scene, choice.x, &probability);
+    const uint index = choose_light(scene, x, n, choice.x, &probability);
+    if (index == ~0u) {
+        return no_light(x);
+    }
     LightSample sample = sample_emitter(scene, index, x, u);
     sample.pdf *= probability;
     return sample;
@@ -92,14 +115,13 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
 /// The density with which sample_light() at x picks the unit direction in which a ray from x met `hit`, or
 /// nothing (t < 0). It is 0 where sample_light() cannot pick it.
 inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direction, const SurfaceHit* hit) {
-    (void)n;
     if (scene->info->emitter_count == 0) {
         return 0.0f;
     }
     if (hit->t < 0.0f) {
         const uint last = scene->info->emitter_count - 1;
         return scene->emitters[last].type == NEARLIGHT_EMITTER_ENVIRONMENT
-                   ? choice_probability(scene, last) * environment_pdf(scene, direction)
+                   ? choice_probability(scene, last, x, n) * environment_pdf(scene, direction)
                    : 0.0f;
     }
     const float cosine = -dot(hit->geometric, direction);
@@ -107,9 +129,9 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
         return 0.0f;
     }
     const uint index = emitter_of_triangle(scene, hit->triangle);
-    return index == ~0u
-               ? 0.0f
-               : choice_probability(scene, index) * triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
+    return index == ~0u ? 0.0f
+                        : choice_probability(scene, index, x, n) *
+                              triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
 }
 
 inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {
