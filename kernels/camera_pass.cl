@@ -7,7 +7,8 @@
 // tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers. At the first surface
 // with two ways on (D and S, or glass), branch 0 takes D or the refraction and branch 1 S or the reflection,
 // each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
-// chance. Branch 1 of a sample that never divides is absent. One work-item for each sample, with all its
+// chance. Branch 1 of a sample that never divides is absent. A path of little weight gets no receiver: it is
+// traced to its end, and its light is added up in CameraVertex. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/camera.cl"
@@ -20,6 +21,7 @@
 typedef struct CameraPath {
     PathRay ray;
     float3 emitted;
+    float3 traced;   // indirect light of a path that is traced to its end
     uint key;        // key of the random sequence
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
     float t_min;     // where the first surface may lie on the ray
@@ -132,6 +134,8 @@ inline CameraReceiver absent_receiver(void) {
     receiver.vertex.flags = 0;
     receiver.vertex.emitted = store3((float3)(0.0f));
     receiver.vertex.filter_weight = 0.0f;
+    receiver.vertex.traced = store3((float3)(0.0f));
+    receiver.vertex.pad0 = 0.0f;
     return receiver;
 }
 
@@ -152,7 +156,7 @@ inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint s
     path.ray.pdf = 0.0f;
     path.t_min = ray.t_min;
     path.t_max = ray.t_max;
-    path.emitted = (float3)(0.0f);
+    path.emitted = path.traced = (float3)(0.0f);
     path.undivided = branch_count > 1;
     path.filter_weight = film.weight;
     path.flags = film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
@@ -174,7 +178,19 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
 typedef struct CameraLimits {
     uint max_edges;      // from the camera to a light; 1 sees lights themselves only
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
+    float min_weight;    // paths of less weight than this are traced to their ends, without a receiver
 } CameraLimits;
+
+/// Traces a path of little weight to its end: a receiver would cost as much as one that fills the pixel. At
+/// most `max_edges` edges are left to a light.
+inline void trace_to_end(const SceneView* scene, CameraPath* path, uint max_edges, uint key) {
+    const SurfaceHit hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
+    path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
+    if (hit.t >= 0.0f) {
+        path->traced += continued_light(scene, path->ray, hit, 1.0f, max_edges,
+                                        random_uint4((uint4)(path->key, key, 0x7ace5u, 0x3u)));
+    }
+}
 
 inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
     return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
@@ -241,10 +257,15 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
         if (way != WAY_ON) {
             break;
         }
+        if (luminance(path->ray.throughput) < limits->min_weight) {
+            trace_to_end(scene, path, limits->max_edges - step - 1, step);
+            break;
+        }
         // A pane that does not turn the path hides no less than air does, as in Mitsuba.
         sees_sky = sees_sky || any(path->ray.direction != straight);
     }
     receiver.vertex.emitted = store3(path->emitted);
+    receiver.vertex.traced = store3(path->traced);
     return receiver;
 }
 
@@ -253,6 +274,7 @@ inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));
     receiver->vertex.emitted = store3((float3)(0.0f));
+    receiver->vertex.traced = store3((float3)(0.0f));
     receiver->normal = (float3)(0.0f);
 }
 
@@ -271,7 +293,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
-                        uint branch_count, uint max_edges, uint light_samples, uint seed,
+                        uint branch_count, uint max_edges, uint light_samples, float min_weight, uint seed,
                         global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -287,7 +309,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, branch_count, seed);
-    const CameraLimits limits = {max_edges, light_samples};
+    const CameraLimits limits = {max_edges, light_samples, min_weight};
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;

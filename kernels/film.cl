@@ -54,7 +54,8 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         const float3 response = weight * reflectance / M_PI_F;
         add_to_sum(pixel + NEARLIGHT_SUM_DIRECT,
                    weight * load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
-        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * (irradiance_of(gathered + packet, lane) +
+        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
+                   weight * load3(vertex.traced) + response * (irradiance_of(gathered + packet, lane) +
                                                                irradiance_of(indirect + packet, lane)));
         // Only light has the filter's weights. Surfaces are averaged over where the samples lie, so that no
         // layer of them overshoots where the filter is negative.

@@ -63,7 +63,9 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
                                         .albedo = color(),
                                         .flags = random.next() % 4,
                                         .emitted = color(),
-                                        .filter_weight = 2.0f * random.uniform() - 0.5f});
+                                        .filter_weight = 2.0f * random.uniform() - 0.5f,
+                                        .traced = color(),
+                                        .pad0 = 0.0f});
         }
     }
     return samples;
@@ -86,9 +88,11 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const double weight = vertex.filter_weight;
             const double direct = weight * (channel(vertex.emitted, axis) +
                                             reflectance / kPi * (&samples.direct[packet].r[0])[at]);
-            const double indirect = weight * reflectance / kPi *
-                                    (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
-                                     static_cast<double>((&samples.indirect[packet].r[0])[at]));
+            const double indirect =
+                weight * (channel(vertex.traced, axis) +
+                          reflectance / kPi *
+                              (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
+                               static_cast<double>((&samples.indirect[packet].r[0])[at])));
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
             out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
             out[NEARLIGHT_LAYER_BEAUTY + c] =

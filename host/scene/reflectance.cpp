@@ -85,7 +85,7 @@ Vec3 base_color(const Point& at) {
     if (m.model == NEARLIGHT_BSDF_PRINCIPLED) {
         const float thin_share = (m.flags & NEARLIGHT_MATERIAL_THIN) != 0 ? 1.0f : 0.0f;
         return rho * ((1.0f - at.number(m.metallic)) * (1.0f - at.number(m.spec_trans)) *
-                      (1.0f - thin_share * 0.5f * std::clamp(at.color(m.transmission).x, 0.0f, 2.0f)));
+                      (1.0f - thin_share * std::clamp(at.color(m.transmission).x, 0.0f, 1.0f)));
     }
     if (m.model != NEARLIGHT_BSDF_PLASTIC) {
         return {0, 0, 0};

@@ -6,6 +6,10 @@
 namespace nearlight::core {
 namespace {
 
+/// Reflections that weigh less than this get no receiver. A receiver asks all VPLs, and reflections lie
+/// scattered, so that theirs cost most; the noise of a traced path weighs as little as the reflection does.
+constexpr float kMinReceiverWeight = 0.2f;
+
 /// The part of `per_pixel` that each camera sample takes, at least 1.
 uint per_sample(uint per_pixel, const GatherSettings& settings) {
     return std::max(1u, (per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
@@ -143,6 +147,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
         };
         batches[i].max_depth = picture_.view.max_depth;
+        batches[i].min_weight = picture_.settings.compensate ? kMinReceiverWeight : 0.0f;
         batches[i].light_samples = per_sample(picture_.settings.direct_samples_per_pixel, picture_.settings);
         if (!add_batch(batches[i], row_count, batch_progress)) {
             return std::nullopt;

@@ -20,7 +20,7 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uin
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
                               band.first_tile_row, band.tile_row_count, band.first_sample, band.sample_count,
                               band.samples_per_pixel, band.branch_count, band.max_depth, band.light_samples,
-                              seed, receivers, vertices);
+                              band.min_weight, seed, receivers, vertices);
 }
 
 }  // namespace nearlight::core

@@ -19,6 +19,8 @@ struct CameraBand {
     /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
     /// part; at least 1.
     uint light_samples = 1;
+    /// Paths of less weight than this are traced to their ends and get no receiver; 0: all get one.
+    float min_weight = 0.0f;
 };
 
 /// The number of receiver packets in a band: tiles × samples × branches.

@@ -68,6 +68,7 @@
     OFFSET(GatherParams, has_curves)                \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, filter_weight)             \
+    OFFSET(CameraVertex, traced)                    \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \

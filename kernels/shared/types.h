@@ -300,6 +300,8 @@ typedef struct CameraVertex {
     uint flags;
     Vec3 emitted;         // radiance of lights and environment seen on the way
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
+    Vec3 traced;          // indirect radiance of a path that was traced to its end, without a receiver
+    float pad0;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
 #define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel
@@ -356,7 +358,7 @@ NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1792);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
-NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
+NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 32);
 }  // namespace nearlight::core

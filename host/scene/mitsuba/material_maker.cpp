@@ -360,7 +360,9 @@ Material MaterialMaker::make_principled(const Object& bsdf) {
     }
     if (bsdf.type == "principledthin") {
         material.flags |= NEARLIGHT_MATERIAL_THIN;
+        // Mitsuba counts diffuse transmission from 0 to 2, of which half is the share of light.
         material.transmission = textures_.number(bsdf, "diff_trans", 0.0f, {0.0f, 2.0f});
+        material.transmission.value *= 0.5f;
     } else {
         material.metallic = number("metallic");
         material.clearcoat = number("clearcoat");
