@@ -36,7 +36,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, 
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
     const LightSample light = sample_light(&scene, x, n, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
-    const SurfaceHit hit = trace_opaque(&scene, x, light.direction, INFINITY);
+    const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
     const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
                                       : emitted_radiance(&scene, &hit, light.direction);
     out[i] = (float4)(light.pdf, light_pdf(&scene, x, n, light.direction, &hit), found.y / light.radiance.y,
@@ -55,14 +55,14 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, 
     }
     const SceneView scene = SCENE_VIEW;
     const float3 direction = square_to_cone(sample_2d(i, 0, 9), -1.0f);
-    const SurfaceHit hit = trace_opaque(&scene, position.xyz, direction, INFINITY);
+    const SurfaceHit hit = trace_surface(&scene, position.xyz, direction, INFINITY);
     out[i] = light_pdf(&scene, position.xyz, normal.xyz, direction, &hit);
 }
 )";
 
 /// Irradiance by light samples combined with cosine-distributed rays.
 constexpr const char* kCombinedProbe = R"(
-#include "lib/light/direct.cl"
+#include "lib/receiver_path.cl"
 kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_samples, uint rays, uint count,
                   global float4* out) {
     const uint i = (uint)get_global_id(0);
@@ -72,10 +72,11 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
     const SceneView scene = SCENE_VIEW;
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
-    float3 sum = direct_irradiance_mis(&scene, x, n, light_samples, rays, i);
+    const ReceiverPoint at = {x, n, 0};
+    float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, i);
     for (uint ray = 0; ray < rays; ++ray) {
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
-        const SurfaceHit hit = trace_opaque(&scene, x, direction, INFINITY);
+        const SurfaceHit hit = trace_surface(&scene, x, direction, INFINITY);
         const float3 found = hit.t < 0.0f ? environment_radiance(&scene, direction)
                                           : emitted_radiance(&scene, &hit, direction);
         const float own = (float)rays * dot(n, direction) * M_1_PI_F;
@@ -91,7 +92,7 @@ Scene lamps_and_sky(bool with_sky) {
     Scene scene;
     const auto lamp = [&](Vec3 radiance) {
         Material material = lambertian({0.5f, 0.5f, 0.5f});
-        material.emission = radiance;
+        material.emission = parameter_of(radiance);
         return add_material(scene, material);
     };
     add_quad(scene, {-0.5f, -0.5f, 2}, {0, 1, 0}, {1, 0, 0}, lamp({3, 6, 9}));         // above, faces down
@@ -115,7 +116,7 @@ Scene hall_of_lamps() {
     std::array<uint, 3> lamps{};
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         Material lamp = lambertian({0, 0, 0});
-        lamp.emission = Vec3{1, 0.9f, 0.8f} * (10.0f * static_cast<float>(1 + 2 * i));
+        lamp.emission = parameter_of(Vec3{1, 0.9f, 0.8f} * (10.0f * static_cast<float>(1 + 2 * i)));
         lamps[i] = add_material(scene, lamp);
     }
     for (int i = 0; i < 200; ++i) {

@@ -126,7 +126,7 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
 
         Scene lamp;
         Material emissive = lambertian({0, 0, 0});
-        emissive.emission = {4, 4, 4};
+        emissive.emission = parameter_of(Vec3{4, 4, 4});
         add_quad(lamp, {-0.2f, 0, 0}, {0.4f, 0, 0}, {0, 0, 0.5f}, add_material(lamp, emissive));
         EXPECT_NEAR(emitted_power(device, lamp), kPi * 4 * 0.2, 0.001 * kPi);
     });
@@ -135,9 +135,7 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
 /// A white square of area A under a sky of radiance L on both sides: each side reflects π·L·A.
 TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
     Scene scene;
-    Material white = lambertian({1, 1, 1});
-    white.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, white));
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_two_sided(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 2, .height = 1, .radiance = {{3, 2, 1}, {3, 2, 1}}, .to_world = {}};
     on_each_ray_tree([&](Device& device) {
         const auto vpls = trace_all(

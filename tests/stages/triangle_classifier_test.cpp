@@ -21,7 +21,9 @@ struct Result {
 };
 
 Result classify(Device& device, const std::vector<Corners>& corners, const CloseRange& region,
-                const Material& material = {}) {
+                uint material_flags = NEARLIGHT_MATERIAL_DIFFUSE_FRONT) {
+    Material material{};
+    material.flags = material_flags;
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
     for (const Corners& t : corners) {
@@ -87,15 +89,15 @@ TEST_F(TriangleClassifierTest, AreaIsThatOfTheWholeTriangle) {
     });
 }
 
-TEST_F(TriangleClassifierTest, GlassIsLeftOut) {
+TEST_F(TriangleClassifierTest, WhatHasNoLambertianPartIsLeftOut) {
     on_each_device([](Device& device) {
         const std::vector<Corners> corners{{{-0.5f, 0, 2}, {0.5f, 0, 2}, {0, 0.5f, 2}}};
-        for (const uint lobe : {NEARLIGHT_LOBE_NONE, NEARLIGHT_LOBE_COAT, NEARLIGHT_LOBE_CONDUCTOR,
-                                NEARLIGHT_LOBE_DIELECTRIC, NEARLIGHT_LOBE_THIN_DIELECTRIC}) {
-            Material material{};
-            material.lobe = lobe;
-            const bool glass = lobe == NEARLIGHT_LOBE_DIELECTRIC || lobe == NEARLIGHT_LOBE_THIN_DIELECTRIC;
-            EXPECT_EQ(classify(device, corners, square_region(3.0f), material).flags[0], glass ? 0u : 1u);
+        for (const uint other : {0u, NEARLIGHT_MATERIAL_BECKMANN | NEARLIGHT_MATERIAL_THIN}) {
+            for (const uint diffuse : {0u, NEARLIGHT_MATERIAL_DIFFUSE_FRONT, NEARLIGHT_MATERIAL_DIFFUSE_BACK,
+                                       NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK}) {
+                EXPECT_EQ(classify(device, corners, square_region(3.0f), other | diffuse).flags[0],
+                          diffuse != 0 ? 1u : 0u);
+            }
         }
     });
 }

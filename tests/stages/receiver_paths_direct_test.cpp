@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stages/direct_light.h"
+// Direct light, by light samples and by rays that meet lights.
+#include "host/stages/receiver_paths.h"
 
 #include <cmath>
 #include <cstring>
@@ -18,16 +19,44 @@ namespace {
 using namespace small_scenes;
 using test::SceneOnDevice;
 
-class DirectLightTest : public test::DeviceTest {};
+/// Of each receiver.
+struct Samples {
+    uint light = 1;
+    uint rays = 0;
+};
+/// Multiple importance sampling must not change the mean, however many rays there are for a light sample.
+constexpr Samples kManySamples[] = {{1024, 0}, {1024, 1024}, {256, 1024}, {2048, 512}};
+
+class ReceiverPathsDirectTest : public test::DeviceTest {
+  protected:
+    template <typename Check>
+    void on_each_sample_count(const Check& check) {
+        on_each_ray_tree([&](Device& device) {
+            for (const Samples& samples : kManySamples) {
+                SCOPED_TRACE(std::to_string(samples.light) + " samples, " + std::to_string(samples.rays) +
+                             " rays");
+                check(device, samples);
+            }
+        });
+    }
+};
 
 std::vector<IrradiancePacket> illuminate(Device& device, const Scene& scene,
-                                         const std::vector<ReceiverPacket>& receivers, uint samples,
+                                         const std::vector<ReceiverPacket>& receivers, const Samples& samples,
                                          uint seed = 1) {
     const SceneOnDevice on_device(device, scene);
     const Buffer<ReceiverPacket> input(device, receivers);
-    Buffer<IrradiancePacket> irradiance(device, receivers.size());
-    DirectLight(device).run(on_device.buffers, input, receivers.size(), samples, seed, irradiance);
-    return irradiance.download();
+    Buffer<IrradiancePacket> direct(device, receivers.size());
+    Buffer<IrradiancePacket> indirect(device, receivers.size());
+    ReceiverPaths(device).run(on_device.buffers, input, receivers.size(),
+                              {.light_samples = samples.light, .path_count = samples.rays, .seed = seed},
+                              direct, indirect);
+    for (const IrradiancePacket& packet : indirect.download()) {
+        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            EXPECT_TRUE(is_zero(irradiance_at(std::span(&packet, 1), lane))) << "paths have one edge";
+        }
+    }
+    return direct.download();
 }
 
 Vec3 random_vector(Pcg32& random) {
@@ -71,7 +100,7 @@ void add_spot(Scene& scene, Vec3 position, Vec3 axis, float beam, float cutoff) 
 }
 
 /// With sixteen delta lights, all are used, so the result is exact except at shadow edges.
-TEST_F(DirectLightTest, SixteenDeltaLightsAgreeWithEmbree) {
+TEST_F(ReceiverPathsDirectTest, SixteenDeltaLightsAgreeWithEmbree) {
     Scene scene = scattered_squares();
     const int bitmap = add_small_bitmap(scene);
     Pcg32 random(5);
@@ -97,7 +126,8 @@ TEST_F(DirectLightTest, SixteenDeltaLightsAgreeWithEmbree) {
     std::vector<IrradiancePacket> expected(receivers.size());
     direct_reference(EmbreeScene(scene), scene, receivers, expected, 1);
     on_each_ray_tree([&](Device& device) {
-        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 1);
+        // Rays cannot meet these lights.
+        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, {1, 2});
         std::size_t lit = 0;
         std::size_t different = 0;
         for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
@@ -110,7 +140,7 @@ TEST_F(DirectLightTest, SixteenDeltaLightsAgreeWithEmbree) {
     });
 }
 
-TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
+TEST_F(ReceiverPathsDirectTest, PointLightFollowsTheFormula) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     add_point_light(scene, {1, 2, 0}, {8, 4, 2});
@@ -120,7 +150,7 @@ TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
                                                         {{1, 0, 2}, {0, 1, 0}},
                                                         {{1, 0, 0}, {0, -1, 0}},
                                                         {{1, 0, 0}, {0, 0, 0}}}),
-                                  1);
+                                  {1, 0});
         EXPECT_NEAR(irradiance_at(e, 0).x, 2.0f, 1e-5f);                           // 8 / 2²
         EXPECT_NEAR(irradiance_at(e, 1).y, 4.0f / 8.0f * std::sqrt(0.5f), 1e-5f);  // 45°, r² = 8
         EXPECT_TRUE(is_zero(irradiance_at(e, 2)) && is_zero(irradiance_at(e, 3)));
@@ -128,7 +158,7 @@ TEST_F(DirectLightTest, PointLightFollowsTheFormula) {
 }
 
 /// A plane across the axis of a projector is evenly lit inside its image, and not at all outside.
-TEST_F(DirectLightTest, ProjectorLightsAPlaneEvenly) {
+TEST_F(ReceiverPathsDirectTest, ProjectorLightsAPlaneEvenly) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     add_projector(scene, {0, 0, 2}, {0, 0, -1}, 1.0f, 0.5f, {8, 4, 2}, -1);
@@ -141,14 +171,14 @@ TEST_F(DirectLightTest, ProjectorLightsAPlaneEvenly) {
     }
     points.push_back({{0, 0, 4}, {0, 0, -1}});  // behind
     on_each_ray_tree([&](Device& device) {
-        const auto e = illuminate(device, scene, test::pack_receivers(points), 1);
+        const auto e = illuminate(device, scene, test::pack_receivers(points), {1, 0});
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_NEAR(irradiance_at(e, i).x, i < 3 ? 2.0f : 0.0f, 1e-5f) << "receiver " << i;
         }
     });
 }
 
-TEST_F(DirectLightTest, SpotFallsOffLinearlyInTheAngle) {
+TEST_F(ReceiverPathsDirectTest, SpotFallsOffLinearlyInTheAngle) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     add_spot(scene, {0, 0, 0}, {0, 0, 1}, 20, 40);
@@ -161,7 +191,7 @@ TEST_F(DirectLightTest, SpotFallsOffLinearlyInTheAngle) {
         expected.push_back(3.0f / 4.0f * std::clamp((40 - degrees) / 20, 0.0f, 1.0f));
     }
     on_each_ray_tree([&](Device& device) {
-        const auto e = illuminate(device, scene, test::pack_receivers(points), 1);
+        const auto e = illuminate(device, scene, test::pack_receivers(points), {1, 0});
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_NEAR(irradiance_at(e, i).y, expected[i], 2e-5f) << "receiver " << i;
         }
@@ -196,15 +226,15 @@ double lamp_irradiance(Vec3 x, Vec3 corner, float side, double radiance) {
     return sum * step * step * radiance;
 }
 
-TEST_F(DirectLightTest, AreaLightAgreesWithQuadrature) {
+TEST_F(ReceiverPathsDirectTest, AreaLightAgreesWithQuadrature) {
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {3, 6, 9};
+    lamp.emission = parameter_of(Vec3{3, 6, 9});
     const Vec3 corner{-0.5f, 0.2f, 0.8f};
     add_quad(scene, corner, {0, 1.5f, 0}, {1.5f, 0, 0}, add_material(scene, lamp));  // faces −Z
     const std::vector<ReceiverPoint> points = cluster();
-    on_each_ray_tree([&](Device& device) {
-        const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
+    on_each_sample_count([&](Device& device, const Samples& samples) {
+        const auto e = illuminate(device, scene, test::pack_receivers(points), samples);
         double ratio = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double expected = lamp_irradiance(points[i].position, corner, 1.5f, 6);
@@ -216,7 +246,7 @@ TEST_F(DirectLightTest, AreaLightAgreesWithQuadrature) {
     });
 }
 
-TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
+TEST_F(ReceiverPathsDirectTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
     for (const int size : {1, 8}) {
         Scene scene;
         add_quad(scene, {-9, -9, -0.01f}, {18, 0, 0}, {0, 18, 0}, add_material(scene, lambertian({1, 1, 1})));
@@ -226,8 +256,8 @@ TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
             .radiance = std::vector<Vec3>(static_cast<std::size_t>(2 * size * size), {0.5f, 1, 2}),
             .to_world = rotation(1, 2, 3, 40)};
         const std::vector<ReceiverPoint> points = cluster();
-        on_each_ray_tree([&](Device& device) {
-            const auto e = illuminate(device, scene, test::pack_receivers(points), 1024);
+        on_each_sample_count([&](Device& device, const Samples& samples) {
+            const auto e = illuminate(device, scene, test::pack_receivers(points), samples);
             double mean = 0;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 EXPECT_NEAR(irradiance_at(e, i).y, kPi, 0.03 * kPi);
@@ -239,15 +269,15 @@ TEST_F(DirectLightTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
 }
 
 /// Only the top half of the environment shines, so a receiver that faces the horizon gets half of π·L.
-TEST_F(DirectLightTest, HalfASkyGivesHalf) {
+TEST_F(ReceiverPathsDirectTest, HalfASkyGivesHalf) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 1, .height = 2, .radiance = {{2, 2, 2}, {0, 0, 0}}, .to_world = {}};
-    on_each_ray_tree([&](Device& device) {
+    on_each_sample_count([&](Device& device, const Samples& samples) {
         const auto e = illuminate(
             device, scene,
             test::pack_receivers({{{0, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {0, -1, 0}}, {{0, 0, 0}, {0, 0, 1}}}),
-            4096);
+            {4 * samples.light, 4 * samples.rays});
         EXPECT_NEAR(irradiance_at(e, 0).x, 2 * kPi, 0.02f * kPi);
         EXPECT_EQ(irradiance_at(e, 1).x, 0.0f);
         EXPECT_NEAR(irradiance_at(e, 2).x, kPi, 0.02f * kPi);
@@ -255,7 +285,7 @@ TEST_F(DirectLightTest, HalfASkyGivesHalf) {
 }
 
 /// More than sixteen lights are chosen at random, with the same mean.
-TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
+TEST_F(ReceiverPathsDirectTest, ManyPointLightsAgreeInMean) {
     Scene scene = scattered_squares();
     Pcg32 random(7);
     for (int i = 0; i < 40; ++i) {
@@ -266,7 +296,7 @@ TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
     std::vector<IrradiancePacket> expected(receivers.size());
     direct_reference(EmbreeScene(scene), scene, receivers, expected, 1);
     on_each_ray_tree([&](Device& device) {
-        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, 2048);
+        const std::vector<IrradiancePacket> found = illuminate(device, scene, receivers, {2048, 16});
         double want = 0;
         double have = 0;
         for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
@@ -281,10 +311,10 @@ TEST_F(DirectLightTest, ManyPointLightsAgreeInMean) {
 
 /// Compares the mean under lamp, sky and point lights with the reference's estimator, which samples
 /// differently.
-TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
+TEST_F(ReceiverPathsDirectTest, AllKindsOfLightTogetherAgreeWithTheReference) {
     Scene scene = scattered_squares();
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {3, 6, 9};
+    lamp.emission = parameter_of(Vec3{3, 6, 9});
     add_quad(scene, {-0.5f, 0.2f, 1.5f}, {0, 0.5f, 0}, {0.5f, 0, 0}, add_material(scene, lamp));
     add_point_light(scene, {1, 1, 2}, {1, 1, 1});
     scene.environment = {
@@ -307,8 +337,8 @@ TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
                     kSamples;
         }
     }
-    on_each_ray_tree([&](Device& device) {
-        const auto found = illuminate(device, scene, test::pack_receivers(points), 1024);
+    on_each_sample_count([&](Device& device, const Samples& samples) {
+        const auto found = illuminate(device, scene, test::pack_receivers(points), samples);
         double have = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             have += irradiance_at(found, i).y;
@@ -317,25 +347,25 @@ TEST_F(DirectLightTest, AllKindsOfLightTogetherAgreeWithTheReference) {
     });
 }
 
-TEST_F(DirectLightTest, PacketsDoNotKnowOfEachOther) {
+TEST_F(ReceiverPathsDirectTest, PacketsDoNotKnowOfEachOther) {
     Scene scene = scattered_squares();
     scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
     const std::vector<ReceiverPacket> receivers = random_receivers(500);
     on_each_ray_tree([&](Device& device) {
-        const std::vector<IrradiancePacket> all = illuminate(device, scene, receivers, 4);
+        const std::vector<IrradiancePacket> all = illuminate(device, scene, receivers, {4, 4});
         for (const std::size_t p : {std::size_t{0}, receivers.size() - 1}) {
-            const auto alone = illuminate(device, scene, {receivers[p]}, 4);
+            const auto alone = illuminate(device, scene, {receivers[p]}, {4, 4});
             EXPECT_EQ(std::memcmp(alone.data(), &all[p], sizeof(IrradiancePacket)), 0);
         }
         EXPECT_TRUE(is_zero(irradiance_at(all, 6)));  // an absent receiver
-        const auto other_seed = illuminate(device, scene, receivers, 4, 2);
+        const auto other_seed = illuminate(device, scene, receivers, {4, 4}, 2);
         EXPECT_NE(std::memcmp(other_seed.data(), all.data(), sizeof(IrradiancePacket)), 0);
     });
 }
 
-TEST_F(DirectLightTest, WithoutLightsItIsDark) {
+TEST_F(ReceiverPathsDirectTest, WithoutLightsItIsDark) {
     on_each_ray_tree([](Device& device) {
-        const auto e = illuminate(device, scattered_squares(), random_receivers(64), 4);
+        const auto e = illuminate(device, scattered_squares(), random_receivers(64), {4, 4});
         for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
             EXPECT_TRUE(is_zero(irradiance_at(e, i)));
         }
