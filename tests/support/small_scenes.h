@@ -113,7 +113,8 @@ inline void add_directional_light(Scene& scene, Vec3 direction, Vec3 irradiance)
 
 /// Adds a bitmap of four texels, whose colours differ, and returns the texture's index.
 inline int add_small_bitmap(Scene& scene) {
-    scene.images.push_back({"four", 2, 2, {0xff0000ffu, 0xff00ff80u, 0xffff4020u, 0xff808080u}});
+    scene.images.push_back(
+        {"four", 2, 2, NEARLIGHT_TEXELS_SRGB8, {0xff0000ffu, 0xff00ff80u, 0xffff4020u, 0xff808080u}});
     SceneTexture bitmap;
     bitmap.parameters.kind = NEARLIGHT_TEXTURE_BITMAP;
     bitmap.parameters.u_scale = bitmap.parameters.v_scale = 1.0f;
