@@ -13,6 +13,7 @@
 #include "host/reference/gather_workload.h"
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
+#include "host/scene/material_model.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core::test {
