@@ -13,6 +13,7 @@
 #include "host/reference/gather_workload.h"
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
+#include "host/scene/material_model.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core::test {
@@ -235,7 +236,7 @@ TEST(FastestTracer, IsNoneThatIsWrongIfAnotherIsRight) {
 TEST(GatherWorkload, VplsOfASceneWithoutLampsLieOnItsSurfaces) {
     Scene scene = make_sphere_room(3'000);
     for (Material& material : scene.materials) {
-        material.emission = {0, 0, 0};
+        material.emission = parameter_of(0.0f);
     }
     const Bvh bvh = build_scene_bvh(scene);
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 200);

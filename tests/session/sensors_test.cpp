@@ -16,14 +16,16 @@ using namespace small_scenes;
 
 Material glowing(float radiance) {
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = Vec3{1, 1, 1} * radiance;
-    lamp.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    lamp.emission = parameter_of(radiance);
     return lamp;
 }
 
 /// A square across the view of a camera at the origin that looks along +Z, with its front to the camera.
+void add_screen(Scene& scene, float side, float z, uint material, float x = 0.0f) {
+    add_quad(scene, {x - side / 2, -side / 2, z}, {0, side, 0}, {side, 0, 0}, material);
+}
 void add_screen(Scene& scene, float side, float z, const Material& material, float x = 0.0f) {
-    add_quad(scene, {x - side / 2, -side / 2, z}, {0, side, 0}, {side, 0, 0}, add_material(scene, material));
+    add_screen(scene, side, z, add_material(scene, material), x);
 }
 
 float value(const Image& image, const char* channel, int x, int y) {
@@ -157,9 +159,7 @@ TEST_F(SensorsTest, ClipPlanesHideSurfacesFromTheCameraAlone) {
     Scene scene;
     const Material white = lambertian({0.5f, 0.5f, 0.5f});
     add_screen(scene, 8.0f, 4.0f, white);
-    Material plate = white;
-    plate.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    add_screen(scene, 4.0f, 1.0f, plate, 2.0f);
+    add_screen(scene, 4.0f, 1.0f, add_two_sided(scene, white), 2.0f);
     add_point_light(scene, {0, 0, 0.5f}, {10, 10, 10});
     scene.environment = {.width = 1, .height = 1, .radiance = {{3, 3, 3}}, .to_world = {}};
     scene.camera.width = scene.camera.height = 8;
@@ -191,15 +191,11 @@ TEST_F(SensorsTest, HiddenEmittersAreSeenInMirrorsOnly) {
     Scene scene;
     add_screen(scene, 4.0f, 1.0f, glowing(5.0f), 2.0f);
     add_quad(scene, {-10, -10, -3}, {20, 0, 0}, {0, 20, 0}, add_material(scene, glowing(7.0f)));
-    Material mirror = lambertian({0, 0, 0});
-    mirror.lobe = NEARLIGHT_LOBE_CONDUCTOR;
-    mirror.eta = {0, 0, 0};
-    mirror.k = {1e4f, 1e4f, 1e4f};
-    add_screen(scene, 4.0f, 2.0f, mirror, -2.0f);
+    add_screen(scene, 4.0f, 2.0f, conductor_material({0, 0, 0}, {1e4f, 1e4f, 1e4f}), -2.0f);
     scene.environment = {.width = 1, .height = 1, .radiance = {{3, 3, 3}}, .to_world = {}};
     scene.camera.width = scene.camera.height = 8;
     scene.camera.fov_x_degrees = 60;
-    scene.max_depth = 1;
+    scene.max_depth = 2;  // the mirror counts
     on_each_picture(scene, 4, [](const Image& image) {
         EXPECT_NEAR(value(image, "R", 1, 4), 5.0f, 1e-3f);
         EXPECT_NEAR(value(image, "R", 6, 4), 7.0f, 0.01f);

@@ -22,7 +22,7 @@ using namespace small_scenes;
 Scene lit_floor() {
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {5, 5, 6};
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
     const uint gray = add_material(scene, lambertian({0.6f, 0.6f, 0.6f}));
     add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, gray);
     add_quad(scene, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, gray);
