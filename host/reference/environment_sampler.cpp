@@ -20,7 +20,7 @@ double step_of(std::span<const float> cdf, uint i) {
 
 }  // namespace
 
-EnvironmentSampler::Sample EnvironmentSampler::sample(float row, Point2 place) const {
+Vec3 EnvironmentSampler::sample(float row, Point2 place) const {
     const Environment& parameters = table_.parameters;
     Pixel pixel;
     pixel.row = pick_entry(table_.row_cdf, row);
@@ -40,10 +40,9 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(float row, Point2 place) c
     const float sine = std::sqrt(std::max(0.0f, 1.0f - y * y));
     const Vec3 local{std::sin(azimuth) * sine, y, -std::cos(azimuth) * sine};
     const float* m = parameters.world_to_local;  // a rotation, so its transpose is its inverse
-    const Vec3 direction{m[0] * local.x + m[3] * local.y + m[6] * local.z,
-                         m[1] * local.x + m[4] * local.y + m[7] * local.z,
-                         m[2] * local.x + m[5] * local.y + m[8] * local.z};
-    return {direction, pixel_radiance(pixel), pixel_density(pixel)};
+    return {m[0] * local.x + m[3] * local.y + m[6] * local.z,
+            m[1] * local.x + m[4] * local.y + m[7] * local.z,
+            m[2] * local.x + m[5] * local.y + m[8] * local.z};
 }
 
 EnvironmentSampler::Pixel EnvironmentSampler::pixel_towards(Vec3 direction) const {
@@ -77,7 +76,24 @@ Vec3 EnvironmentSampler::pixel_radiance(Pixel pixel) const {
 }
 
 Vec3 EnvironmentSampler::radiance(Vec3 direction) const {
-    return exists() ? pixel_radiance(pixel_towards(direction)) : Vec3{0, 0, 0};
+    const Vec3 map = exists() ? pixel_radiance(pixel_towards(direction)) : Vec3{0, 0, 0};
+    return sun_density(direction) > 0.0 ? map + table_.parameters.sun_radiance : map;
+}
+
+double EnvironmentSampler::sun_density(Vec3 direction) const {
+    const Environment& parameters = table_.parameters;
+    const bool meets = length(direction - parameters.sun_direction) < parameters.sun_half_chord;
+    return meets ? 1.0 / (2.0 * std::numbers::pi * parameters.sun_height) : 0.0;
+}
+
+Vec3 EnvironmentSampler::sample_sun(Point2 place) const {
+    const double cosine = 1.0 - static_cast<double>(place.x) * table_.parameters.sun_height;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double azimuth = 2.0 * std::numbers::pi * place.y;
+    return normalize(
+        Frame(table_.parameters.sun_direction)
+            .to_world({static_cast<float>(sine * std::cos(azimuth)),
+                       static_cast<float>(sine * std::sin(azimuth)), static_cast<float>(cosine)}));
 }
 
 double EnvironmentSampler::density(Vec3 direction) const {

@@ -59,6 +59,12 @@ double spot_solid_angle(double beam, double cutoff) {
     return 2 * kPiD * (1 - mean_cosine);
 }
 
+/// 1 − cosine of the half angle under which the sun is seen.
+double sun_height(const EnvironmentLight& environment) {
+    const double sine = std::sin(0.5 * static_cast<double>(environment.sun_half_angle));
+    return 2.0 * sine * sine;
+}
+
 /// The mean of the light's image.
 Vec3 mean_image(const Scene& scene, const Emitter& emitter) {
     if (emitter.image == 0) {
@@ -90,6 +96,8 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
             return kPiD * emitter.area * radiance;
         case NEARLIGHT_EMITTER_DIRECTIONAL:
             return scene_disc * radiance;
+        case NEARLIGHT_EMITTER_SUN:
+            return scene_disc * emitter.area * radiance;
         case NEARLIGHT_EMITTER_PROJECTOR:
             return emitter.area * radiance;
         default:
@@ -112,6 +120,14 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
         emitter.triangle = static_cast<uint>(i);
         emitter.radiance = emission;
         emitter.area = triangle_area(scene, triangle);
+        emitters.push_back(emitter);
+    }
+    if (scene.environment.sun_half_angle > 0.0f) {
+        Emitter emitter{};
+        emitter.type = NEARLIGHT_EMITTER_SUN;
+        emitter.direction = -scene.environment.sun_direction;
+        emitter.radiance = scene.environment.sun_radiance;
+        emitter.area = static_cast<float>(2.0 * kPiD * sun_height(scene.environment));
         emitters.push_back(emitter);
     }
     if (scene.environment.width > 0) {
@@ -143,7 +159,8 @@ void add_distributions(const EnvironmentLight& environment, EnvironmentTable& ta
 }  // namespace
 
 bool is_delta_light(const Emitter& emitter) {
-    return emitter.type != NEARLIGHT_EMITTER_TRIANGLE && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT;
+    return emitter.type != NEARLIGHT_EMITTER_TRIANGLE && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT &&
+           emitter.type != NEARLIGHT_EMITTER_SUN;
 }
 
 EmitterTable build_emitter_table(const Scene& scene) {
@@ -178,6 +195,10 @@ EnvironmentTable build_environment_table(const Scene& scene) {
     const Sphere sphere = bounding_sphere(scene);
     parameters.scene_center = sphere.center;
     parameters.scene_radius = sphere.radius;
+    parameters.sun_direction = environment.sun_direction;
+    parameters.sun_radiance = environment.sun_radiance;
+    parameters.sun_height = static_cast<float>(sun_height(environment));
+    parameters.sun_half_chord = 2.0f * std::sin(0.5f * environment.sun_half_angle);
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {  // the inverse of a rotation is its transpose
             parameters.world_to_local[row * 3 + column] =

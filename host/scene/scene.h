@@ -45,6 +45,10 @@ struct EnvironmentLight {
     int height = 0;
     std::vector<Vec3> radiance;  ///< width·height, top row (+Y) first
     Mat4 to_world;               ///< rotation only
+    /// A sun in front of the map: a disc of even radiance. The angle is 0 if there is none.
+    Vec3 sun_direction{0, 0, 1};  ///< in the world, towards the sun
+    float sun_half_angle = 0.0f;  ///< radians
+    Vec3 sun_radiance{0, 0, 0};
 };
 
 struct SceneCamera {

@@ -47,6 +47,11 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.environment.height);
     hasher.add_array(scene.environment.radiance);
     hasher.add(scene.environment.to_world.m);
+    if (scene.environment.sun_half_angle > 0.0f) {
+        hasher.add(scene.environment.sun_direction);
+        hasher.add(scene.environment.sun_half_angle);
+        hasher.add(scene.environment.sun_radiance);
+    }
 }
 
 }  // namespace

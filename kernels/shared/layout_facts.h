@@ -43,6 +43,7 @@
     OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
+    OFFSET(Environment, sun_radiance)               \
     SIZE(PinholeCamera)                             \
     OFFSET(PinholeCamera, step_y)                   \
     SIZE(Vpl)                                       \
