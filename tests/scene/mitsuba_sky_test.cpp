@@ -58,7 +58,8 @@ TEST(MitsubaSky, LoadedSunAndMap) {
     };
     const std::string high = "<vector name='sun_direction' value='1, 0.2, 0.8'/>";
     const EnvironmentLight light = load(high);
-    // Mitsuba divides by a solid angle that single precision knows to 0.3 % only; in its samples that cancels.
+    // Mitsuba divides by a solid angle that single precision knows to 0.3 % only; in its samples that
+    // cancels.
     expect_ratio(light.sun_radiance, {20980.871f, 16973.475f, 12067.017f}, 3e-3f);
     expect_near(light.sun_direction, normalize(Vec3{1, 0.2f, 0.8f}));
     // A sun of 4° has the power of the usual one.
