@@ -15,26 +15,30 @@ class EnvironmentSampler {
     /// The radius of the sphere around the scene, m.
     [[nodiscard]] float scene_radius() const { return table_.parameters.scene_radius; }
 
-    /// Radiance that arrives from the environment; `direction` is a unit vector that points towards it. The
-    /// nearest pixel counts; without an environment the radiance is 0. Longitude follows Mitsuba: in local
-    /// space the first column begins at −Z, and columns to the right turn towards +X.
+    /// Radiance that arrives from the environment; `direction` is a unit vector that points towards it. It
+    /// is interpolated between pixels where the map is, and the sun counts; without an environment the
+    /// radiance is 0. Longitude follows Mitsuba: in local space the first column begins at −Z, and columns to
+    /// the right turn towards +X.
     [[nodiscard]] Vec3 radiance(Vec3 direction) const;
     /// Density per steradian with which sample() chooses a direction; 0 without an environment.
     [[nodiscard]] double density(Vec3 direction) const;
+    /// Density per steradian with which sample_sun() chooses a direction; 0 beside the sun.
+    [[nodiscard]] double sun_density(Vec3 direction) const;
+    /// A direction that is uniform over the sun's disc.
+    [[nodiscard]] Vec3 sample_sun(Point2 place) const;
 
-    struct Sample {
-        Vec3 direction;
-        Vec3 radiance;
-        double density;  ///< per steradian
-    };
-    /// `row` and `place` are uniform in [0, 1). There must be an environment.
-    [[nodiscard]] Sample sample(float row, Point2 place) const;
+    /// A direction chosen by the tables. `row` and `place` are uniform in [0, 1). There must be an
+    /// environment.
+    [[nodiscard]] Vec3 sample(float row, Point2 place) const;
 
   private:
     struct Pixel {
         uint column = 0;
         uint row = 0;
     };
+    [[nodiscard]] Vec3 to_local(Vec3 direction) const;
+    [[nodiscard]] Vec3 map_radiance(Vec3 direction) const;
+    [[nodiscard]] Vec3 interpolated_radiance(Vec3 direction) const;
     [[nodiscard]] Pixel pixel_towards(Vec3 direction) const;
     [[nodiscard]] double pixel_density(Pixel pixel) const;
     [[nodiscard]] Vec3 pixel_radiance(Pixel pixel) const;

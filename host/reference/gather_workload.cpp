@@ -108,7 +108,8 @@ RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter&
 std::vector<Emitter> lamps(const EmitterTable& table) {
     std::vector<Emitter> result;
     for (const Emitter& emitter : table.emitters) {
-        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT && emitter.type != NEARLIGHT_EMITTER_DIRECTIONAL) {
+        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT && emitter.type != NEARLIGHT_EMITTER_DIRECTIONAL &&
+            emitter.type != NEARLIGHT_EMITTER_SUN) {
             result.push_back(emitter);
         }
     }

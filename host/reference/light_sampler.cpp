@@ -135,19 +135,22 @@ LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) c
                          [](double value, const Emitter& emitter) { return value < emitter.cdf; });
     const Emitter& emitter = found == lights.end() ? lights.back() : *found;
     LightPick pick;
-    if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+    if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter.type == NEARLIGHT_EMITTER_SUN) {
         // The part of the random number that the choice of the light left unused chooses the row.
         const double before = static_cast<double>(emitter.cdf) - static_cast<double>(emitter.probability);
         const double row = std::clamp((u - before) / emitter.probability, 0.0, 0x1.fffffep-1);
-        const EnvironmentSampler::Sample from = environment_.sample(static_cast<float>(row), random.place);
-        pick = {.direction = from.direction,
+        const Vec3 direction = emitter.type == NEARLIGHT_EMITTER_SUN
+                                   ? environment_.sample_sun(random.place)
+                                   : environment_.sample(static_cast<float>(row), random.place);
+        return {.direction = direction,
                 .target = position,
-                .radiance = from.radiance,
-                .density = from.density,
+                .radiance = environment_.radiance(direction),
+                .density = distant_density(direction),
                 .infinite = true,
                 .is_delta = false,
                 .can_be_met = true};
-    } else if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
+    }
+    if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         pick = triangle_pick(emitter, position, random.place);
     } else {
         pick = exact_light(scene_, emitter, position);
@@ -167,13 +170,24 @@ const Emitter* LightSampler::emitter_of_triangle(uint triangle) const {
     return is_found ? &*found : nullptr;
 }
 
+double LightSampler::distant_density(Vec3 direction) const {
+    double density = 0.0;
+    for (auto emitter = table_.emitters.rbegin(); emitter != table_.emitters.rend(); ++emitter) {
+        if (emitter->type == NEARLIGHT_EMITTER_SUN) {
+            density += choice_probability(*emitter) * environment_.sun_density(direction);
+        } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+            density += choice_probability(*emitter) * environment_.density(direction);
+        } else {
+            break;  // these two stand last in the table
+        }
+    }
+    return density;
+}
+
 double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHit& hit) const {
     (void)normal;
     if (hit.triangle == ~0u) {
-        const bool has_environment =
-            !table_.emitters.empty() && table_.emitters.back().type == NEARLIGHT_EMITTER_ENVIRONMENT;
-        return has_environment ? choice_probability(table_.emitters.back()) * environment_.density(direction)
-                               : 0.0;
+        return distant_density(direction);
     }
     const Emitter* emitter = emitter_of_triangle(hit.triangle);
     if (emitter == nullptr) {

@@ -78,6 +78,8 @@ class LightSampler {
     [[nodiscard]] std::array<Vec3, 3> corners_of(uint triangle) const;
     [[nodiscard]] Vec3 triangle_normal(uint triangle) const;
     [[nodiscard]] const Emitter* emitter_of_triangle(uint triangle) const;
+    /// Density with which sample() picks a direction in which nothing is met: that of the map and of the sun.
+    [[nodiscard]] double distant_density(Vec3 direction) const;
     /// Probability with which sample() chooses the emitter.
     [[nodiscard]] double choice_probability(const Emitter& emitter) const;
 

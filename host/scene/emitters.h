@@ -13,7 +13,7 @@ bool is_delta_light(const Emitter& emitter);
 
 struct EmitterTable {
     std::vector<Emitter>
-        emitters;  ///< delta lights, emissive triangles, then the environment; cdf ends at exactly 1
+        emitters;  ///< delta lights, emissive triangles, the sun, the environment; cdf ends at exactly 1
     std::vector<LightNode> light_tree;  ///< of the emissive triangles; empty if they are few (light_tree.h)
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W

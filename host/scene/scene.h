@@ -47,6 +47,13 @@ struct EnvironmentLight {
     int height = 0;
     std::vector<Vec3> radiance;  ///< width·height, top row (+Y) first
     Mat4 to_world;               ///< rotation only
+    /// Whether radiance is interpolated between pixels, as in Mitsuba's `envmap`: columns have their centres
+    /// at (i + 0.5)/width, and rows lie at θ = π·j/(height − 1). Otherwise it is constant over a pixel.
+    bool is_interpolated = false;
+    /// A sun in front of the map: a disc of even radiance. The angle is 0 if there is none.
+    Vec3 sun_direction{0, 0, 1};  ///< in the world, towards the sun
+    float sun_half_angle = 0.0f;  ///< radians
+    Vec3 sun_radiance{0, 0, 0};
 };
 
 enum class CameraKind { perspective, orthographic };

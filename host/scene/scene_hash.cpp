@@ -48,6 +48,14 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.environment.height);
     hasher.add_array(scene.environment.radiance);
     hasher.add(scene.environment.to_world.m);
+    if (scene.environment.is_interpolated) {
+        hasher.add(true);
+    }
+    if (scene.environment.sun_half_angle > 0.0f) {
+        hasher.add(scene.environment.sun_direction);
+        hasher.add(scene.environment.sun_half_angle);
+        hasher.add(scene.environment.sun_radiance);
+    }
 }
 
 void add_camera(Hasher& hasher, const SceneCamera& camera) {

@@ -46,6 +46,7 @@
     OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
+    OFFSET(Environment, sun_radiance)               \
     SIZE(Camera)                                    \
     OFFSET(Camera, step_y)                          \
     OFFSET(Camera, focus_distance)                  \

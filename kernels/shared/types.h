@@ -106,10 +106,11 @@ typedef struct Triangle {
 #define NEARLIGHT_EMITTER_ENVIRONMENT 3u
 #define NEARLIGHT_EMITTER_DIRECTIONAL 4u
 #define NEARLIGHT_EMITTER_PROJECTOR 5u
+#define NEARLIGHT_EMITTER_SUN 6u
 
 /// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
-/// then each emissive triangle, then the environment. An entry is chosen with `probability`, in proportion to
-/// its emitted power.
+/// then each emissive triangle, then the sun and the environment. An entry is chosen with `probability`, in
+/// proportion to its emitted power.
 ///
 /// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
 /// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
@@ -120,8 +121,8 @@ typedef struct Emitter {
     Vec3 direction;  // spot and projector: unit vector along the axis; directional: that of the light
     uint triangle;   // index into the triangle array
     Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
-                     // direction, W/m²; triangle: radiance; environment: mean radiance
-    float area;      // triangle: m²; projector: of its image at the distance 1
+                     // direction, W/m²; triangle, sun: radiance; environment: mean radiance
+    float area;      // triangle: m²; projector: of its image at the distance 1; sun: steradians
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
@@ -149,13 +150,18 @@ typedef struct LightNode {
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
-/// sampled through tables of the row and column distributions.
+/// sampled through tables of the row and column distributions. A sun, a disc of even radiance, may stand
+/// before the map.
 typedef struct Environment {
     float world_to_local[9];  // rotation matrix, row by row
     uint width, height;       // 0 × 0: no environment
     float scene_radius;       // radius of the sphere around the scene, m
     Vec3 scene_center;
-    float pad0;
+    float sun_height;      // 1 − cosine of the sun's half angle; 0: no sun
+    Vec3 sun_direction;    // unit vector to the sun, in the world
+    float sun_half_chord;  // length of the vector from that one to the rim
+    Vec3 sun_radiance;
+    uint interpolated;  // 1: radiance is interpolated between pixels; 0: it is constant over a pixel
 } Environment;
 
 /// Cells of a reconstruction filter's table, from the middle of the pixel to the filter's radius.
@@ -345,7 +351,7 @@ NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Emitter, 96);
 NEARLIGHT_CHECK_SHARED(LightNode, 64);
-NEARLIGHT_CHECK_SHARED(Environment, 64);
+NEARLIGHT_CHECK_SHARED(Environment, 96);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);

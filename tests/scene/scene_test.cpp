@@ -90,6 +90,8 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { s.delta_emitters[0].position.x = 1; },
         [](Scene& s) { s.delta_emitters[0].radiance.x = 1; },
         [](Scene& s) { s.delta_emitters[0].cutoff_angle = 1; },
+        [](Scene& s) { s.delta_emitters[0].image = 1; },
+        [](Scene& s) { s.environment.sun_half_angle = 0.1f; },
         [](Scene& s) { s.environment.radiance[0].x = 2; },
         [](Scene& s) { s.environment.to_world = rotation(0, 1, 0, 10); },
         [](Scene& s) { s.camera.to_world(0, 3) = 1e-9; },

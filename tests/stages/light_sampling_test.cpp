@@ -87,7 +87,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
 }
 )";
 
-/// Lamps above and beside the origin, some behind others, and a bright quarter of the sky.
+/// Lamps above and beside the origin, some behind others, and a sky with a bright part and a sun.
 Scene lamps_and_sky(bool with_sky) {
     Scene scene;
     const auto lamp = [&](Vec3 radiance) {
@@ -103,6 +103,9 @@ Scene lamps_and_sky(bool with_sky) {
         scene.environment = {.width = 4, .height = 2, .radiance = {}, .to_world = rotation(1, 2, 3, 50)};
         scene.environment.radiance.assign(8, {0.1f, 0.1f, 0.2f});
         scene.environment.radiance[1] = {5, 5, 4};
+        scene.environment.sun_direction = normalize(Vec3{1, -1, 2});
+        scene.environment.sun_half_angle = degrees_to_radians(4);
+        scene.environment.sun_radiance = {60, 50, 40};
     }
     return scene;
 }

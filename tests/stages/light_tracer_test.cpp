@@ -164,6 +164,27 @@ TEST_F(LightTracerTest, DirectionalLightIsWhatMeetsASquare) {
     });
 }
 
+TEST_F(LightTracerTest, SunIsWhatMeetsASquare) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, lambertian({1, 1, 1})));
+    scene.environment = {.width = 1,
+                         .height = 1,
+                         .radiance = {{0, 0, 0}},
+                         .to_world = {},
+                         .sun_direction = normalize(Vec3{-3, 0, 4}),
+                         .sun_half_angle = 0.01f,
+                         .sun_radiance = {1000, 5000, 2000}};
+    on_each_ray_tree([&](Device& device) {
+        double power = 0;
+        for (const Vpl& vpl : trace_all(
+                 device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7})) {
+            power += vpl.power.y;
+        }
+        const double irradiance = 5000 * std::numbers::pi * 1e-4;
+        EXPECT_NEAR(power, irradiance * 6 * 0.8, 0.01 * irradiance * 6);
+    });
+}
+
 TEST_F(LightTracerTest, BacksOfOneSidedSurfacesSwallowLight) {
     Scene scene;
     add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({1, 1, 1})));

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <vector>
 
 #include "host/base/math.h"
 #include "host/base/random.h"
@@ -72,12 +72,28 @@ std::array<double, 3> weights_of(const Corners& corners, Vec3 d) {
     return {a / (a + b + c), b / (a + b + c), c / (a + b + c)};
 }
 
+constexpr int kLevels = 3;
+
+/// The solid angles of the parts into which `kLevels` halvings of the edges cut the triangle.
+void collect_shares(const Corners& c, int level, std::vector<double>& shares) {
+    if (level == kLevels) {
+        shares.push_back(huilier(c));
+        return;
+    }
+    const Vec3 m0 = (c[1] + c[2]) * 0.5f;
+    const Vec3 m1 = (c[2] + c[0]) * 0.5f;
+    const Vec3 m2 = (c[0] + c[1]) * 0.5f;
+    collect_shares({c[0], m2, m1}, level + 1, shares);
+    collect_shares({m2, c[1], m0}, level + 1, shares);
+    collect_shares({m1, m0, c[2]}, level + 1, shares);
+    collect_shares({m0, m1, m2}, level + 1, shares);
+}
+
 /// Counts directions in the 64 parts into which three halvings of the edges cut the triangle, and compares
 /// them with the parts' shares of the solid angle by Pearson's chi².
 void expect_uniform(const Corners& corners, const std::vector<Vec3>& directions) {
     std::vector<double> shares;
     std::vector<std::size_t> order;
-    constexpr int kLevels = 3;
     std::vector<double> counts(64, 0.0);
     double outside = 0;
     for (const Vec3 direction : directions) {
@@ -101,20 +117,7 @@ void expect_uniform(const Corners& corners, const std::vector<Vec3>& directions)
         counts[part] += 1;
     }
     EXPECT_EQ(outside, 0);
-    const std::function<void(const Corners&, int)> cut = [&](const Corners& c, int level) {
-        if (level == kLevels) {
-            shares.push_back(huilier(c));
-            return;
-        }
-        const Vec3 m0 = (c[1] + c[2]) * 0.5f;
-        const Vec3 m1 = (c[2] + c[0]) * 0.5f;
-        const Vec3 m2 = (c[0] + c[1]) * 0.5f;
-        cut({c[0], m2, m1}, level + 1);
-        cut({m2, c[1], m0}, level + 1);
-        cut({m1, m0, c[2]}, level + 1);
-        cut({m0, m1, m2}, level + 1);
-    };
-    cut(corners, 0);
+    collect_shares(corners, 0, shares);
     const double total = huilier(corners);
     double chi2 = 0;
     int parts = 0;

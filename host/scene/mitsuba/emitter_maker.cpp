@@ -5,6 +5,7 @@
 
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/delta_light_maker.h"
+#include "host/scene/mitsuba/sky/sky_maker.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::mitsuba {
@@ -48,7 +49,8 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
                         error.setting());
         }
     }
-    light.to_world = rotation_of(emitter.transform("to_world"), emitter.where);
+    light.to_world = emitter.transform("to_world");
+    light.is_interpolated = light.width > 1 && light.height > 1;
     if (std::ranges::all_of(light.radiance, is_zero)) {
         notes.remark(*emitter.where.file, emitter.where.line, "the environment is black");
     }
@@ -64,17 +66,20 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
     }
     if (const std::optional<Emitter> light = make_delta_light(emitter, scene, textures, notes)) {
         scene.delta_emitters.push_back(*light);
-    } else if (emitter.type == "constant" || emitter.type == "envmap") {
+    } else if (emitter.type == "constant" || emitter.type == "envmap" || is_sky(emitter)) {
         if (scene.environment.width > 0) {
             fail(emitter.where, "a scene can have only one environment");
         }
         emitter.ignore({"cache", "gamma"});
-        scene.environment = make_environment(emitter, textures, notes);
+        scene.environment =
+            is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
+        scene.environment.to_world = rotation_of(scene.environment.to_world, emitter.where);
     } else if (emitter.type == "area") {
         fail(emitter.where, "an area light must be nested in a shape");
     } else {
         fail_unknown_type(emitter,
-                          "area (nested in a shape), point, spot, projector, directional, constant, envmap");
+                          "area (nested in a shape), point, spot, projector, directional, constant, envmap, "
+                          "sunsky, sky, sun");
     }
     emitter.report_unused(notes);
 }

@@ -44,12 +44,13 @@ typedef struct CdfRange {
 /// The part of the distribution that belongs to emissive triangles.
 inline CdfRange triangle_share(const SceneView* scene) {
     const uint delta_count = scene->info->delta_emitter_count;
-    const uint last = scene->info->emitter_count - 1;
+    uint end = scene->info->emitter_count;
+    while (end > delta_count && scene->emitters[end - 1].type != NEARLIGHT_EMITTER_TRIANGLE) {
+        --end;  // the environment and its sun
+    }
     CdfRange share;
     share.low = delta_count == 0 ? 0.0f : scene->emitters[delta_count - 1].cdf;
-    share.high = scene->emitters[last].type != NEARLIGHT_EMITTER_ENVIRONMENT ? 1.0f
-                 : last == 0                                                 ? 0.0f
-                                                                             : scene->emitters[last - 1].cdf;
+    share.high = end == 0 ? 0.0f : scene->emitters[end - 1].cdf;
     return share;
 }
 

@@ -31,7 +31,7 @@ inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, floa
         if (choice.y < 0.5f) {
             light.direction = to_world_frame(square_to_cosine_hemisphere(u), n);
             const uint2 pixel = environment_pixel(scene, light.direction);
-            light.radiance = scene->environment_pixels[pixel.y * scene->environment->width + pixel.x].xyz;
+            light.radiance = map_radiance(scene, light.direction);
             light.pdf = environment_pixel_pdf(scene, pixel);
         } else {
             light.direction = sample_environment(scene, u, &light.pdf, &light.radiance);

@@ -42,11 +42,19 @@ inline float entry_area(const SceneView* scene) {
     return M_PI_F * scene->environment->scene_radius * scene->environment->scene_radius;
 }
 
-inline EmittedParticle emit_from_environment(const SceneView* scene, float2 u_position, float2 u_direction) {
+inline EmittedParticle emit_from_environment(const SceneView* scene, bool is_sun, float2 u_position,
+                                             float2 u_direction) {
     EmittedParticle particle;
     float pdf;
     float3 radiance;
-    const float3 from = sample_environment(scene, u_direction, &pdf, &radiance);
+    float3 from;
+    if (is_sun) {
+        from = sample_sun(scene, u_direction);
+        radiance = load3(scene->environment->sun_radiance);
+        pdf = 1.0f / (2.0f * M_PI_F * scene->environment->sun_height);
+    } else {
+        from = sample_environment(scene, u_direction, &pdf, &radiance);
+    }
     particle.origin = entry_point(scene, from, u_position);
     particle.direction = -from;
     particle.flux = pdf > 0.0f ? radiance * (entry_area(scene) / pdf) : (float3)(0.0f);
@@ -97,8 +105,9 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         particle = emit_from_triangle(scene, emitter, u_position, u_direction);
-    } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-        particle = emit_from_environment(scene, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
+        particle =
+            emit_from_environment(scene, emitter->type == NEARLIGHT_EMITTER_SUN, u_position, u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
         particle = emit_from_direction(scene, emitter, u_position);
     } else if (emitter->type == NEARLIGHT_EMITTER_PROJECTOR) {

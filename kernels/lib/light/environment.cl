@@ -27,12 +27,65 @@ inline uint2 environment_pixel(const SceneView* scene, float3 direction) {
                    min((uint)(v * (float)height), height - 1));
 }
 
-inline float3 environment_radiance(const SceneView* scene, float3 direction) {
+inline float3 map_pixel(const SceneView* scene, uint column, uint row) {
+    return scene->environment_pixels[row * scene->environment->width + column].xyz;
+}
+
+/// Radiance of an interpolated map, as Mitsuba's `envmap` reads it: columns have their centres at (i +
+/// 0.5)/width and go around, and rows lie at i/(height − 1), the first and the last at the poles.
+inline float3 interpolated_radiance(const SceneView* scene, float3 direction) {
+    const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
+    const uint width = scene->environment->width;
+    const uint height = scene->environment->height;
+    const float u = atan2(d.x, -d.z) * (0.5f / M_PI_F);
+    const float x = (u - floor(u)) * (float)width + (float)width - 0.5f;
+    const float y = acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F * (float)(height - 1);
+    const uint column = (uint)x;
+    const uint row = min((uint)y, height > 1 ? height - 2 : 0);
+    const uint left = column % width;
+    const uint right = (column + 1) % width;
+    const uint below = min(row + 1, height - 1);
+    const float fx = x - (float)column;
+    return mix(mix(map_pixel(scene, left, row), map_pixel(scene, right, row), fx),
+               mix(map_pixel(scene, left, below), map_pixel(scene, right, below), fx), y - (float)row);
+}
+
+/// Radiance of the map alone, without a sun.
+inline float3 map_radiance(const SceneView* scene, float3 direction) {
     if (scene->environment->width == 0) {
         return (float3)(0.0f);
     }
+    if (scene->environment->interpolated) {
+        return interpolated_radiance(scene, direction);
+    }
     const uint2 pixel = environment_pixel(scene, direction);
-    return scene->environment_pixels[pixel.y * scene->environment->width + pixel.x].xyz;
+    return map_pixel(scene, pixel.x, pixel.y);
+}
+
+/// Whether a unit direction meets the sun. The chord tells small angles apart, which a cosine does not.
+inline bool meets_sun(const SceneView* scene, float3 direction) {
+    const float3 chord = direction - load3(scene->environment->sun_direction);
+    const float half_chord = scene->environment->sun_half_chord;
+    return dot(chord, chord) < half_chord * half_chord;
+}
+
+/// Density per steradian of sample_sun().
+inline float sun_pdf(const SceneView* scene, float3 direction) {
+    return meets_sun(scene, direction) ? 1.0f / (2.0f * M_PI_F * scene->environment->sun_height) : 0.0f;
+}
+
+/// A direction that is uniform over the sun's disc.
+inline float3 sample_sun(const SceneView* scene, float2 u) {
+    const float height = scene->environment->sun_height * u.x;
+    const float r = sqrt(height * (2.0f - height));
+    const float phi = 2.0f * M_PI_F * u.y;
+    return to_world_frame((float3)(r * cos(phi), r * sin(phi), 1.0f - height),
+                          load3(scene->environment->sun_direction));
+}
+
+inline float3 environment_radiance(const SceneView* scene, float3 direction) {
+    const float3 map = map_radiance(scene, direction);
+    return meets_sun(scene, direction) ? map + load3(scene->environment->sun_radiance) : map;
 }
 
 /// Density (per steradian) with which sample_environment() chooses directions inside a pixel. The cosine of
@@ -49,13 +102,13 @@ inline float environment_pixel_pdf(const SceneView* scene, uint2 pixel) {
 }
 
 /// Density with which sample_environment() chooses a direction; 0 without an environment.
-inline float environment_pdf(const SceneView* scene, float3 direction) {
+inline float map_pdf(const SceneView* scene, float3 direction) {
     return scene->environment->width == 0 ? 0.0f
                                           : environment_pixel_pdf(scene, environment_pixel(scene, direction));
 }
 
-/// A world direction, chosen by the tables. `pdf` gets its density (per steradian), and `radiance` what comes
-/// from there.
+/// A world direction, chosen by the tables. `pdf` gets its density (per steradian), and `radiance` what the
+/// map sends from there.
 inline float3 sample_environment(const SceneView* scene, float2 u, float* pdf, float3* radiance) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
@@ -73,9 +126,10 @@ inline float3 sample_environment(const SceneView* scene, float2 u, float* pdf, f
     const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));
     const float phi = 2.0f * M_PI_F * ((float)pixel.x + fx) / (float)width;
     *pdf = environment_pixel_pdf(scene, pixel);
-    *radiance = scene->environment_pixels[pixel.y * width + pixel.x].xyz;
-    return rotate_to_world(scene->environment->world_to_local,
-                           (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
+    const float3 direction = rotate_to_world(scene->environment->world_to_local,
+                                             (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
+    *radiance = map_radiance(scene, direction);
+    return direction;
 }
 
 #endif

@@ -71,15 +71,27 @@ inline LightSample no_light(float3 x) {
     return sample;
 }
 
+/// Whether the light is the environment's map or its sun, which share a direction: a sample of either brings
+/// the radiance of both, and has the density of both.
+inline bool is_distant(const global Emitter* emitter) {
+    return emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN;
+}
+
 /// Light from the entry `index` of the table, with the density that it has once this light is chosen.
 inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         return sample_area_light(scene, emitter, x, u);
     }
-    if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+    if (is_distant(emitter)) {
         LightSample sample;
-        sample.direction = sample_environment(scene, u, &sample.pdf, &sample.radiance);
+        if (emitter->type == NEARLIGHT_EMITTER_SUN) {
+            sample.direction = sample_sun(scene, u);
+            sample.radiance = load3(emitter->radiance);
+            sample.pdf = 1.0f / (2.0f * M_PI_F * scene->environment->sun_height);
+        } else {
+            sample.direction = sample_environment(scene, u, &sample.pdf, &sample.radiance);
+        }
         sample.target = x;
         sample.infinite = 1;
         sample.is_delta = 0;
@@ -98,6 +110,18 @@ inline bool has_sampled_lights(const SceneView* scene) {
     return scene->info->emitter_count > exact_light_count(scene);
 }
 
+/// Density with which sample_light() picks a direction in which nothing is met.
+inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction) {
+    float pdf = 0.0f;
+    for (uint index = scene->info->emitter_count; index > 0 && is_distant(scene->emitters + index - 1);
+         --index) {
+        const bool is_sun = scene->emitters[index - 1].type == NEARLIGHT_EMITTER_SUN;
+        pdf += choice_probability(scene, index - 1, x, n) *
+               (is_sun ? sun_pdf(scene, direction) : map_pdf(scene, direction));
+    }
+    return pdf;
+}
+
 /// Light at x, whose surface has the normal n (zero: light counts from both sides), from one of the lights
 /// that are not summed exactly; there must be one. A sample of no use has a black radiance, and its pdf may
 /// be 0.
@@ -109,6 +133,10 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
     }
     LightSample sample = sample_emitter(scene, index, x, u);
     sample.pdf *= probability;
+    if (is_distant(scene->emitters + index)) {
+        sample.radiance = environment_radiance(scene, sample.direction);
+        sample.pdf = distant_pdf(scene, x, n, sample.direction);
+    }
     return sample;
 }
 
@@ -119,10 +147,7 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
         return 0.0f;
     }
     if (hit->t < 0.0f) {
-        const uint last = scene->info->emitter_count - 1;
-        return scene->emitters[last].type == NEARLIGHT_EMITTER_ENVIRONMENT
-                   ? choice_probability(scene, last, x, n) * environment_pdf(scene, direction)
-                   : 0.0f;
+        return distant_pdf(scene, x, n, direction);
     }
     const float cosine = -dot(hit->geometric, direction);
     if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission.value))) {
