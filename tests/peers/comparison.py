@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One row: both renderers, the comparison of their pictures, and whether the row passes."""
+import os
+import shlex
+
+import numpy as np
+
+from agreement import compare
+from mitsuba_worker import MitsubaFailure
+from renderers import Mitsuba, Nearlight, NearlightFailure, NearlightRefusal
+
+
+class Comparison:
+    def __init__(self, arguments, version, worker):
+        out = os.path.abspath(arguments.out)
+        self._factor = arguments.clamp_radius_factor
+        self._scenes = os.path.join(out, 'scenes')
+        pictures = os.path.join(out, 'pictures')
+        os.makedirs(self._scenes, exist_ok=True)
+        os.makedirs(pictures, exist_ok=True)
+        self._mitsuba = Mitsuba(worker, version, os.path.join(out, 'mitsuba'), redo=arguments.redo)
+        self._nearlight = Nearlight(os.path.abspath(arguments.nearlight), worker, pictures, shlex.split(arguments.options))
+
+    def result(self, row):
+        from peers import Result
+        try:
+            theirs = self._mitsuba.pictures(self._path(row, row.text), row.spp, row.size)
+            return self._judged(row, theirs)
+        except NearlightRefusal as refusal:
+            return Result(row.name, 'refused', not row.supported, str(refusal))
+        except (NearlightFailure, MitsubaFailure) as failure:
+            return Result(row.name, 'failed', False, str(failure))
+
+    def _judged(self, row, theirs):
+        """Renders seed after seed until the pictures agree, or the seeds are used up."""
+        from peers import ROUNDS, Result
+        path = row.path or self._path(row, row.planted or row.text)
+        ours, options = None, []
+        for seeds in ROUNDS:
+            if ours is None and self._factor != 1:
+                options = self._clamp_options(path, row)
+            pictures, warnings, report = self._nearlight.pictures(path, row.name, seeds, row.size, options)
+            if pictures.shape[1:] != theirs.shape[1:]:
+                raise NearlightFailure(f'the picture has {pictures.shape[2]}x{pictures.shape[1]} blocks, Mitsuba\'s has {theirs.shape[2]}x{theirs.shape[1]}')
+            ours = pictures if ours is None else np.concatenate([ours, pictures])
+            agreement = compare(ours, theirs)
+            if agreement.verdict == 'agrees' or (agreement.verdict == 'deviates' and len(ours) > len(ROUNDS[0])):
+                break
+        expected = 'deviates' if row.planted else 'agrees'
+        note = '(planted)' if row.planted else ''
+        return Result(row.name, agreement.verdict, agreement.verdict == expected, note, warnings, agreement, report['clamp_radius'])
+
+    def _clamp_options(self, path, row):
+        """The option for a multiple of the radius that nearlight chooses for itself."""
+        _, _, report = self._nearlight.pictures(path, row.name, (1,), row.size)
+        return ['--clamp-radius', f'{report["clamp_radius"] * self._factor:g}']
+
+    def _path(self, row, text):
+        """The file of a scene. It is written anew only if it differs, as its text is all that matters."""
+        if row.path:
+            return row.path
+        wrong = '-wrong' if row.planted and text == row.planted else ''
+        path = os.path.join(self._scenes, row.name.replace('/', '__') + wrong + '.xml')
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+        return path

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Each emitter above the same stage."""
+from rows.row import table
+from scene_text import *
+
+DAY = dict(latitude=48.0, longitude=11.0, timezone=2.0, year=2020, month=6, day=21, hour=14.0)
+TO_SKY = transform(turn('x', -90))   # Mitsuba's skies have their zenith at +z
+
+
+def rows():
+    return table('emitters', {**_points(), **_areas(), **_skies()})
+
+
+def _lit(*lights, **options):
+    return scene(*stage(), *lights, **options)
+
+
+def _spot(*children, at=(1.2, 2.8, 2.5), **properties):
+    return emitter('spot', *children, to_world=transform(look(', '.join(map(str, at)), '0, 0.3, 0')), **properties)
+
+
+def _points():
+    return {
+        'point': (_lit(point_light()), dict(fast=True)),
+        'point-coloured': _lit(emitter('point', position=point(1, 2, 2), intensity=rgb(9, 4, 1))),
+        'point-to-world': _lit(emitter('point', to_world=transform(move(1, 2, 2)), intensity=rgb(9))),
+        'point-near-wall': _lit(emitter('point', position=point(0.9, 1.2, -1.2), intensity=rgb(3))),
+        'points-five': _lit(*(emitter('point', position=point(x, 1.8 + 0.2 * x, 1), intensity=rgb(3 + x, 3, 3 - x)) for x in (-2, -1, 0, 1, 2))),
+        'spot': (_lit(_spot(intensity=rgb(40))), dict(fast=True)),
+        'spot-wide': _lit(_spot(intensity=rgb(20), cutoff_angle=60.0, beam_width=5.0)),
+        'spot-hard-edge': _lit(_spot(intensity=rgb(40), cutoff_angle=18.0, beam_width=17.9)),
+        'spot-textured': _lit(_spot(bitmap_named('texture', 'slide.png'), intensity=rgb(60), cutoff_angle=25.0, beam_width=25.0)),
+        'projector': _lit(emitter('projector', to_world=transform(look('1.2, 2.2, 3', '0, 0.5, 0')), irradiance=bitmap('slide.png'), scale=60.0, fov=40.0)),
+        'projector-constant': _lit(emitter('projector', to_world=transform(look('1.2, 2.2, 3', '0, 0.5, 0')), irradiance=rgb(1, 0.8, 0.5), scale=40.0, fov=30.0)),
+        'directional': _lit(emitter('directional', direction=vector(-0.4, -1, -0.5), irradiance=rgb(2, 1.8, 1.5))),
+        'directional-to-world': _lit(emitter('directional', to_world=transform(look('1, 3, 2', '0, 0, 0')), irradiance=rgb(2))),
+        'directional-and-sky': _lit(emitter('directional', direction=vector(0.4, -1, -0.5), irradiance=rgb(2)), constant(0.3)),
+    }
+
+
+def bitmap_named(name, file, **properties):
+    return Element(bitmap(file, **properties).named(name))
+
+
+def _areas():
+    above = dict(to_world=transform(scale(0.4), turn('x', 90), move(0.8, 2.6, 1)))
+    return {
+        'area-rectangle': (_lit(lamp()), dict(fast=True)),
+        'area-rectangle-near': _lit(rectangle(area(4), diffuse(0), at=(0.3, 1.3, 0.2), size=0.6, turned=DOWN)),
+        'area-disk': _lit(shape('disk', area(14), **above)),
+        'area-sphere': _lit(shape('sphere', area(5), center=point(1, 2.4, 1), radius=0.4)),
+        'area-sphere-in-view': _lit(shape('sphere', area(3), center=point(0.8, 0.8, 0.8), radius=0.25)),
+        'area-cylinder': _lit(shape('cylinder', area(6), p0=point(-1, 2.4, 1), p1=point(1, 2.4, 1), radius=0.15)),
+        'area-cube': _lit(shape('cube', area(4), to_world=transform(scale(0.3), turn('y', 20), move(1, 2.4, 1)))),
+        'area-obj': _lit(mesh('ball.obj', area(5), to_world=transform(scale(0.4), move(1, 2.4, 1)))),
+        'area-ply': _lit(mesh('ball_flat.ply', area(5), to_world=transform(scale(0.4), move(1, 2.4, 1)))),
+        'area-mesh-many-triangles': _lit(mesh('fine_ball.obj', area(5), to_world=transform(scale(0.4), move(1, 2.4, 1)))),
+        'area-wave': _lit(mesh('wave.obj', area(8), to_world=transform(scale(0.6), turn('x', 90), move(0.5, 2.4, 1)))),
+        'area-textured': _lit(rectangle(emitter('area', radiance=bitmap('lamp.exr', raw=True)), diffuse(0), at=(0.4, 2.2, 0.8), size=0.7, turned=DOWN)),
+        'area-textured-in-view': _lit(rectangle(emitter('area', radiance=bitmap('slide.png')), diffuse(0), at=(0, 1.6, -1.2), size=0.7), lamp(3)),
+        'area-textured-sphere': _lit(shape('sphere', emitter('area', radiance=bitmap('lamp.exr', raw=True)), center=point(1, 2.4, 1), radius=0.4)),
+        'area-mirrored-by-scale': _lit(shape('rectangle', area(10), diffuse(0), to_world=transform(scale(0.5, 0.5, -0.5), turn('x', 90), move(0.8, 2.6, 1)))),
+        'area-cube-mirrored': _lit(shape('cube', area(4), to_world=transform(scale(0.3, 0.3, -0.3), move(1, 2.4, 1)))),
+        'area-sphere-mirrored': _lit(shape('sphere', area(4), to_world=transform(scale(-0.4, 0.4, 0.4), move(1, 2.4, 1)))),
+        'area-flipped': _lit(rectangle(area(10), diffuse(0), at=(0.8, 2.6, 1), size=0.5, turned=UP, flip_normals=True)),
+        'area-back-side': _lit(rectangle(area(10), diffuse(0.5), at=(0, 1.5, 0.3), size=0.3, turned=[turn('y', 180)]), point_light(2)),
+        'area-many': _lit(*(rectangle(area(6 + 3 * (i % 3)), diffuse(0), at=(-1.75 + 0.5 * (i % 8), 2.4, -0.5 + 0.5 * (i // 8)), size=0.05, turned=DOWN) for i in range(48))),
+        'area-without-bsdf': scene(*room(diffuse(0.5), rectangle(area(1), at=(0, 2.9, 0), size=1.5, turned=DOWN)), depth=6, camera=perspective(to_world=look('0, 1.5, 2.8', '0, 1.4, 0'))),
+        'area-reflects': _lit(rectangle(area(3), diffuse(0.8), at=(0, 1, -1.2), size=0.6), lamp(6)),
+        'area-weights': _lit(lamp(), rectangle(emitter('area', radiance=rgb(5), sampling_weight=0.1), diffuse(0), at=(-1, 2.2, 0.5), size=0.3, turned=DOWN)),
+        'directionalarea': (_lit(rectangle(emitter('directionalarea', radiance=rgb(2)), diffuse(0), at=(0.2, 2.6, 0.2), size=1, turned=DOWN)), dict(supported=False)),
+    }
+
+
+def _skies():
+    def sky(kind, **properties):
+        return emitter(kind, **{**dict(to_world=TO_SKY, turbidity=3.0, albedo=rgb(0.3)), **properties})
+    sun = vector(0.4, -0.5, 0.7)
+    return {
+        'constant': (_lit(constant()), dict(fast=True)),
+        'constant-coloured': _lit(emitter('constant', radiance=rgb(0.9, 0.5, 0.2))),
+        'envmap': (_lit(envmap()), dict(fast=True)),
+        'envmap-turned': _lit(envmap(to_world=transform(turn('y', 70)))),
+        'envmap-tilted': _lit(envmap(to_world=transform(turn('x', 40), turn('y', 200)))),
+        'envmap-scaled': _lit(envmap(scale=2.5)),
+        'envmap-mirrored': _lit(envmap(to_world=transform(scale(-1, 1, 1), turn('y', 30)))),
+        'envmap-sun': _lit(envmap('sunny.exr')),
+        'envmap-odd-size': _lit(envmap('odd.exr')),
+        'envmap-alone': scene(envmap('sky.exr')),
+        'envmap-and-point': _lit(envmap(), point_light()),
+        'envmap-through-window': scene(*room(diffuse(0.6)), envmap(), depth=6, camera=perspective(to_world=look('0, 1.5, 2.8', '0, 1.4, 0'))) .replace('<translate x="2" y="1.5" z="0"/>', '<translate x="2" y="5" z="0"/>'),
+        'sky': _lit(sky('sunsky', sun_scale=0.0, sun_direction=sun)),
+        'sun': _lit(sky('sunsky', sky_scale=0.0, sun_direction=sun)),
+        'sunsky': _lit(sky('sunsky', sun_direction=sun)),
+        'sunsky-low-sun': _lit(sky('sunsky', sun_direction=vector(0.5, -0.8, 0.12))),
+        'sunsky-hazy': _lit(sky('sunsky', sun_direction=sun, turbidity=8.0, albedo=rgb(0.1, 0.4, 0.2))),
+        'sunsky-large-sun': _lit(sky('sunsky', sun_direction=sun, sun_aperture=5.0)),
+        'sunsky-complex-sun': _lit(sky('sunsky', sun_direction=sun, complex_sun=True)),
+        'sunsky-place-and-time': _lit(sky('sunsky', **DAY)),
+        'sunsky-turned': _lit(sky('sunsky', sun_direction=sun, to_world=transform(turn('x', -90), turn('y', 120)))),
+        'timed-sunsky': (_lit(sky('timed_sunsky', latitude=48.0, longitude=11.0, timezone=2.0, start_year=2020, start_month=6, start_day=21, end_year=2020, end_month=6, end_day=22)), dict(supported=False)),
+    }

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sensors, films and reconstruction filters before the same lit stage."""
+from rows.row import table
+from scene_text import *
+
+
+def rows():
+    return table('sensors', _sensors()) + table('films', _films())
+
+
+def _seen(camera, *more):
+    """A textured floor and a small box show where each pixel looks."""
+    things = (floor(bsdf('diffuse', reflectance=texture('checkerboard', to_uv=transform(scale(16)), color0=rgb(0.2, 0.3, 0.4), color1=rgb(0.7, 0.6, 0.4)))),
+              wall(), box(diffuse(0.6, 0.3, 0.2)))
+    return scene(*things, point_light(), *more, camera=camera, depth=3)
+
+
+def _sensors():
+    lens = dict(to_world=transform(VIEW), fov=42.0)
+    fov = {f'perspective-fov-{axis}': _seen(perspective(fov=35.0, fov_axis=axis)) for axis in ('x', 'y', 'diagonal', 'smaller', 'larger')}
+    return {
+        **fov,
+        'perspective-fov-smaller-portrait': _seen(perspective(fov=35.0, fov_axis='smaller', the_film=picture(width=48, height=64))),
+        'perspective-fov-larger-portrait': _seen(perspective(fov=35.0, fov_axis='larger', the_film=picture(width=48, height=64))),
+        'perspective-focal-length': _seen(sensor('perspective', picture(), to_world=transform(VIEW), focal_length='40mm')),
+        'perspective-principal-point': _seen(perspective(principal_point_offset_x=0.15, principal_point_offset_y=-0.2)),
+        'perspective-near-clip': _seen(perspective(near_clip=3.8)),
+        'perspective-far-clip': _seen(perspective(far_clip=5.0)),
+        'perspective-clips-with-sky': _seen(perspective(near_clip=3.8, far_clip=5.2), constant(0.2)),
+        'perspective-rolled': _seen(perspective(to_world=look('0, 1.2, 4.2', '0, 0.7, 0', '1, 2, 0'))),
+        'perspective-mirrored': _seen(sensor('perspective', picture(), fov=42.0, to_world=transform(scale(-1, 1, 1), VIEW))),
+        'perspective-scaled': _seen(sensor('perspective', picture(), fov=42.0, to_world=transform(scale(2), VIEW))),
+        'thinlens': _seen(sensor('thinlens', picture(), aperture_radius=0.15, focus_distance=3.0, **lens)),
+        'thinlens-pinhole': _seen(sensor('thinlens', picture(), aperture_radius=0.0001, focus_distance=3.0, **lens)),
+        'thinlens-far': _seen(sensor('thinlens', picture(), aperture_radius=0.1, focus_distance=6.0, **lens)),
+        'orthographic': _seen(sensor('orthographic', picture(), to_world=transform(scale(1.5), VIEW))),
+        'orthographic-stretched': _seen(sensor('orthographic', picture(), to_world=transform(scale(2, 1.2, 1), VIEW))),
+        'orthographic-clips': _seen(sensor('orthographic', picture(), near_clip=3.8, far_clip=5.2, to_world=transform(scale(1.5), VIEW))),
+    }
+
+
+def _films():
+    def filtered(kind, **properties):
+        return _seen(perspective(the_film=picture(rfilter(kind, **properties))))
+
+    def with_film(**properties):
+        return _seen(perspective(the_film=picture(rfilter('box'), **properties)))
+    return {
+        'box': (filtered('box'), dict(fast=True)),
+        'tent': filtered('tent'),
+        'tent-wide': filtered('tent', radius=2.0),
+        'gaussian': filtered('gaussian'),
+        'gaussian-wide': filtered('gaussian', stddev=1.0),
+        'mitchell': filtered('mitchell'),
+        'catmullrom': filtered('catmullrom'),
+        'lanczos': filtered('lanczos', lobes=3),
+        'default-filter': _seen(perspective(the_film=film('hdrfilm', width=64, height=48))),
+        'sample-border': with_film(sample_border=True),
+        'sample-border-gaussian': _seen(perspective(the_film=picture(rfilter('gaussian', stddev=1.0), sample_border=True))),
+        'crop': _seen(perspective(the_film=picture(rfilter('box'), width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48))),
+        'crop-gaussian': _seen(perspective(the_film=picture(rfilter('gaussian'), width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48))),
+        'rgba': with_film(pixel_format='rgba'),
+        'luminance': with_film(pixel_format='luminance'),
+        'half': with_film(component_format='float16'),
+    }
