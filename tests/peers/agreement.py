@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Do two sets of noisy pictures have the same expectation?
 
-A set is an array (seeds, rows of blocks, columns of blocks, 3): the means of blocks of 8x8 pixels, one picture for each
-seed. Nothing here knows who rendered them.
+A set is an array (seeds, rows of blocks, columns of blocks, 3): the means of square blocks of pixels, one picture for
+each seed. Nothing here knows who rendered them.
 """
 from dataclasses import dataclass, field
+import functools
 import math
 
 import numpy as np
 
-BLOCK = 8                # pixels along the side of a block
 MEAN_TOLERANCE = 0.005   # of the ratio of means
 BLOCK_TOLERANCE = 0.02   # of the mean of a block
 DARK = 0.05              # blocks darker than this share of the picture's mean are measured against that share
@@ -31,18 +31,20 @@ class Agreement:
     block_at: tuple = field(default=(0, 0))  # its row and column
     block_doubt: float = 0.0                 # noise that the median block is granted
     seeds: tuple = field(default=(0, 0))
+    is_clear: bool = False   # deviates so far that more pictures would not change the verdict
 
 
-def block_means(picture):
+def block_means(picture, block):
     """Means of the blocks of a picture (height, width, channels). What does not fill a block is left out."""
-    rows, columns = picture.shape[0] // BLOCK, picture.shape[1] // BLOCK
-    whole = picture[:rows * BLOCK, :columns * BLOCK].astype(np.float64)
-    return whole.reshape(rows, BLOCK, columns, BLOCK, -1).mean(axis=(1, 3))
+    rows, columns = picture.shape[0] // block, picture.shape[1] // block
+    whole = picture[:rows * block, :columns * block].astype(np.float64)
+    return whole.reshape(rows, block, columns, block, -1).mean(axis=(1, 3))
 
 
+@functools.lru_cache(maxsize=None)
 def student_quantile(freedom, tail=TAIL):
     """The value that a Student-distributed variable exceeds with probability `tail`, found on a table of its integral."""
-    angle = np.linspace(0.0, math.pi / 2, 200001)[:-1]    # t = sqrt(freedom)·tan(angle)
+    angle = np.linspace(0.0, math.pi / 2, 20001)[:-1]    # t = sqrt(freedom)·tan(angle)
     density = np.cos(angle) ** (freedom - 1)
     above = np.cumsum(density[::-1])[::-1]
     above *= 0.5 / above[0]
@@ -52,7 +54,7 @@ def student_quantile(freedom, tail=TAIL):
 def compare(ours, theirs):
     """Compares two sets of block means."""
     ratio, ratio_error, freedom = _ratio_of_means(ours, theirs)
-    doubt = student_quantile(freedom) * ratio_error
+    doubt = student_quantile(round(freedom, 1)) * ratio_error
     deviation, error = _block_deviations(ours, theirs)
     excess = np.abs(deviation) - BLOCK_SIGMAS * error
     worst = np.unravel_index(np.argmax(excess), excess.shape)
@@ -63,6 +65,7 @@ def compare(ours, theirs):
         seeds=(len(ours), len(theirs)))
     if abs(ratio - 1) > max(MEAN_TOLERANCE, doubt) or result.block_excess > BLOCK_TOLERANCE:
         result.verdict = 'deviates'
+        result.is_clear = abs(ratio - 1) > 2 * max(MEAN_TOLERANCE, doubt) or result.block_excess > 2 * BLOCK_TOLERANCE
     elif doubt > MAX_MEAN_DOUBT or result.block_doubt > MAX_BLOCK_DOUBT:
         result.verdict = 'noisy'
     else:
@@ -98,7 +101,7 @@ def _divided(ours, theirs):
 def _block_deviations(ours, theirs):
     """Relative deviations of all blocks and channels, and their standard errors."""
     mean = theirs.mean(axis=0)
-    scale = np.maximum(mean, max(DARK * mean.mean(), 1e-12))
+    scale = np.maximum(mean, max(DARK * max(mean.mean(), ours.mean()), 1e-12))
     error = np.sqrt(_block_variance(ours) + _block_variance(theirs))
     return (ours.mean(axis=0) - mean) / scale, error / scale
 

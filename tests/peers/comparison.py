@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """One row: both renderers, the comparison of their pictures, and whether the row passes."""
+from dataclasses import dataclass, field
 import os
 import shlex
 
@@ -8,6 +9,21 @@ import numpy as np
 from agreement import compare
 from mitsuba_worker import MitsubaFailure
 from renderers import Mitsuba, Nearlight, NearlightFailure, NearlightRefusal
+
+ROUNDS = ((1, 2, 3, 4), (5, 6, 7, 8), tuple(range(9, 17)))   # seeds; a row that agrees early stops early
+
+
+@dataclass
+class Result:
+    """A row after the comparison. `status`: agrees, deviates, noisy, refused, failed, or no peer (Mitsuba cannot read it)."""
+    name: str
+    status: str
+    passed: bool
+    note: str = ''
+    warnings: list = field(default_factory=list)
+    agreement: object = None
+    clamp_radius: float = 0.0
+    seconds: float = 0.0
 
 
 class Comparison:
@@ -22,9 +38,11 @@ class Comparison:
         self._nearlight = Nearlight(os.path.abspath(arguments.nearlight), worker, pictures, shlex.split(arguments.options))
 
     def result(self, row):
-        from peers import Result
         try:
-            theirs = self._mitsuba.pictures(self._path(row, row.text), row.spp, row.size)
+            theirs = self._mitsuba.pictures(self._path(row, row.text), row)
+        except MitsubaFailure as failure:
+            return Result(row.name, 'no peer' if row.path else 'failed', bool(row.path), f'Mitsuba: {failure}')
+        try:
             return self._judged(row, theirs)
         except NearlightRefusal as refusal:
             return Result(row.name, 'refused', not row.supported, str(refusal))
@@ -33,18 +51,17 @@ class Comparison:
 
     def _judged(self, row, theirs):
         """Renders seed after seed until the pictures agree, or the seeds are used up."""
-        from peers import ROUNDS, Result
         path = row.path or self._path(row, row.planted or row.text)
         ours, options = None, []
         for seeds in ROUNDS:
             if ours is None and self._factor != 1:
                 options = self._clamp_options(path, row)
-            pictures, warnings, report = self._nearlight.pictures(path, row.name, seeds, row.size, options)
+            pictures, warnings, report = self._nearlight.pictures(path, row, seeds, options)
             if pictures.shape[1:] != theirs.shape[1:]:
                 raise NearlightFailure(f'the picture has {pictures.shape[2]}x{pictures.shape[1]} blocks, Mitsuba\'s has {theirs.shape[2]}x{theirs.shape[1]}')
             ours = pictures if ours is None else np.concatenate([ours, pictures])
             agreement = compare(ours, theirs)
-            if agreement.verdict == 'agrees' or (agreement.verdict == 'deviates' and len(ours) > len(ROUNDS[0])):
+            if agreement.verdict == 'agrees' or agreement.is_clear or (agreement.verdict == 'deviates' and len(ours) > len(ROUNDS[0])):
                 break
         expected = 'deviates' if row.planted else 'agrees'
         note = '(planted)' if row.planted else ''
@@ -52,11 +69,11 @@ class Comparison:
 
     def _clamp_options(self, path, row):
         """The option for a multiple of the radius that nearlight chooses for itself."""
-        _, _, report = self._nearlight.pictures(path, row.name, (1,), row.size)
+        _, _, report = self._nearlight.pictures(path, row, (1,))
         return ['--clamp-radius', f'{report["clamp_radius"] * self._factor:g}']
 
     def _path(self, row, text):
-        """The file of a scene. It is written anew only if it differs, as its text is all that matters."""
+        """The file of a scene. A room has one already."""
         if row.path:
             return row.path
         wrong = '-wrong' if row.planted and text == row.planted else ''

@@ -2,9 +2,9 @@
 """Mitsuba in a process of its own, since its threads may hang at exit and a scene may crash it.
 
 As a program this file reads one JSON request a line from standard input and answers with one JSON object a line:
-  {"render": scene, "seeds": [...], "spp": n, "size": [w, h] or null, "into": file.npy}   block means of each seed
-  {"read": [picture, ...], "into": file.npy}                                              block means of each picture
-  {"write": folder}                                                                       the files that scenes refer to
+  {"render": scene, "seeds": [...], "spp": n, "size": [w, h] or null, "block": n, "into": file.npy}   block means of each seed
+  {"read": [picture, ...], "block": n, "into": file.npy}   block means of each picture
+  {"write": folder}   the files that scenes refer to
 `Worker` is the other end. A request that takes too long, or ends the process, is an error; the next starts a new process.
 """
 import glob
@@ -86,7 +86,7 @@ def render(mi, np, request):
     for seed in request['seeds']:
         picture = np.array(mi.render(scene, spp=request['spp'], seed=seed))
         picture = picture[..., :3] if picture.shape[2] >= 3 else np.repeat(picture[..., :1], 3, axis=2)
-        pictures.append(block_means(picture))
+        pictures.append(block_means(picture, request['block']))
     np.save(request['into'], np.array(pictures))
     return {'shape': list(picture.shape)}
 
@@ -101,7 +101,7 @@ def read(mi, np, request):
         picture = np.array(bitmap).reshape(bitmap.height(), bitmap.width(), -1)
         wanted = ('R', 'G', 'B') if 'R' in channels else ('Y', 'Y', 'Y')
         picture = picture[..., [channels.index(c) for c in wanted]]
-        pictures.append(block_means(picture))
+        pictures.append(block_means(picture, request['block']))
     np.save(request['into'], np.array(pictures))
     return {'shape': list(picture.shape)}
 
@@ -124,6 +124,8 @@ def main():
                 assets.write(request['write'])
                 answer = {}
         except Exception as failure:
+            while failure.__cause__ is not None:
+                failure = failure.__cause__
             answer = {'error': ' '.join(str(failure).split())}
         print(json.dumps(answer), flush=True)
     os._exit(0)

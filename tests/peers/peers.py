@@ -7,36 +7,24 @@ exit code 77, which ctest counts as skipped.
 """
 import argparse
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 import fnmatch
 import importlib.metadata
 import importlib.util
 import json
 import os
+import shlex
+import subprocess
 import sys
 import time
 
 SKIPPED = 77
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-ROUNDS = ((1, 2, 3, 4), (5, 6, 7, 8), tuple(range(9, 17)))   # seeds; a row that agrees early stops early
 
 
 def missing_packages():
     return [name for name in ('numpy', 'mitsuba') if importlib.util.find_spec(name) is None]
-
-
-@dataclass
-class Result:
-    """A row after the comparison. `status`: agrees, deviates, noisy, refused, failed."""
-    name: str
-    status: str
-    passed: bool
-    note: str = ''
-    warnings: list = field(default_factory=list)
-    agreement: object = None
-    clamp_radius: float = 0.0
-    seconds: float = 0.0
 
 
 def parsed_arguments():
@@ -49,7 +37,7 @@ def parsed_arguments():
     parser.add_argument('--list', action='store_true', help='list the rows and end')
     parser.add_argument('--json', action='store_true', help='print results as one JSON object')
     parser.add_argument('--clamp-radius-factor', type=float, default=1, help="render with this many times nearlight's own clamp radius")
-    parser.add_argument('--rooms', metavar='FOLDER', action='append', help='compare all XML scenes under this folder instead of the rows')
+    parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[], help='also compare all XML scenes under this folder, as rows rooms/...')
     parser.add_argument('--size', default='128x96', help='greatest size of the pictures of --rooms')
     parser.add_argument('--options', default='', help='further options for nearlight, in one string')
     parser.add_argument('--redo', action='store_true', help="make Mitsuba's pictures anew")
@@ -71,8 +59,7 @@ def main():
         return SKIPPED
     import rooms
     import rows
-    wanted = rooms.rows(arguments.rooms, arguments.size) if arguments.rooms else rows.all_rows()
-    wanted = chosen(wanted, arguments)
+    wanted = chosen(rows.all_rows() + rooms.rows(arguments.rooms, arguments.size), arguments)
     if arguments.list:
         print('\n'.join(row.name for row in wanted))
         return 0
@@ -126,7 +113,9 @@ def report_all(results, arguments):
     print(f'{len(results) - len(failed)} of {len(results)} rows pass', file=sys.stderr)
     if arguments.write_docs:
         import report
-        report.write(arguments.write_docs, results)
+        command = 'tests/peers/peers.py ' + ' '.join(shlex.quote(a) for a in sys.argv[1:])
+        ours = subprocess.run([arguments.nearlight, '--version'], capture_output=True, text=True, check=True).stdout.split()[-1]
+        report.write(arguments.write_docs, results, command, ours, importlib.metadata.version('mitsuba'))
 
 
 if __name__ == '__main__':

@@ -14,7 +14,7 @@ from mitsuba_worker import VARIANT, MitsubaFailure
 
 SEEDS_A_ROUND = 8
 MAX_ROUNDS = 8
-ENOUGH = 0.0004          # relative standard error of the mean of Mitsuba's pictures at which it stops
+ENOUGH = 0.001           # relative standard error of the mean of Mitsuba's pictures at which it stops
 SCENE_FILE = 3           # nearlight's exit code for a scene that it refuses
 
 
@@ -35,8 +35,8 @@ class Mitsuba:
     seconds: float = 300
     redo: bool = False
 
-    def pictures(self, path, spp, size=None):
-        kept = os.path.join(self.folder, self._key(path, spp, size) + '.npy')
+    def pictures(self, path, row):
+        kept = os.path.join(self.folder, self._key(path, row) + '.npy')
         if os.path.exists(kept) and not self.redo:
             return np.load(kept)
         os.makedirs(self.folder, exist_ok=True)
@@ -44,7 +44,8 @@ class Mitsuba:
         while len(rounds) < MAX_ROUNDS:
             part = f'{kept}.{len(rounds)}.partial.npy'
             seeds = [len(rounds) * SEEDS_A_ROUND + s for s in range(SEEDS_A_ROUND)]
-            self.worker.ask({'render': path, 'seeds': seeds, 'spp': spp, 'size': size, 'into': part}, self.seconds)
+            request = {'render': path, 'seeds': seeds, 'spp': row.spp, 'size': row.size, 'block': row.block, 'into': part}
+            self.worker.ask(request, self.seconds)
             rounds.append(np.load(part))
             os.remove(part)
             if mean_error(np.concatenate(rounds)) < ENOUGH:
@@ -56,7 +57,7 @@ class Mitsuba:
         os.replace(kept + '.partial.npy', kept)
         return pictures
 
-    def _key(self, path, spp, size):
+    def _key(self, path, row):
         with open(path, 'rb') as file:
             text = file.read()
         digest = hashlib.sha256(text)
@@ -65,7 +66,7 @@ class Mitsuba:
             if os.path.exists(beside):
                 with open(beside, 'rb') as file:
                     digest.update(file.read())
-        digest.update(repr((self.version, VARIANT, spp, size)).encode())
+        digest.update(repr((self.version, VARIANT, row.spp, row.size, row.block)).encode())
         return digest.hexdigest()[:24]
 
 
@@ -78,14 +79,15 @@ class Nearlight:
     options: list = field(default_factory=list)
     seconds: float = 300
 
-    def pictures(self, path, name, seeds, size=None, options=()):
+    def pictures(self, path, row, seeds, options=()):
         """Block means of a picture for each seed, what nearlight warned about, and its report of the last picture."""
         files, warnings, report = [], [], {}
+        stem = os.path.join(self.folder, row.name.replace('/', '__'))
         for seed in seeds:
-            files.append(os.path.join(self.folder, f'{name.replace("/", "__")}-{seed}.exr'))
-            warnings, report = self._render(path, files[-1], seed, size, options)
-        into = os.path.join(self.folder, f'{name.replace("/", "__")}.npy')
-        self.worker.ask({'read': files, 'into': into}, 60)
+            files.append(f'{stem}-{seed}.exr')
+            warnings, report = self._render(path, files[-1], seed, row.size, (*row.options, *options))
+        into = stem + '.npy'
+        self.worker.ask({'read': files, 'block': row.block, 'into': into}, 60)
         pictures = np.load(into)
         for file in (*files, into):
             os.remove(file)

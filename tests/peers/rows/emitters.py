@@ -61,7 +61,7 @@ def _areas():
         'area-textured-sphere': _lit(shape('sphere', emitter('area', radiance=bitmap('lamp.exr', raw=True)), center=point(1, 2.4, 1), radius=0.4)),
         'area-mirrored-by-scale': _lit(shape('rectangle', area(10), diffuse(0), to_world=transform(scale(0.5, 0.5, -0.5), turn('x', 90), move(0.8, 2.6, 1)))),
         'area-cube-mirrored': _lit(shape('cube', area(4), to_world=transform(scale(0.3, 0.3, -0.3), move(1, 2.4, 1)))),
-        'area-sphere-mirrored': _lit(shape('sphere', area(4), to_world=transform(scale(-0.4, 0.4, 0.4), move(1, 2.4, 1)))),
+        'area-sphere-mirrored': _lit(shape('sphere', area(4), to_world=transform(scale(-0.4, 0.4, 0.4), move(1, 2.4, 1))), point_light(3)),
         'area-flipped': _lit(rectangle(area(10), diffuse(0), at=(0.8, 2.6, 1), size=0.5, turned=UP, flip_normals=True)),
         'area-back-side': _lit(rectangle(area(10), diffuse(0.5), at=(0, 1.5, 0.3), size=0.3, turned=[turn('y', 180)]), point_light(2)),
         'area-many': _lit(*(rectangle(area(6 + 3 * (i % 3)), diffuse(0), at=(-1.75 + 0.5 * (i % 8), 2.4, -0.5 + 0.5 * (i // 8)), size=0.05, turned=DOWN) for i in range(48))),
@@ -98,5 +98,4 @@ def _skies():
         'sunsky-complex-sun': _lit(sky('sunsky', sun_direction=sun, complex_sun=True)),
         'sunsky-place-and-time': _lit(sky('sunsky', **DAY)),
         'sunsky-turned': _lit(sky('sunsky', sun_direction=sun, to_world=transform(turn('x', -90), turn('y', 120)))),
-        'timed-sunsky': (_lit(sky('timed_sunsky', latitude=48.0, longitude=11.0, timezone=2.0, start_year=2020, start_month=6, start_day=21, end_year=2020, end_month=6, end_day=22)), dict(supported=False)),
     }

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Row:
-    name: str            # group/feature
-    text: str            # the scene
-    spp: int = 256       # Mitsuba's samples per pixel for one seed; it takes as many seeds as it needs
+    name: str                # group/feature
+    text: str                # the scene
+    spp: int = 256           # Mitsuba's samples per pixel for one seed; it takes as many seeds as it needs
     supported: bool = True   # False: nearlight may refuse it by name
+    block: int = 8           # side in pixels of the blocks that are compared
+    options: tuple = ()      # for nearlight, besides its defaults
     fast: bool = False       # part of the subset that ctest runs
     path: str = ''           # a file that exists already, instead of one made from the text
     size: tuple = ()         # of the picture, where it is not the film's

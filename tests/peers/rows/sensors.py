@@ -5,14 +5,14 @@ from scene_text import *
 
 
 def rows():
-    return table('sensors', _sensors()) + table('films', _films())
+    return table('sensors', _sensors()) + table('films', _films()) + table('filters', _filters(), spp=2048, block=1, options=('--spp', '256'))
 
 
 def _seen(camera, *more):
     """A textured floor and a small box show where each pixel looks."""
     things = (floor(bsdf('diffuse', reflectance=texture('checkerboard', to_uv=transform(scale(16)), color0=rgb(0.2, 0.3, 0.4), color1=rgb(0.7, 0.6, 0.4)))),
               wall(), box(diffuse(0.6, 0.3, 0.2)))
-    return scene(*things, point_light(), *more, camera=camera, depth=3)
+    return scene(*things, point_light(), *more, camera=camera, depth=2)
 
 
 def _sensors():
@@ -29,7 +29,6 @@ def _sensors():
         'perspective-clips-with-sky': _seen(perspective(near_clip=3.8, far_clip=5.2), constant(0.2)),
         'perspective-rolled': _seen(perspective(to_world=look('0, 1.2, 4.2', '0, 0.7, 0', '1, 2, 0'))),
         'perspective-mirrored': _seen(sensor('perspective', picture(), fov=42.0, to_world=transform(scale(-1, 1, 1), VIEW))),
-        'perspective-scaled': _seen(sensor('perspective', picture(), fov=42.0, to_world=transform(scale(2), VIEW))),
         'thinlens': _seen(sensor('thinlens', picture(), aperture_radius=0.15, focus_distance=3.0, **lens)),
         'thinlens-pinhole': _seen(sensor('thinlens', picture(), aperture_radius=0.0001, focus_distance=3.0, **lens)),
         'thinlens-far': _seen(sensor('thinlens', picture(), aperture_radius=0.1, focus_distance=6.0, **lens)),
@@ -40,26 +39,38 @@ def _sensors():
 
 
 def _films():
-    def filtered(kind, **properties):
-        return _seen(perspective(the_film=picture(rfilter(kind, **properties))))
+    def with_film(*filters, **properties):
+        return _seen(perspective(the_film=picture(*(filters or [rfilter('box')]), **properties)))
 
-    def with_film(**properties):
-        return _seen(perspective(the_film=picture(rfilter('box'), **properties)))
+    crop = dict(width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48)
     return {
-        'box': (filtered('box'), dict(fast=True)),
+        'plain': (with_film(), dict(fast=True)),
+        'sample-border': with_film(sample_border=True),
+        'crop': with_film(**crop),
+        'crop-gaussian': with_film(rfilter('gaussian'), **crop),
+        'rgba': with_film(pixel_format='rgba'),
+        'luminance': with_film(pixel_format='luminance'),
+        'half': with_film(component_format='float16'),
+    }
+
+
+def _filters():
+    """Few and large pixels with many samples, compared one by one, so that what a filter does to edges stands out."""
+    def filtered(*kind, **properties):
+        filters = [rfilter(*kind, **properties)] if kind else []
+        return _seen(perspective(the_film=film('hdrfilm', *filters, width=24, height=16)))
+
+    wide = picture(rfilter('gaussian', stddev=1.0), width=24, height=16, sample_border=True)
+    return {
+        'box': filtered('box'),
         'tent': filtered('tent'),
         'tent-wide': filtered('tent', radius=2.0),
         'gaussian': filtered('gaussian'),
         'gaussian-wide': filtered('gaussian', stddev=1.0),
         'mitchell': filtered('mitchell'),
+        'mitchell-sharp': filtered('mitchell', B=0.0, C=0.75),
         'catmullrom': filtered('catmullrom'),
         'lanczos': filtered('lanczos', lobes=3),
-        'default-filter': _seen(perspective(the_film=film('hdrfilm', width=64, height=48))),
-        'sample-border': with_film(sample_border=True),
-        'sample-border-gaussian': _seen(perspective(the_film=picture(rfilter('gaussian', stddev=1.0), sample_border=True))),
-        'crop': _seen(perspective(the_film=picture(rfilter('box'), width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48))),
-        'crop-gaussian': _seen(perspective(the_film=picture(rfilter('gaussian'), width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48))),
-        'rgba': with_film(pixel_format='rgba'),
-        'luminance': with_film(pixel_format='luminance'),
-        'half': with_film(component_format='float16'),
+        'default': filtered(),
+        'gaussian-sample-border': _seen(perspective(the_film=wide)),
     }

@@ -37,7 +37,7 @@ def _shapes():
         'serialized-second': _lit(mesh('meshes.serialized', bsdf('twosided', PAINT), shape_index=1, to_world=_placed(1.0))),
         'instances': scene(group, *stage(instance(-0.8, 10), instance(0.1, -20, 1.3), instance(0.9, 60)), point_light(), depth=4),
         'merge': _lit(shape('merge', mesh('ball.obj', PAINT, to_world=transform(scale(0.4), move(-0.6, 0.5, 0))), mesh('wave.obj', PAINT, to_world=transform(scale(0.4), move(0.6, 0.6, 0))))),
-        'sdfgrid-or-others': (_lit(shape('ellipsoids', PAINT, filename=ASSETS + 'ball.ply')), dict(supported=False)),
+        'linearcurve': (_lit(shape('linearcurve', PAINT, filename=ASSETS + 'curve.txt')), dict(supported=False)),
     }
 
 
@@ -53,12 +53,11 @@ def _transforms():
         'matrix': _lit(shape('cube', PAINT, to_world=transform('<matrix value="0.5 0.2 0 0  0 0.5 0 0.6  0 0.1 0.5 0  0 0 0 1"/>'))),
         'rotation-about-axis': _lit(shape('cube', PAINT, to_world=transform(scale(0.4), '<rotate x="1" y="1" z="0.3" angle="50"/>', move(0, 0.8, 0)))),
         'flipped-mesh': _lit(mesh('fine_ball.obj', PAINT, flip_normals=True, to_world=_placed())),
-        'small-units': scene(*stage(), point_light(), depth=4).replace('<translate x="0" y="0.5" z="0"/>', '<translate x="0" y="0.5" z="0"/><scale value="1"/>'),
     }
 
 
 def _normals():
-    lamps = {'point': (point_light(),), 'sky': (envmap(),), 'area': (lamp(8, size=0.8),)}
+    lamps = {'point': (point_light(),), 'area': (lamp(8, size=0.8),)}
     forms = {
         'obj': lambda: mesh('ball.obj', PAINT, to_world=_placed()),
         'obj-face-normals': lambda: mesh('ball.obj', PAINT, face_normals=True, to_world=_placed()),

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""docs/mitsuba-support.md: what agrees with Mitsuba, what is refused, what deviates."""
+from itertools import groupby
+
+HEAD = '''# Beside Mitsuba 3
+
+<!-- Made by tests/peers; do not edit. -->
+This page is made by `{command}`, with nearlight {ours} and Mitsuba {theirs}. Each row is a small scene
+(`tests/peers/rows/`) that both renderers render: nearlight at its defaults, Mitsuba with the integrator that the file
+names, until its own noise is small.
+
+*Ratio* is the mean of nearlight's pictures ÷ the mean of Mitsuba's, with its standard error. *Block* is the largest
+deviation of the mean of 8 × 8 pixels, in one colour, after the noise of both renderers is taken off. A row *agrees* if the
+ratio is within 0.5 % of 1 (or within its noise, which may be 1.5 % at most) and the block within 2 %. nearlight *refuses*
+what it does not know, with the message shown and exit code 3; it leaves nothing out in silence.
+
+'''
+WORDS = {'agrees': 'agrees', 'deviates': '**deviates**', 'noisy': 'noisy', 'refused': 'refused', 'failed': '**failed**', 'no peer': 'no peer'}
+
+
+def write(path, results, command, ours, theirs):
+    results = [r for r in results if not r.name.startswith('planted/')]
+    text = HEAD.format(command=command, ours=ours, theirs=theirs) + _summary(results)
+    for group, rows in groupby(results, key=_group):
+        text += f'\n## {group}\n\n| scene | | ratio | block | |\n|---|---|---|---|---|\n' + ''.join(_line(r) for r in rows)
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
+
+
+def _group(result):
+    return result.name.split('/')[0]
+
+
+def _summary(results):
+    kinds = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
+    kinds = [kind for kind in kinds if any(r.status == kind for r in results)]
+    lines = ['| group | ' + ' | '.join(kinds) + ' |', '|---|' + '---:|' * len(kinds)]
+    for group, rows in [(g, list(r)) for g, r in groupby(results, key=_group)] + [('all', results)]:
+        lines.append(f'| {group} | ' + ' | '.join(str(sum(r.status == kind for r in rows) or '') for kind in kinds) + ' |')
+    return '\n'.join(lines) + '\n'
+
+
+def _line(result):
+    name = result.name.split('/', 1)[1]
+    ratio = block = ''
+    if result.agreement:
+        ratio = f'{result.agreement.ratio:.4f} ± {result.agreement.ratio_error:.4f}'
+        block = f'{result.agreement.block_excess:.1%}'
+    notes = [result.note] if result.note else result.warnings
+    return f'| {name} | {WORDS[result.status]} | {ratio} | {block} | {"; ".join(_escaped(n) for n in notes)} |\n'
+
+
+def _escaped(text):
+    return text.replace('|', '\\|').replace('<', '&lt;')
