@@ -15,17 +15,16 @@ import subprocess
 import sys
 import threading
 
-VARIANT = 'llvm_ad_rgb'
-
 
 class MitsubaFailure(Exception):
     """Mitsuba could not do what it was asked for."""
 
 
 class Worker:
-    """Sends requests to the process, which is started when it is needed."""
+    """Sends requests to the process, which is started when it is needed. What Mitsuba complains of goes to the log."""
 
-    def __init__(self):
+    def __init__(self, log):
+        self._log = log
         self._process = None
         self._answers = None
 
@@ -41,7 +40,7 @@ class Worker:
         if answer is None:
             ended = self._process.poll() is not None
             self.stop()
-            raise MitsubaFailure('Mitsuba crashed' if ended else f'Mitsuba took more than {seconds} s')
+            raise MitsubaFailure(f'Mitsuba ended, see {self._log}' if ended else f'Mitsuba took more than {seconds} s')
         if 'error' in answer:
             raise MitsubaFailure(answer['error'])
         return answer
@@ -53,8 +52,9 @@ class Worker:
             self._process = None
 
     def _start(self):
-        self._process = subprocess.Popen([sys.executable, os.path.abspath(__file__)], stdin=subprocess.PIPE,
-                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        with open(self._log, 'a', encoding='utf-8') as log:
+            self._process = subprocess.Popen([sys.executable, os.path.abspath(__file__)], stdin=subprocess.PIPE,
+                                             stdout=subprocess.PIPE, stderr=log, text=True)
         self._answers = queue.Queue()
         threading.Thread(target=_pass_on, args=(self._process.stdout, self._answers), daemon=True).start()
 
@@ -106,11 +106,22 @@ def read(mi, np, request):
     return {'shape': list(picture.shape)}
 
 
+def choose_variant(mi):
+    """Compiled kernels are several times faster where LLVM is found. Pictures have the same expectation."""
+    try:
+        mi.set_variant('llvm_ad_rgb')
+        import drjit
+        drjit.eval(mi.Float(1) + drjit.opaque(mi.Float, 1))
+    except Exception as failure:
+        print(f'rendering without LLVM: {failure}', file=sys.stderr)
+        mi.set_variant('scalar_rgb')
+
+
 def main():
     point_to_llvm()
     import mitsuba as mi
     import numpy as np
-    mi.set_variant(VARIANT)
+    choose_variant(mi)
     mi.set_log_level(mi.LogLevel.Error)
     for line in sys.stdin:
         request = json.loads(line)

@@ -76,7 +76,8 @@ def compared(wanted, arguments):
     from comparison import Comparison
     from mitsuba_worker import Worker
     version = importlib.metadata.version('mitsuba')
-    workers = [Worker() for _ in range(arguments.jobs)]
+    os.makedirs(arguments.out, exist_ok=True)
+    workers = [Worker(os.path.join(arguments.out, f'mitsuba-{number}.log')) for number in range(arguments.jobs)]
     idle = list(workers)
     workers[0].ask({'write': os.path.join(arguments.out, 'assets')}, 120)
 

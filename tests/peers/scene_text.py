@@ -153,11 +153,18 @@ def stage(*things):
     return (floor(), wall(), *(things or (box(diffuse(0.6, 0.3, 0.2)),)))
 
 
-def room(material, *things):
-    """A closed room of one material, 4 wide, 3 high and 6 deep, seen from within."""
-    sides = [((0, 0, -3), 0, 0), ((0, 0, 3), 180, 0), ((-2, 1.5, 0), 90, 0), ((2, 1.5, 0), -90, 0), ((0, 0, 0), 0, -90), ((0, 3, 0), 0, 90)]
-    walls = [shape('rectangle', material, to_world=transform(scale(4), turn('x', x), turn('y', y), move(*at))) for at, y, x in sides]
+SIDES = {'back': ((0, 0, -3), []), 'front': ((0, 0, 3), [turn('y', 180)]), 'left': ((-2, 1.5, 0), [turn('y', 90)]),
+         'right': ((2, 1.5, 0), [turn('y', -90)]), 'ground': ((0, 0, 0), UP), 'ceiling': ((0, 3, 0), DOWN)}
+
+
+def room(material, *things, **others):
+    """A room 4 wide, 3 high and 6 deep. Its sides are of one material, except `others`, of which None is left open."""
+    sides = {side: others.get(side, material) for side in SIDES}
+    walls = [rectangle(m, at=SIDES[side][0], turned=SIDES[side][1], size=4) for side, m in sides.items() if m]
     return (*walls, *things)
+
+
+INSIDE = look('0, 1.5, 2.8', '0, 1.2, 0')   # the view of a room from its front side
 
 
 def point_light(intensity=12.0, at=(1.5, 2.5, 2)):

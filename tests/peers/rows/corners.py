@@ -3,7 +3,7 @@
 from rows.row import table
 from scene_text import *
 
-CAMERA = perspective(to_world=look('0, 1.5, 2.8', '0, 1.2, 0'))
+CAMERA = perspective(to_world=INSIDE)
 CLOSE = perspective(to_world=look('-0.2, 0.8, 0.6', '-1, 0.2, -1'))
 
 
@@ -48,30 +48,20 @@ def _metal():
     white = bsdf('roughconductor', material='none', alpha=0.4)
     things = (_lamp(), box(diffuse(0.7, 0.4, 0.3), at=(0, 0.5, -1)))
 
-    def one_side(material, place):
-        """A diffuse room with one side of metal."""
-        text = _room(diffuse(0.6), *things)
-        sides = text.split('<shape type="rectangle">')
-        inner = material.plain()
-        for number, side in enumerate(sides):
-            if place in side and 'emitter' not in side:
-                start, end = side.index('<bsdf'), side.rindex('</bsdf>') + len('</bsdf>')
-                sides[number] = side[:start] + inner + side[end:]
-        return '<shape type="rectangle">'.join(sides)
+    def with_side(**side):
+        return scene(*room(diffuse(0.6), *things, **side), depth=8, camera=CAMERA)
 
-    ceiling, left, right, ground = 'y="3" z="0"', '<translate x="-2"', '<translate x="2"', '<translate x="0" y="0" z="0"'
-    mirrors = one_side(smooth, left)
     return {
         'room-steel': _room(steel, *things),
         'room-gold': _room(gold, *things),
         'room-white-metal': _room(white, *things, depth=12),
         'room-plastic': _room(bsdf('plastic', diffuse_reflectance=rgb(0.6)), *things),
         'room-roughplastic': _room(bsdf('roughplastic', diffuse_reflectance=rgb(0.6), alpha=0.2), *things),
-        'ceiling-gold': one_side(gold, ceiling),
-        'floor-steel': one_side(steel, ground),
-        'floor-mirror': one_side(smooth, ground),
-        'wall-mirror': mirrors,
-        'wall-roughplastic': one_side(bsdf('roughplastic', alpha=0.1), right),
+        'ceiling-gold': with_side(ceiling=gold),
+        'floor-steel': with_side(ground=steel),
+        'floor-mirror': with_side(ground=smooth),
+        'wall-mirror': with_side(left=smooth),
+        'wall-roughplastic': with_side(right=bsdf('roughplastic', alpha=0.1)),
         'two-mirrors': scene(*stage(), rectangle(smooth, at=(-1.6, 0, 0), size=3, turned=[turn('y', 90)]), rectangle(smooth, at=(1.6, 0, 0), size=3, turned=[turn('y', -90)]), lamp(), depth=8),
         'two-mirrors-facing': scene(floor(), rectangle(smooth, at=(0, 1, -1.5), size=2), rectangle(smooth, at=(0, 1, 5), size=3, turned=[turn('y', 180)]), box(diffuse(0.7, 0.4, 0.3)), lamp(), depth=8),
         'metal-under-spot': scene(*stage(sphere(bsdf('roughconductor', material='Al', alpha=0.15))), emitter('spot', intensity=rgb(60), to_world=transform(look('1.2, 2.8, 2.5', '0, 0.5, 0'))), depth=4),

@@ -19,7 +19,7 @@ def _slab(at=(0, 1, 2.2), size=(1.5, 1.5, 0.05)):
 def _scenes():
     thin, solid = bsdf('thindielectric'), bsdf('dielectric')
     tinted = bsdf('thindielectric', specular_transmittance=rgb(0.9, 0.5, 0.2))
-    inside = perspective(to_world=look('0, 1.5, 2.8', '0, 1.2, 0'))
+    inside = perspective(to_world=INSIDE)
     things = (rectangle(area(6), diffuse(0), at=(0, 2.9, 0), size=0.6, turned=DOWN), box(diffuse(0.7, 0.4, 0.3), at=(0, 0.5, -1)))
     return {
         'point-behind-pane': scene(*stage(), _pane(thin, at=(1, 1.8, 1)), point_light(at=(1.2, 2.8, 1.2)), depth=6),
@@ -32,7 +32,7 @@ def _scenes():
         'area-behind-rough-pane': scene(*stage(), shape('cube', bsdf('roughdielectric', alpha=0.3), to_world=transform(scale(1.2, 0.03, 1.2), move(0.8, 2, 1))), lamp(size=0.8), depth=8),
         'sky-behind-pane': scene(*stage(), _pane(thin, size=3), envmap(), depth=6),
         'sky-behind-tinted-pane': scene(*stage(), _pane(tinted, size=3), envmap(), depth=6),
-        'sky-in-room-with-glass': scene(*room(diffuse(0.6)), envmap(), depth=6, camera=inside).replace(diffuse(0.6).plain(), bsdf('thindielectric').plain(), 1),
+        'sky-in-room-with-glass': scene(*room(diffuse(0.6), right=thin), envmap(), depth=6, camera=inside),
         'bulb-in-glass': scene(*stage(), sphere(solid, at=(0, 0.9, 0), radius=0.5), sphere(area(6), diffuse(0), at=(0, 0.9, 0), radius=0.3), depth=8),
         'bulb-in-thin-glass': scene(*stage(), sphere(thin, at=(0, 0.9, 0), radius=0.5), sphere(area(6), diffuse(0), at=(0, 0.9, 0), radius=0.3), depth=8),
         'point-in-glass': scene(*stage(), sphere(solid, at=(0, 0.9, 0), radius=0.4), emitter('point', position=point(0, 0.9, 0), intensity=rgb(6)), point_light(2), depth=6),

@@ -16,7 +16,7 @@ def _with(path, *more):
 
 def _inside(depth, material=None):
     return scene(*room(material or diffuse(0.7), rectangle(area(6), diffuse(0), at=(0, 2.9, 0), size=0.6, turned=DOWN)),
-                 depth=depth, camera=perspective(to_world=look('0, 1.5, 2.8', '0, 1.2, 0')))
+                 depth=depth, camera=perspective(to_world=INSIDE))
 
 
 def _scenes():
@@ -30,7 +30,7 @@ def _scenes():
         'russian-roulette': _with(integrator('path', max_depth=12, rr_depth=3)),
         'default': _with(integrator('path')),
         'direct': _with(integrator('direct')),
-        'direct-in-room': scene(*room(diffuse(0.7)), point_light(4, at=(0.5, 2, 0)), path=integrator('direct'), camera=perspective(to_world=look('0, 1.5, 2.8', '0, 1.2, 0'))),
+        'direct-in-room': scene(*room(diffuse(0.7)), point_light(4, at=(0.5, 2, 0)), path=integrator('direct'), camera=perspective(to_world=INSIDE)),
         'direct-samples': _with(integrator('direct', emitter_samples=4, bsdf_samples=2)),
         'hide-emitters-area': _with(integrator('path', max_depth=5, hide_emitters=True)),
         'hide-emitters-constant': scene(box(diffuse(0.6)), constant(), path=integrator('path', max_depth=5, hide_emitters=True)),

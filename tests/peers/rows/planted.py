@@ -5,11 +5,18 @@ from scene_text import *
 
 
 def rows():
-    right = scene(*stage(), point_light(), depth=4)
-    paler = scene(floor(diffuse(*(round(1.03 * c, 6) for c in (0.5, 0.45, 0.4)))), wall(diffuse(*(round(1.03 * c, 6) for c in (0.4, 0.45, 0.5)))),
-                  box(diffuse(*(round(1.03 * c, 6) for c in (0.6, 0.3, 0.2)))), point_light(), depth=4)
-    in_color = right.replace('value="0.5, 0.45, 0.4"', 'value="0.485, 0.4635, 0.4"')
-    mirrored = right.replace('<perspective', '<perspective').replace(VIEW, '<scale x="-1" y="1" z="1"/>' + VIEW)
-    shadow = right.replace('<rotate y="1" angle="30"/>', '<rotate y="1" angle="75"/>')
-    plants = {'reflectance-3-percent': paler, 'colour-3-percent': in_color, 'mirrored': mirrored, 'box-turned': shadow}
+    right = _scene()
+    plants = {
+        'reflectance-3-percent': _scene(paler=(1.03, 1.03, 1.03)),
+        'colour-3-percent': _scene(paler=(0.97, 1.03, 1)),
+        'mirrored': _scene(view=scale(-1, 1, 1) + VIEW),
+        'box-turned': _scene(degrees=75),
+    }
     return [Row(f'planted/{name}', right, fast=name == 'reflectance-3-percent', planted=wrong) for name, wrong in plants.items()]
+
+
+def _scene(paler=(1, 1, 1), view=VIEW, degrees=30):
+    def paint(*color):
+        return diffuse(*(round(c * factor, 6) for c, factor in zip(color, paler)))
+    things = (floor(paint(0.5, 0.45, 0.4)), wall(paint(0.4, 0.45, 0.5)), box(paint(0.6, 0.3, 0.2), degrees=degrees))
+    return scene(*things, point_light(), depth=4, camera=perspective(to_world=view))
