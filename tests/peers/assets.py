@@ -56,7 +56,7 @@ def _write_meshes(folder):
     _write_ply(f'{folder}/ball_flat.ply', *ball, with_normals=False)
     _write_ply(f'{folder}/wave_colors.ply', *wave, with_normals=True, face_colors=False)
     _write_ply(f'{folder}/wave_face_colors.ply', *wave, with_normals=True, face_colors=True)
-    _write_text(f'{folder}/curve.txt', [f'{0.5 * math.cos(a):.4f} {0.3 + 0.15 * a:.4f} {0.5 * math.sin(a):.4f} 0.08' for a in range(8)])
+    _write_text(f'{folder}/curve.txt', [f'{math.cos(a) / 2:.4f} {0.3 + 0.15 * a:.4f} {math.sin(a) / 2:.4f} 0.08' for a in range(8)])
     _write_serialized(f'{folder}/meshes.serialized', [ball, wave])
 
 

@@ -58,14 +58,17 @@ class Comparison:
                 options = self._clamp_options(path, row)
             pictures, warnings, report = self._nearlight.pictures(path, row, seeds, options)
             if pictures.shape[1:] != theirs.shape[1:]:
-                raise NearlightFailure(f'the picture has {pictures.shape[2]}x{pictures.shape[1]} blocks, Mitsuba\'s has {theirs.shape[2]}x{theirs.shape[1]}')
+                sizes = ['{}x{}'.format(*set_of.shape[2:0:-1]) for set_of in (pictures, theirs)]
+                raise NearlightFailure(f"the picture has {sizes[0]} blocks, Mitsuba's has {sizes[1]}")
             ours = pictures if ours is None else np.concatenate([ours, pictures])
             agreement = compare(ours, theirs)
-            if agreement.verdict == 'agrees' or agreement.is_clear or (agreement.verdict == 'deviates' and len(ours) > len(ROUNDS[0])):
+            is_confirmed = agreement.verdict == 'deviates' and len(ours) > len(ROUNDS[0])
+            if agreement.verdict == 'agrees' or agreement.is_clear or is_confirmed:
                 break
         expected = 'deviates' if row.planted else 'agrees'
         note = '(planted)' if row.planted else ''
-        return Result(row.name, agreement.verdict, agreement.verdict == expected, note, warnings, agreement, report['clamp_radius'])
+        return Result(row.name, agreement.verdict, agreement.verdict == expected, note, warnings, agreement,
+                      report['clamp_radius'])
 
     def _clamp_options(self, path, row):
         """The option for a multiple of the radius that nearlight chooses for itself."""

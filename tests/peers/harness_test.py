@@ -110,14 +110,16 @@ class Rows(unittest.TestCase):
     def test_elements(self):
         text = bsdf('mask', diffuse(0.5), opacity=0.25, use=True, mode='a').plain()
         root = xml.etree.ElementTree.fromstring(text)
-        self.assertEqual([(child.tag, child.get('name')) for child in root], [('bsdf', None), ('float', 'opacity'), ('boolean', 'use'), ('string', 'mode')])
+        self.assertEqual([(child.tag, child.get('name')) for child in root],
+                         [('bsdf', None), ('float', 'opacity'), ('boolean', 'use'), ('string', 'mode')])
         self.assertEqual(root.find('bsdf/rgb').get('value'), '0.5')
 
     def test_rooms_have_the_shape_of_their_film(self):
         with tempfile.TemporaryDirectory() as folder:
             os.makedirs(f'{folder}/hall')
             with open(f'{folder}/hall/scene.xml', 'w') as file:
-                file.write('<scene><default name="w" value="1280"/><sensor><film><integer name="width" value="$w"/><integer name="height" value="720"/></film></sensor></scene>')
+                file.write('<scene><default name="w" value="1280"/><sensor><film><integer name="width" value="$w"/>'
+                           '<integer name="height" value="720"/></film></sensor></scene>')
             with open(f'{folder}/part.xml', 'w') as file:
                 file.write('<scene/>')
             found = rooms.rows([folder], '128x96')
@@ -178,7 +180,8 @@ class Renderers(unittest.TestCase):
 
     def test_warnings_seeds_and_options_pass_through(self):
         log = os.path.join(self.folder.name, 'log')
-        nearlight = self.program(f'echo "$@" >> {log}; touch "$4"; echo "nearlight: warning: scene.xml:3: approximated" >&2; echo \'{{"clamp_radius": 2}}\'')
+        nearlight = self.program(f'echo "$@" >> {log}; touch "$4"; echo \'{{"clamp_radius": 2}}\'\n'
+                                 'echo "nearlight: warning: scene.xml:3: approximated" >&2')
         found, warnings, answer = nearlight.pictures(self.scene, Row('a/b', '', options=('--spp', '9'), size=(64, 48)), (5, 6))
         self.assertEqual((found.shape, warnings, answer), ((2, 2, 2, 3), ['scene.xml:3: approximated'], {'clamp_radius': 2}))
         with open(log) as file:

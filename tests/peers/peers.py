@@ -31,13 +31,14 @@ def parsed_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('patterns', nargs='*', help="rows to run, such as 'emitters/*' or 'glass'; all without")
     parser.add_argument('--nearlight', default=os.path.join(ROOT, 'build/release/nearlight'), help='the program')
-    parser.add_argument('--out', default=os.path.join(ROOT, 'build/peers'), help="folder of the scenes, Mitsuba's pictures and results")
+    parser.add_argument('--out', default=os.path.join(ROOT, 'build/peers'), help="folder of the scenes and Mitsuba's pictures")
     parser.add_argument('--jobs', type=int, default=1, help='rows at a time')
     parser.add_argument('--fast', action='store_true', help='only the subset that ctest runs')
     parser.add_argument('--list', action='store_true', help='list the rows and end')
     parser.add_argument('--json', action='store_true', help='print results as one JSON object')
-    parser.add_argument('--clamp-radius-factor', type=float, default=1, help="render with this many times nearlight's own clamp radius")
-    parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[], help='also compare all XML scenes under this folder, as rows rooms/...')
+    parser.add_argument('--clamp-radius-factor', type=float, default=1, help="times the clamp radius of nearlight's own choice")
+    parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[],
+                        help='also compare all XML scenes under this folder, as rows rooms/...')
     parser.add_argument('--size', default='128x96', help='greatest size of the pictures of --rooms')
     parser.add_argument('--options', default='', help='further options for nearlight, in one string')
     parser.add_argument('--redo', action='store_true', help="make Mitsuba's pictures anew")
@@ -46,16 +47,16 @@ def parsed_arguments():
 
 
 def chosen(rows, arguments):
-    def is_wanted(row):
-        return not arguments.patterns or any(fnmatch.fnmatch(row.name, p) or row.name.startswith(p.rstrip('/') + '/') for p in arguments.patterns)
-    return [row for row in rows if is_wanted(row) and (row.fast or not arguments.fast)]
+    """The rows that the patterns name; a name without a star is that of a group, or of a row."""
+    patterns = [form for pattern in arguments.patterns or ['*'] for form in (pattern, pattern.rstrip('/') + '/*')]
+    return [row for row in rows if any(fnmatch.fnmatch(row.name, p) for p in patterns) and (row.fast or not arguments.fast)]
 
 
 def main():
     arguments = parsed_arguments()
     missing = missing_packages()
     if missing and not arguments.list:
-        print(f"skipped: the comparison with Mitsuba needs the Python package {' and '.join(missing)} (pip install mitsuba numpy)")
+        print(f"skipped: the comparison with Mitsuba needs the Python package {' and '.join(missing)} (pip install mitsuba)")
         return SKIPPED
     import rooms
     import rows
@@ -103,14 +104,16 @@ def line_of(result):
     text = f"{'ok  ' if result.passed else 'FAIL'} {result.status:9} {result.name:44}"
     a = result.agreement
     if a:
-        text += f' mean {a.ratio:.4f} ± {a.ratio_error:.4f}  block {a.block_deviation:+.1%} ({a.block_sigmas:.0f} sigma) beyond noise {a.block_excess:.1%}'
+        text += (f' mean {a.ratio:.4f} ± {a.ratio_error:.4f}  block {a.block_deviation:+.1%} ({a.block_sigmas:.0f} sigma),'
+                 f' beyond noise {a.block_excess:.1%}')
     return f'{text} {result.note}  [{result.seconds:.1f} s]'
 
 
 def report_all(results, arguments):
     failed = [r for r in results if not r.passed]
     if arguments.json:
-        print(json.dumps({'rows': [asdict(r) for r in results], 'failed': [r.name for r in failed], 'pass': not failed}, indent=1))
+        rows = [asdict(result) for result in results]
+        print(json.dumps({'rows': rows, 'failed': [r.name for r in failed], 'pass': not failed}, indent=1))
     print(f'{len(results) - len(failed)} of {len(results)} rows pass', file=sys.stderr)
     if arguments.write_docs:
         import report

@@ -15,7 +15,8 @@ ratio is within 0.5 % of 1 (or within its noise, which may be 1.5 % at most) and
 what it does not know, with the message shown and exit code 3; it leaves nothing out in silence.
 
 '''
-WORDS = {'agrees': 'agrees', 'deviates': '**deviates**', 'noisy': 'noisy', 'refused': 'refused', 'failed': '**failed**', 'no peer': 'no peer'}
+KINDS = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
+BOLD = ('deviates', 'failed')
 
 
 def write(path, results, command, ours, theirs):
@@ -32,8 +33,7 @@ def _group(result):
 
 
 def _summary(results):
-    kinds = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
-    kinds = [kind for kind in kinds if any(r.status == kind for r in results)]
+    kinds = [kind for kind in KINDS if any(r.status == kind for r in results)]
     lines = ['| group | ' + ' | '.join(kinds) + ' |', '|---|' + '---:|' * len(kinds)]
     for group, rows in [(g, list(r)) for g, r in groupby(results, key=_group)] + [('all', results)]:
         lines.append(f'| {group} | ' + ' | '.join(str(sum(r.status == kind for r in rows) or '') for kind in kinds) + ' |')
@@ -47,7 +47,8 @@ def _line(result):
         ratio = f'{result.agreement.ratio:.4f} ± {result.agreement.ratio_error:.4f}'
         block = f'{result.agreement.block_excess:.1%}'
     notes = [result.note] if result.note else result.warnings
-    return f'| {name} | {WORDS[result.status]} | {ratio} | {block} | {"; ".join(_escaped(n) for n in notes)} |\n'
+    status = f'**{result.status}**' if result.status in BOLD else result.status
+    return f'| {name} | {status} | {ratio} | {block} | {"; ".join(_escaped(n) for n in notes)} |\n'
 
 
 def _escaped(text):

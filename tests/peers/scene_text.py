@@ -91,6 +91,11 @@ def look(origin, target, up='0, 1, 0'):
     return f'<lookat origin="{origin}" target="{target}" up="{up}"/>'
 
 
+def place(size, at, *turns):
+    """The to_world of something that is scaled, turned and then moved."""
+    return transform(scale(*size) if isinstance(size, tuple) else scale(size), *turns, move(*at))
+
+
 def bitmap(name, **properties):
     return texture('bitmap', filename=ASSETS + name, **properties)
 

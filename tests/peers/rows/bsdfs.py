@@ -5,7 +5,8 @@ from scene_text import *
 
 
 def rows():
-    return [_row(name, material, light) for name, (material, lights) in {**_plain(), **_metals(), **_clear(), **_layered(), **_mixed()}.items()
+    return [_row(name, material, light) for name, (material, lights) in {**_plain(), **_metals(), **_clear(),
+        **_layered(), **_mixed()}.items()
             for light in lights.split()]
 
 
@@ -28,9 +29,12 @@ LIGHTS = {
     'point': lambda material: scene(*stage(_ball(material)), point_light(), depth=4),
     'area': lambda material: scene(*stage(_ball(material)), lamp(8, size=0.8), depth=5),
     'sky': lambda material: scene(*stage(_ball(material)), envmap(), depth=5),
-    'mesh': lambda material: scene(*stage(mesh('fine_ball.obj', material, to_world=transform(scale(0.7), move(0, 0.72, 0)))), lamp(8, size=0.8), depth=5),
-    'sheet': lambda material: scene(floor(), wall(), rectangle(material, at=(0, 0.9, 0), size=0.8, turned=[turn('x', -25)]), lamp(8, size=0.8), envmap(scale=0.3), depth=6),
-    'behind': lambda material: scene(floor(), wall(), rectangle(material, at=(0, 0.9, 0), size=0.8, turned=[turn('y', 160)]), lamp(8, size=0.8), point_light(6), depth=5),
+    'mesh': lambda material: scene(*stage(mesh('fine_ball.obj', material, to_world=place(0.7, (0, 0.72, 0)))),
+        lamp(8, size=0.8), depth=5),
+    'sheet': lambda material: scene(floor(), wall(), rectangle(material, at=(0, 0.9, 0), size=0.8,
+        turned=[turn('x', -25)]), lamp(8, size=0.8), envmap(scale=0.3), depth=6),
+    'behind': lambda material: scene(floor(), wall(), rectangle(material, at=(0, 0.9, 0), size=0.8,
+        turned=[turn('y', 160)]), lamp(8, size=0.8), point_light(6), depth=5),
 }
 
 
@@ -55,7 +59,8 @@ def _plain():
         'roughplastic-very-rough': (rough(alpha=0.8), 'furnace'),
         'roughplastic-nonlinear': (rough(alpha=0.2, nonlinear=True, distribution='ggx'), 'furnace point'),
         'roughplastic-index': (rough(alpha=0.2, int_ior=1.9), 'furnace'),
-        'roughplastic-textured': (bsdf('roughplastic', diffuse_reflectance=bitmap('tiles.png'), specular_reflectance=rgb(0.5), alpha=0.2), 'area'),
+        'roughplastic-textured': (bsdf('roughplastic', diffuse_reflectance=bitmap('tiles.png'),
+            specular_reflectance=rgb(0.5), alpha=0.2), 'area'),
         'pplastic': (bsdf('pplastic', diffuse_reflectance=red, alpha=0.2), 'point'),
     }
 
@@ -77,8 +82,10 @@ def _metals():
         'roughconductor-default': (rough(), 'point'),
         'roughconductor-anisotropic': (rough(material='Al', alpha_u=0.05, alpha_v=0.4), 'furnace point area'),
         'roughconductor-anisotropic-ggx': (rough(material='Al', alpha_u=0.4, alpha_v=0.1, distribution='ggx'), 'point mesh'),
-        'roughconductor-textured-roughness': (rough(material='Al', alpha=bitmap('rough.png', raw=True), distribution='ggx'), 'area'),
-        'roughconductor-textured-tint': (rough(material='none', alpha=0.2, specular_reflectance=bitmap('tiles.png')), 'point'),
+        'roughconductor-textured-roughness': (rough(material='Al', alpha=bitmap('rough.png', raw=True),
+            distribution='ggx'), 'area'),
+        'roughconductor-textured-tint': (rough(material='none', alpha=0.2, specular_reflectance=bitmap('tiles.png')),
+            'point'),
         'roughconductor-all-normals': (rough(material='Al', alpha=0.2, sample_visible=False), 'point'),
     }
 
@@ -87,7 +94,8 @@ def _clear():
     return {
         'dielectric': (bsdf('dielectric'), 'furnace area'),
         'dielectric-index': (bsdf('dielectric', int_ior=1.8, ext_ior='water'), 'sky'),
-        'dielectric-tinted': (bsdf('dielectric', specular_transmittance=rgb(0.9, 0.5, 0.3), specular_reflectance=rgb(0.5, 0.8, 0.9)), 'area'),
+        'dielectric-tinted': (bsdf('dielectric', specular_transmittance=rgb(0.9, 0.5, 0.3),
+            specular_reflectance=rgb(0.5, 0.8, 0.9)), 'area'),
         'dielectric-mesh': (bsdf('dielectric'), 'mesh'),
         'roughdielectric': (bsdf('roughdielectric', alpha=0.2), ALL),
         'roughdielectric-ggx': (bsdf('roughdielectric', alpha=0.4, distribution='ggx', int_ior=1.7), 'furnace area'),
@@ -95,7 +103,8 @@ def _clear():
         'roughdielectric-tinted': (bsdf('roughdielectric', alpha=0.2, specular_transmittance=rgb(0.9, 0.5, 0.3)), 'furnace'),
         'roughdielectric-sheet': (bsdf('roughdielectric', alpha=0.2, distribution='ggx'), 'sheet behind'),
         'thindielectric': (bsdf('thindielectric'), 'furnace sheet'),
-        'thindielectric-tinted': (bsdf('thindielectric', specular_transmittance=rgb(0.9, 0.5, 0.3), specular_reflectance=rgb(0.5, 0.8, 0.9)), 'sheet'),
+        'thindielectric-tinted': (bsdf('thindielectric', specular_transmittance=rgb(0.9, 0.5, 0.3),
+            specular_reflectance=rgb(0.5, 0.8, 0.9)), 'sheet'),
         'null': (bsdf('null'), 'point area'),
     }
 
@@ -116,7 +125,8 @@ def _layered():
         'principled-flat': (principled(flatness=0.8, roughness=0.5), 'furnace'),
         'principled-clearcoat': (principled(clearcoat=1.0, clearcoat_gloss=0.7, roughness=0.6), 'point'),
         'principled-eta': (principled(eta=1.8, roughness=0.3), 'furnace'),
-        'principled-textured': (bsdf('principled', base_color=bitmap('tiles.png'), roughness=bitmap('rough.png', raw=True), metallic=bitmap('grey.png', raw=True)), 'area'),
+        'principled-textured': (bsdf('principled', base_color=bitmap('tiles.png'),
+            roughness=bitmap('rough.png', raw=True), metallic=bitmap('grey.png', raw=True)), 'area'),
         'principledthin': (bsdf('principledthin', base_color=rgb(0.6, 0.3, 0.15), diff_trans=1.0, roughness=0.4), 'sheet'),
     }
 

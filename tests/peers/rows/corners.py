@@ -20,9 +20,11 @@ def _room(material, *things, depth=8, camera=CAMERA):
 
 
 def _diffuse():
-    corner = [rectangle(diffuse(0.8), at=(-1, 0, -1), size=1.2, turned=UP), rectangle(diffuse(0.8, 0.3, 0.2), at=(-1, 0, -1), size=1.2),
+    corner = [rectangle(diffuse(0.8), at=(-1, 0, -1), size=1.2, turned=UP),
+        rectangle(diffuse(0.8, 0.3, 0.2), at=(-1, 0, -1), size=1.2),
               rectangle(diffuse(0.2, 0.8, 0.3), at=(-1, 0, -1), size=1.2, turned=[turn('y', 90)])]
-    groove = [rectangle(diffuse(0.8), at=(x, 0.3, 0), size=0.6, turned=[turn('y', y), turn('z', -y / 90 * 20)]) for x, y in ((-0.25, 90), (0.25, -90))]
+    groove = [rectangle(diffuse(0.8), at=(x, 0.3, 0), size=0.6, turned=[turn('y', y), turn('z', -y / 90 * 20)]) for x,
+        y in ((-0.25, 90), (0.25, -90))]
     return {
         'room-grey': (_room(diffuse(0.5)), dict(fast=True)),
         'room-white': _room(diffuse(0.85)),
@@ -32,11 +34,16 @@ def _diffuse():
         'room-indirect-only': _room(diffuse(0.8), rectangle(area(20), diffuse(0.5), at=(0, 2.6, 0), size=0.3, turned=UP)),
         'corner': scene(*corner, point_light(3, at=(1, 2, 1)), depth=6, camera=CLOSE),
         'corner-sky': scene(*corner, envmap(), depth=6, camera=CLOSE),
-        'groove': scene(floor(diffuse(0.8)), *groove, point_light(5, at=(0.1, 2.5, 0.3)), depth=6, camera=perspective(to_world=look('0, 1.8, 1.4', '0, 0.2, 0'))),
-        'box-on-floor': scene(floor(diffuse(0.8)), box(diffuse(0.8, 0.2, 0.2)), point_light(), depth=6, camera=perspective(to_world=look('0.3, 0.6, 1.6', '0.1, 0.15, 0.4'))),
-        'ball-on-floor': scene(floor(diffuse(0.8)), sphere(diffuse(0.8, 0.2, 0.2), at=(0, 0.5, 0), radius=0.5), point_light(), depth=6, camera=perspective(to_world=look('0, 0.5, 1.8', '0, 0.2, 0'))),
-        'sheets-close': scene(floor(diffuse(0.8)), rectangle(bsdf('twosided', diffuse(0.8)), at=(0, 0.15, 0), size=0.7, turned=UP), point_light(), depth=8, camera=perspective(to_world=look('0, 0.5, 1.8', '0, 0.1, 0'))),
-        'shade': scene(floor(), wall(), shape('cylinder', bsdf('twosided', diffuse(0.8, 0.6, 0.3)), p0=point(0, 0.5, 0), p1=point(0, 1.3, 0), radius=0.5), point_light(1, at=(0, 0.9, 0)), depth=8),
+        'groove': scene(floor(diffuse(0.8)), *groove, point_light(5, at=(0.1, 2.5, 0.3)), depth=6,
+            camera=perspective(to_world=look('0, 1.8, 1.4', '0, 0.2, 0'))),
+        'box-on-floor': scene(floor(diffuse(0.8)), box(diffuse(0.8, 0.2, 0.2)), point_light(), depth=6,
+            camera=perspective(to_world=look('0.3, 0.6, 1.6', '0.1, 0.15, 0.4'))),
+        'ball-on-floor': scene(floor(diffuse(0.8)), sphere(diffuse(0.8, 0.2, 0.2), at=(0, 0.5, 0), radius=0.5),
+            point_light(), depth=6, camera=perspective(to_world=look('0, 0.5, 1.8', '0, 0.2, 0'))),
+        'sheets-close': scene(floor(diffuse(0.8)), rectangle(bsdf('twosided', diffuse(0.8)), at=(0, 0.15, 0), size=0.7,
+            turned=UP), point_light(), depth=8, camera=perspective(to_world=look('0, 0.5, 1.8', '0, 0.1, 0'))),
+        'shade': scene(floor(), wall(), shape('cylinder', bsdf('twosided', diffuse(0.8, 0.6, 0.3)), p0=point(0, 0.5, 0),
+            p1=point(0, 1.3, 0), radius=0.5), point_light(1, at=(0, 0.9, 0)), depth=8),
         'textured-room': _room(bsdf('diffuse', reflectance=bitmap('tiles.png'))),
     }
 
@@ -62,9 +69,15 @@ def _metal():
         'floor-mirror': with_side(ground=smooth),
         'wall-mirror': with_side(left=smooth),
         'wall-roughplastic': with_side(right=bsdf('roughplastic', alpha=0.1)),
-        'two-mirrors': scene(*stage(), rectangle(smooth, at=(-1.6, 0, 0), size=3, turned=[turn('y', 90)]), rectangle(smooth, at=(1.6, 0, 0), size=3, turned=[turn('y', -90)]), lamp(), depth=8),
-        'two-mirrors-facing': scene(floor(), rectangle(smooth, at=(0, 1, -1.5), size=2), rectangle(smooth, at=(0, 1, 5), size=3, turned=[turn('y', 180)]), box(diffuse(0.7, 0.4, 0.3)), lamp(), depth=8),
-        'metal-under-spot': scene(*stage(sphere(bsdf('roughconductor', material='Al', alpha=0.15))), emitter('spot', intensity=rgb(60), to_world=transform(look('1.2, 2.8, 2.5', '0, 0.5, 0'))), depth=4),
+        'two-mirrors': scene(*stage(), rectangle(smooth, at=(-1.6, 0, 0), size=3, turned=[turn('y', 90)]),
+            rectangle(smooth, at=(1.6, 0, 0), size=3, turned=[turn('y', -90)]), lamp(), depth=8),
+        'two-mirrors-facing': scene(floor(), rectangle(smooth, at=(0, 1, -1.5), size=2),
+            rectangle(smooth, at=(0, 1, 5), size=3, turned=[turn('y', 180)]), box(diffuse(0.7, 0.4, 0.3)), lamp(),
+            depth=8),
+        'metal-under-spot': scene(*stage(sphere(bsdf('roughconductor', material='Al', alpha=0.15))),
+            emitter('spot', intensity=rgb(60), to_world=transform(look('1.2, 2.8, 2.5', '0, 0.5, 0'))), depth=4),
         'caustic-of-metal-ball': scene(*stage(sphere(smooth, at=(0, 0.71, -0.2))), lamp(8, size=0.8), depth=5),
-        'caustic-of-metal-ring': scene(floor(), shape('cylinder', bsdf('twosided', smooth), p0=point(0, 0, 0), p1=point(0, 0.6, 0), radius=0.9), lamp(8, size=0.6), depth=6, camera=perspective(to_world=look('0, 2.5, 2.5', '0, 0, 0'))),
+        'caustic-of-metal-ring': scene(floor(), shape('cylinder', bsdf('twosided', smooth), p0=point(0, 0, 0),
+            p1=point(0, 0.6, 0), radius=0.9), lamp(8, size=0.6), depth=6,
+            camera=perspective(to_world=look('0, 2.5, 2.5', '0, 0, 0'))),
     }

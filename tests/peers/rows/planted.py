@@ -12,7 +12,8 @@ def rows():
         'mirrored': _scene(view=scale(-1, 1, 1) + VIEW),
         'box-turned': _scene(degrees=75),
     }
-    return [Row(f'planted/{name}', right, fast=name == 'reflectance-3-percent', planted=wrong) for name, wrong in plants.items()]
+    return [Row(f'planted/{name}', right, fast=name == 'reflectance-3-percent', planted=wrong) for name,
+        wrong in plants.items()]
 
 
 def _scene(paler=(1, 1, 1), view=VIEW, degrees=30):

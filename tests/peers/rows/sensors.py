@@ -5,23 +5,28 @@ from scene_text import *
 
 
 def rows():
-    return table('sensors', _sensors()) + table('films', _films()) + table('filters', _filters(), spp=2048, block=1, options=('--spp', '256'))
+    return table('sensors', _sensors()) + table('films', _films()) + table('filters', _filters(), spp=2048, block=1,
+        options=('--spp', '256'))
 
 
 def _seen(camera, *more):
     """A textured floor and a small box show where each pixel looks."""
-    things = (floor(bsdf('diffuse', reflectance=texture('checkerboard', to_uv=transform(scale(16)), color0=rgb(0.2, 0.3, 0.4), color1=rgb(0.7, 0.6, 0.4)))),
+    things = (floor(bsdf('diffuse', reflectance=texture('checkerboard', to_uv=transform(scale(16)),
+        color0=rgb(0.2, 0.3, 0.4), color1=rgb(0.7, 0.6, 0.4)))),
               wall(), box(diffuse(0.6, 0.3, 0.2)))
     return scene(*things, point_light(), *more, camera=camera, depth=2)
 
 
 def _sensors():
     lens = dict(to_world=transform(VIEW), fov=42.0)
-    fov = {f'perspective-fov-{axis}': _seen(perspective(fov=35.0, fov_axis=axis)) for axis in ('x', 'y', 'diagonal', 'smaller', 'larger')}
+    fov = {f'perspective-fov-{axis}': _seen(perspective(fov=35.0, fov_axis=axis))
+        for axis in ('x', 'y', 'diagonal', 'smaller', 'larger')}
     return {
         **fov,
-        'perspective-fov-smaller-portrait': _seen(perspective(fov=35.0, fov_axis='smaller', the_film=picture(width=48, height=64))),
-        'perspective-fov-larger-portrait': _seen(perspective(fov=35.0, fov_axis='larger', the_film=picture(width=48, height=64))),
+        'perspective-fov-smaller-portrait': _seen(perspective(fov=35.0, fov_axis='smaller',
+            the_film=picture(width=48, height=64))),
+        'perspective-fov-larger-portrait': _seen(perspective(fov=35.0, fov_axis='larger',
+            the_film=picture(width=48, height=64))),
         'perspective-focal-length': _seen(sensor('perspective', picture(), to_world=transform(VIEW), focal_length='40mm')),
         'perspective-principal-point': _seen(perspective(principal_point_offset_x=0.15, principal_point_offset_y=-0.2)),
         'perspective-near-clip': _seen(perspective(near_clip=3.8)),
@@ -34,7 +39,8 @@ def _sensors():
         'thinlens-far': _seen(sensor('thinlens', picture(), aperture_radius=0.1, focus_distance=6.0, **lens)),
         'orthographic': _seen(sensor('orthographic', picture(), to_world=transform(scale(1.5), VIEW))),
         'orthographic-stretched': _seen(sensor('orthographic', picture(), to_world=transform(scale(2, 1.2, 1), VIEW))),
-        'orthographic-clips': _seen(sensor('orthographic', picture(), near_clip=3.8, far_clip=5.2, to_world=transform(scale(1.5), VIEW))),
+        'orthographic-clips': _seen(sensor('orthographic', picture(), near_clip=3.8, far_clip=5.2,
+            to_world=transform(scale(1.5), VIEW))),
     }
 
 

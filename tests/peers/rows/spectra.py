@@ -23,7 +23,8 @@ def _plugin(kind, **properties):
 
 
 def _lights():
-    lamp_of = lambda radiance: scene(*stage(), rectangle(emitter('area', radiance=radiance), diffuse(0), at=(0.8, 2.6, 1), size=0.5, turned=DOWN), depth=3)
+    lamp_of = lambda radiance: scene(*stage(), rectangle(emitter('area', radiance=radiance), diffuse(0), at=(0.8, 2.6, 1),
+        size=0.5, turned=DOWN), depth=3)
     return {
         'light-rgb': _light(rgb(9, 6, 3)),
         'light-rgb-hex': _light(Element('<rgbNAME value="#ffc080"/>')),
@@ -51,5 +52,6 @@ def _materials():
         'paint-uniform': _paint(_plugin('uniform', value=0.4)),
         'paint-regular': _paint(_plugin('regular', values='0.1, 0.3, 0.6, 0.8', wavelength_min=400.0, wavelength_max=700.0)),
         'paint-irregular': _paint(_plugin('irregular', values='0.1, 0.3, 0.6, 0.8', wavelengths='400, 500, 600, 700')),
-        'metal-spectrum': scene(sphere(bsdf('conductor', eta=spectrum('400:1.4, 500:0.9, 600:0.3, 700:0.2'), k=spectrum('400:1.9, 500:2.1, 600:3.0, 700:3.8')), radius=1.2), constant(), depth=3),
+        'metal-spectrum': scene(sphere(bsdf('conductor', eta=spectrum('400:1.4, 500:0.9, 600:0.3, 700:0.2'),
+            k=spectrum('400:1.9, 500:2.1, 600:3.0, 700:3.8')), radius=1.2), constant(), depth=3),
     }

@@ -9,11 +9,12 @@ def rows():
 
 
 def _on_sheet(reflectance):
-    return scene(floor(), wall(), rectangle(bsdf('diffuse', reflectance=reflectance), at=(0, 1, 0), size=1.1), point_light(), depth=3)
+    return scene(floor(), wall(), rectangle(bsdf('diffuse', reflectance=reflectance), at=(0, 1, 0), size=1.1),
+        point_light(), depth=3)
 
 
 def _on_mesh(name, reflectance):
-    sheet = mesh(name, bsdf('twosided', bsdf('diffuse', reflectance=reflectance)), to_world=transform(scale(1.1), move(0, 1, 0)))
+    sheet = mesh(name, bsdf('twosided', bsdf('diffuse', reflectance=reflectance)), to_world=place(1.1, (0, 1, 0)))
     return scene(floor(), wall(), sheet, point_light(), depth=3)
 
 
@@ -36,11 +37,15 @@ def _bitmaps():
         'bitmap-exr-above-one-raw': _on_sheet(bitmap('bright.exr', raw=True)),
         'bitmap-exr-grey': _on_sheet(bitmap('grey.exr', raw=True)),
         'bitmap-on-sphere': scene(*stage(sphere(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=3),
-        'bitmap-on-cylinder': scene(*stage(shape('cylinder', bsdf('diffuse', reflectance=bitmap('tiles.png')), p0=point(0, 0, 0), p1=point(0, 1.4, 0), radius=0.5)), point_light(), depth=3),
-        'bitmap-on-disk': scene(*stage(shape('disk', bsdf('diffuse', reflectance=bitmap('tiles.png')), to_world=transform(move(0, 0.9, 0)))), point_light(), depth=3),
+        'bitmap-on-cylinder': scene(*stage(shape('cylinder', bsdf('diffuse', reflectance=bitmap('tiles.png')),
+            p0=point(0, 0, 0), p1=point(0, 1.4, 0), radius=0.5)), point_light(), depth=3),
+        'bitmap-on-disk': scene(*stage(shape('disk', bsdf('diffuse', reflectance=bitmap('tiles.png')),
+            to_world=transform(move(0, 0.9, 0)))), point_light(), depth=3),
         'bitmap-on-cube': scene(*stage(box(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=3),
-        'bitmap-on-obj': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')), to_world=transform(scale(0.7), move(0, 0.72, 0)))), point_light(), depth=3),
-        'bitmap-on-obj-unflipped': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')), flip_tex_coords=False, to_world=transform(scale(0.7), move(0, 0.72, 0)))), point_light(), depth=3),
+        'bitmap-on-obj': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')),
+            to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=3),
+        'bitmap-on-obj-unflipped': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')),
+            flip_tex_coords=False, to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=3),
         'bitmap-on-ply': _on_mesh('wave_colors.ply', bitmap('tiles.png')),
     }
 
@@ -54,9 +59,11 @@ def _others():
         'checkerboard-of-bitmaps': _on_sheet(checks(to_uv=fine, color0=bitmap('tiles.png'), color1=bitmap('wood.png'))),
         'checkerboard-turned': _on_sheet(checks(to_uv=transform(scale(5), turn('z', 25)), color0=rgb(0.1), color1=rgb(0.8))),
         'mesh-attribute-vertex': _on_mesh('wave_colors.ply', texture('mesh_attribute', name_property('vertex_color'))),
-        'mesh-attribute-vertex-scaled': _on_mesh('wave_colors.ply', texture('mesh_attribute', name_property('vertex_color'), scale=0.5)),
+        'mesh-attribute-vertex-scaled': _on_mesh('wave_colors.ply',
+            texture('mesh_attribute', name_property('vertex_color'), scale=0.5)),
         'mesh-attribute-face': _on_mesh('wave_face_colors.ply', texture('mesh_attribute', name_property('face_color'))),
-        'reference-by-id': scene(with_id('paint', bitmap('tiles.png')), with_id('painted', bsdf('diffuse', reflectance=ref('paint'))), floor(), wall(),
+        'reference-by-id': scene(with_id('paint', bitmap('tiles.png')),
+            with_id('painted', bsdf('diffuse', reflectance=ref('paint'))), floor(), wall(),
                                  rectangle(ref('painted'), at=(0, 1, 0), size=1.1), point_light(), depth=3),
     }
 
