@@ -23,7 +23,8 @@ def _diffuse():
     corner = [rectangle(diffuse(0.8), at=(-1, 0, -1), size=1.2, turned=UP),
         rectangle(diffuse(0.8, 0.3, 0.2), at=(-1, 0, -1), size=1.2),
               rectangle(diffuse(0.2, 0.8, 0.3), at=(-1, 0, -1), size=1.2, turned=[turn('y', 90)])]
-    groove = [rectangle(diffuse(0.8), at=(x, 0.3, 0), size=0.6, turned=[turn('y', y), turn('z', -y / 90 * 20)]) for x,
+    groove = [rectangle(bsdf('twosided', diffuse(0.8)), at=(x, 0.3, 0), size=0.6,
+        turned=[turn('y', y), turn('z', -y / 90 * 20)]) for x,
         y in ((-0.25, 90), (0.25, -90))]
     return {
         'room-grey': (_room(diffuse(0.5)), dict(fast=True)),

@@ -64,7 +64,7 @@ def _areas():
         'area-textured-sphere': _lit(sphere(emitter('area', radiance=bitmap('lamp.exr', raw=True)), at=(1, 2.4, 1),
             radius=0.4)),
         'area-mirrored-by-scale': _lit(shape('rectangle', area(10), diffuse(0),
-            to_world=place((0.5, 0.5, -0.5), (0.8, 2.6, 1), turn('x', 90)))),
+            to_world=place((0.5, 0.5, -0.5), (0.8, 2.6, 1), turn('x', 90))), point_light(3)),
         'area-cube-mirrored': _lit(shape('cube', area(4), to_world=place((0.3, 0.3, -0.3), (1, 2.4, 1)))),
         'area-sphere-mirrored': _lit(shape('sphere', area(4), to_world=place((-0.4, 0.4, 0.4), (1, 2.4, 1))),
             point_light(3)),
@@ -79,14 +79,14 @@ def _areas():
         'area-weights': _lit(lamp(), rectangle(emitter('area', radiance=rgb(5), sampling_weight=0.1), diffuse(0),
             at=(-1, 2.2, 0.5), size=0.3, turned=DOWN)),
         'directionalarea': (_lit(rectangle(emitter('directionalarea', radiance=rgb(2)), diffuse(0), at=(0.2, 2.6, 0.2),
-            size=1, turned=DOWN)), dict(supported=False)),
+            size=1, turned=DOWN), point_light(3)), dict(supported=False)),
     }
 
 
 def _skies():
     def sky(kind, **properties):
         return emitter(kind, **{**dict(to_world=TO_SKY, turbidity=3.0, albedo=rgb(0.3)), **properties})
-    sun = vector(0.4, -0.5, 0.7)
+    sun = vector(0.4, 0.7, 0.5)
     return {
         'constant': (_lit(constant()), dict(fast=True)),
         'constant-coloured': _lit(emitter('constant', radiance=rgb(0.9, 0.5, 0.2))),
@@ -104,7 +104,8 @@ def _skies():
         'sky': _lit(sky('sunsky', sun_scale=0.0, sun_direction=sun)),
         'sun': _lit(sky('sunsky', sky_scale=0.0, sun_direction=sun)),
         'sunsky': _lit(sky('sunsky', sun_direction=sun)),
-        'sunsky-low-sun': _lit(sky('sunsky', sun_direction=vector(0.5, -0.8, 0.12))),
+        'sunsky-low-sun': _lit(sky('sunsky', sun_direction=vector(0.5, 0.12, 0.8))),
+        'sunsky-after-sunset': _lit(sky('sunsky', sun_direction=vector(0.5, -0.2, 0.8)), point_light(3)),
         'sunsky-hazy': _lit(sky('sunsky', sun_direction=sun, turbidity=8.0, albedo=rgb(0.1, 0.4, 0.2))),
         'sunsky-large-sun': _lit(sky('sunsky', sun_direction=sun, sun_aperture=5.0)),
         'sunsky-complex-sun': _lit(sky('sunsky', sun_direction=sun, complex_sun=True)),

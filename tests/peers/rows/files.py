@@ -21,5 +21,4 @@ def _scenes():
                                         *stage(box(ref('clay'), at=(-0.6, 0.5, 0), size=0.4),
                                             box(ref('metal'), at=(0.6, 0.5, 0), size=0.4)), point_light(), depth=4),
         'without-bsdf': scene(floor(), wall(), shape('sphere', center=point(0, 0.7, 0), radius=0.7), point_light(), depth=4),
-        'without-light': scene(floor(), wall(), path=integrator('path', max_depth=3)),
     }

@@ -9,14 +9,15 @@ def rows():
 
 
 def _with(path, *more):
-    lit = rectangle(area(4), diffuse(0.3), at=(0.4, 1.5, -0.6), size=0.35)
+    lit = sphere(area(12), at=(0.8, 1.2, 0.5), radius=0.2)
     ball = sphere(bsdf('plastic', diffuse_reflectance=rgb(0.5, 0.2, 0.2)), at=(-0.6, 0.5, 0), radius=0.5)
     return scene(*stage(ball, lit), *more, path=path)
 
 
-def _inside(depth, material=None):
-    return scene(*room(material or diffuse(0.7), rectangle(area(6), diffuse(0), at=(0, 2.9, 0), size=0.6, turned=DOWN)),
-                 depth=depth, camera=perspective(to_world=INSIDE))
+def _inside(depth):
+    """A room with a lamp on its far wall."""
+    shining = rectangle(area(6), diffuse(0), at=(0.6, 1.6, -2.9), size=0.5)
+    return scene(*room(diffuse(0.7), shining), depth=depth, camera=perspective(to_world=INSIDE))
 
 
 def _scenes():

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sensors, films and reconstruction filters before the same lit stage."""
+"""Sensors, films and reconstruction filters before the same stage in direct light."""
 from rows.row import table
 from scene_text import *
 
 
 def rows():
-    return table('sensors', _sensors()) + table('films', _films()) + table('filters', _filters(), spp=2048, block=1,
+    return table('sensors', _sensors(), block=4) + table('films', _films()) + table('filters', _filters(), spp=2048, block=1,
         options=('--spp', '256'))
 
 
@@ -19,6 +19,7 @@ def _seen(camera, *more):
 
 def _sensors():
     lens = dict(to_world=transform(VIEW), fov=42.0)
+    near = box(diffuse(0.8), at=(-0.3, 0.9, 2.5), size=0.25)
     fov = {f'perspective-fov-{axis}': _seen(perspective(fov=35.0, fov_axis=axis))
         for axis in ('x', 'y', 'diagonal', 'smaller', 'larger')}
     return {
@@ -34,9 +35,9 @@ def _sensors():
         'perspective-clips-with-sky': _seen(perspective(near_clip=3.8, far_clip=5.2), constant(0.2)),
         'perspective-rolled': _seen(perspective(to_world=look('0, 1.2, 4.2', '0, 0.7, 0', '1, 2, 0'))),
         'perspective-mirrored': _seen(sensor('perspective', picture(), fov=42.0, to_world=transform(scale(-1, 1, 1), VIEW))),
-        'thinlens': _seen(sensor('thinlens', picture(), aperture_radius=0.15, focus_distance=3.0, **lens)),
-        'thinlens-pinhole': _seen(sensor('thinlens', picture(), aperture_radius=0.0001, focus_distance=3.0, **lens)),
-        'thinlens-far': _seen(sensor('thinlens', picture(), aperture_radius=0.1, focus_distance=6.0, **lens)),
+        'thinlens': _seen(sensor('thinlens', picture(), aperture_radius=0.15, focus_distance=4.2, **lens), near),
+        'thinlens-near-focus': _seen(sensor('thinlens', picture(), aperture_radius=0.1, focus_distance=1.7, **lens), near),
+        'thinlens-pinhole': _seen(sensor('thinlens', picture(), aperture_radius=0.0001, focus_distance=3.0, **lens), near),
         'orthographic': _seen(sensor('orthographic', picture(), to_world=transform(scale(1.5), VIEW))),
         'orthographic-stretched': _seen(sensor('orthographic', picture(), to_world=transform(scale(2, 1.2, 1), VIEW))),
         'orthographic-clips': _seen(sensor('orthographic', picture(), near_clip=3.8, far_clip=5.2,
@@ -51,12 +52,10 @@ def _films():
     crop = dict(width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48)
     return {
         'plain': (with_film(), dict(fast=True)),
-        'sample-border': with_film(sample_border=True),
         'crop': with_film(**crop),
         'crop-gaussian': with_film(rfilter('gaussian'), **crop),
         'rgba': with_film(pixel_format='rgba'),
         'luminance': with_film(pixel_format='luminance'),
-        'half': with_film(component_format='float16'),
     }
 
 

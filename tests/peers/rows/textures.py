@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Textures on a sheet that fills most of the picture."""
+"""Textures on a sheet that fills most of the picture, in direct light."""
 from rows.row import table
 from scene_text import *
 
 
 def rows():
-    return table('textures', {**_bitmaps(), **_others()})
+    return table('textures', {**_bitmaps(), **_others()}, block=4)
 
 
 def _on_sheet(reflectance):
     return scene(floor(), wall(), rectangle(bsdf('diffuse', reflectance=reflectance), at=(0, 1, 0), size=1.1),
-        point_light(), depth=3)
+        point_light(), depth=2)
 
 
 def _on_mesh(name, reflectance):
     sheet = mesh(name, bsdf('twosided', bsdf('diffuse', reflectance=reflectance)), to_world=place(1.1, (0, 1, 0)))
-    return scene(floor(), wall(), sheet, point_light(), depth=3)
+    return scene(floor(), wall(), sheet, point_light(), depth=2)
 
 
 def _bitmaps():
@@ -36,16 +36,16 @@ def _bitmaps():
         'bitmap-exr-above-one': _on_sheet(bitmap('bright.exr')),
         'bitmap-exr-above-one-raw': _on_sheet(bitmap('bright.exr', raw=True)),
         'bitmap-exr-grey': _on_sheet(bitmap('grey.exr', raw=True)),
-        'bitmap-on-sphere': scene(*stage(sphere(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=3),
+        'bitmap-on-sphere': scene(*stage(sphere(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=2),
         'bitmap-on-cylinder': scene(*stage(shape('cylinder', bsdf('diffuse', reflectance=bitmap('tiles.png')),
-            p0=point(0, 0, 0), p1=point(0, 1.4, 0), radius=0.5)), point_light(), depth=3),
+            p0=point(0, 0, 0), p1=point(0, 1.4, 0), radius=0.5)), point_light(), depth=2),
         'bitmap-on-disk': scene(*stage(shape('disk', bsdf('diffuse', reflectance=bitmap('tiles.png')),
-            to_world=transform(move(0, 0.9, 0)))), point_light(), depth=3),
-        'bitmap-on-cube': scene(*stage(box(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=3),
+            to_world=transform(move(0, 0.9, 0)))), point_light(), depth=2),
+        'bitmap-on-cube': scene(*stage(box(bsdf('diffuse', reflectance=bitmap('tiles.png')))), point_light(), depth=2),
         'bitmap-on-obj': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')),
-            to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=3),
+            to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=2),
         'bitmap-on-obj-unflipped': scene(*stage(mesh('fine_ball.obj', bsdf('diffuse', reflectance=bitmap('tiles.png')),
-            flip_tex_coords=False, to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=3),
+            flip_tex_coords=False, to_world=place(0.7, (0, 0.72, 0)))), point_light(), depth=2),
         'bitmap-on-ply': _on_mesh('wave_colors.ply', bitmap('tiles.png')),
     }
 
@@ -64,7 +64,7 @@ def _others():
         'mesh-attribute-face': _on_mesh('wave_face_colors.ply', texture('mesh_attribute', name_property('face_color'))),
         'reference-by-id': scene(with_id('paint', bitmap('tiles.png')),
             with_id('painted', bsdf('diffuse', reflectance=ref('paint'))), floor(), wall(),
-                                 rectangle(ref('painted'), at=(0, 1, 0), size=1.1), point_light(), depth=3),
+                                 rectangle(ref('painted'), at=(0, 1, 0), size=1.1), point_light(), depth=2),
     }
 
 
