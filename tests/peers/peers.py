@@ -41,6 +41,7 @@ def parsed_arguments():
                         help='also compare all XML scenes under this folder, as rows rooms/...')
     parser.add_argument('--size', default='128x96', help='greatest size of the pictures of --rooms')
     parser.add_argument('--options', default='', help='further options for nearlight, in one string')
+    parser.add_argument('--resume', action='store_true', help='keep the results that this very program got before')
     parser.add_argument('--redo', action='store_true', help="make Mitsuba's pictures anew")
     parser.add_argument('--write-docs', metavar='FILE', help='write the table of docs/mitsuba-support.md')
     return parser.parse_args()

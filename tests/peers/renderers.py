@@ -13,7 +13,7 @@ from agreement import mean_error
 from mitsuba_worker import MitsubaFailure
 
 SEEDS_A_ROUND = 8
-MAX_ROUNDS = 8
+MAX_ROUNDS = 4
 ENOUGH = 0.001           # relative standard error of the mean of Mitsuba's pictures at which it stops
 SCENE_FILE = 3           # nearlight's exit code for a scene that it refuses
 
@@ -24,6 +24,22 @@ class NearlightFailure(Exception):
 
 class NearlightRefusal(Exception):
     """nearlight said that it cannot render the scene."""
+
+
+def hash_of_scene(path):
+    """A hash of a scene's text and of the files that it names."""
+    with open(path, 'rb') as file:
+        text = file.read()
+    digest = hashlib.sha256(text)
+    for name in sorted(set(re.findall(rb'name="filename"\s+value="([^"]+)"', text))):
+        add_file(digest, os.path.join(os.path.dirname(path), name.decode()))
+    return digest
+
+
+def add_file(digest, path):
+    if os.path.exists(path):
+        with open(path, 'rb') as file:
+            digest.update(file.read())
 
 
 @dataclass
@@ -58,15 +74,8 @@ class Mitsuba:
         return pictures
 
     def _key(self, path, row):
-        with open(path, 'rb') as file:
-            text = file.read()
-        digest = hashlib.sha256(text)
-        for name in sorted(set(re.findall(rb'name="filename"\s+value="([^"]+)"', text))):
-            beside = os.path.join(os.path.dirname(path), name.decode())
-            if os.path.exists(beside):
-                with open(beside, 'rb') as file:
-                    digest.update(file.read())
-        digest.update(repr((self.version, 'llvm_ad_rgb', row.spp, row.size, row.block)).encode())
+        digest = hash_of_scene(path)
+        digest.update(repr((self.version, row.spp, row.size, row.block)).encode())
         return digest.hexdigest()[:24]
 
 
