@@ -6,6 +6,7 @@ import os
 import stat
 import sys
 import tempfile
+import types
 import unittest
 import xml.etree.ElementTree
 
@@ -19,7 +20,7 @@ import agreement
 import report
 import rooms
 import rows
-from comparison import Result
+from comparison import Comparison, Result
 from renderers import Mitsuba, Nearlight, NearlightFailure, NearlightRefusal
 from rows.row import Row
 from scene_text import *
@@ -187,6 +188,67 @@ class Renderers(unittest.TestCase):
         with open(log) as file:
             for line, seed in zip(file, (5, 6)):
                 self.assertIn(f'--seed {seed} --spp 9 --size 64x48', line)
+
+
+class Verdicts(unittest.TestCase):
+    """A whole row, with a worker and a program that only seem to render."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.log = os.path.join(self.folder.name, 'log')
+        self.write_program('echo "$@" >> ' + self.log + '; touch "$4"; echo \'{"clamp_radius": 0.5}\'')
+
+    def write_program(self, script):
+        self.program = os.path.join(self.folder.name, 'program')
+        with open(self.program, 'w') as file:
+            file.write('#!/bin/sh\n' + script)
+        os.chmod(self.program, stat.S_IRWXU)
+
+    def ask(self, request, _seconds):
+        np.save(request['into'], np.ones((len(request.get('seeds') or request['read']), 2, 2, 3)))
+
+    def result(self, row, **options):
+        given = dict(clamp_radius_factor=1, resume=False, redo=False, out=self.folder.name, nearlight=self.program, options='')
+        return Comparison(types.SimpleNamespace(**{**given, **options}), '3.0', self).result(row)
+
+    def renderings(self):
+        with open(self.log) as file:
+            return file.read().splitlines()
+
+    def test_a_row_that_agrees_passes_after_four_seeds(self):
+        result = self.result(Row('a/b', '<scene/>'))
+        self.assertEqual((result.status, result.passed, result.clamp_radius), ('agrees', True, 0.5))
+        self.assertEqual(len(self.renderings()), 4)
+
+    def test_a_planted_row_that_agrees_fails(self):
+        result = self.result(Row('a/b', '<scene/>', planted='<scene><!-- wrong --></scene>'))
+        self.assertEqual((result.status, result.passed), ('agrees', False))
+        self.assertIn('a__b-wrong.xml', self.renderings()[0])
+
+    def test_a_refusal_fails_unless_the_row_allows_it(self):
+        self.write_program('echo "nearlight: error: no" >&2; exit 3')
+        for supported in (True, False):
+            result = self.result(Row('a/b', '<scene/>', supported=supported))
+            self.assertEqual((result.status, result.passed, result.note), ('refused', not supported, 'no'))
+
+    def test_resumed_results_hold_until_the_scene_or_the_program_change(self):
+        row = Row('a/b', '<scene/>')
+        first = self.result(row)
+        again = self.result(row, resume=True)
+        self.assertEqual((again.status, again.agreement.ratio), (first.status, first.agreement.ratio))
+        self.assertEqual(len(self.renderings()), 4)
+        self.result(Row('a/b', '<scene></scene>'), resume=True)
+        self.assertEqual(len(self.renderings()), 8)
+        with open(self.program, 'a') as file:
+            file.write('# another build')
+        self.result(row, resume=True)
+        self.assertEqual(len(self.renderings()), 12)
+
+    def test_the_clamp_radius_is_a_multiple_of_the_automatic_one(self):
+        self.result(Row('a/b', '<scene/>'), clamp_radius_factor=0.1)
+        self.assertNotIn('--clamp-radius', self.renderings()[0])
+        self.assertIn('--clamp-radius 0.05', self.renderings()[1])
 
 
 class Report(unittest.TestCase):
