@@ -241,7 +241,7 @@ class Verdicts(unittest.TestCase):
         self.result(Row('a/b', '<scene></scene>'), resume=True)
         self.assertEqual(len(self.renderings()), 8)
         with open(self.program, 'a') as file:
-            file.write('# another build')
+            file.write('\n# another build')
         self.result(row, resume=True)
         self.assertEqual(len(self.renderings()), 12)
 
