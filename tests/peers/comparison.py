@@ -10,15 +10,15 @@ import shlex
 import numpy as np
 
 import agreement
-from mitsuba_worker import MitsubaFailure
-from renderers import Mitsuba, Nearlight, NearlightFailure, NearlightRefusal, add_file, hash_of_scene
+from mitsuba_worker import MitsubaFailure, UnreadableScene
+from renderers import Mitsuba, Nearlight, NearlightFailure, NearlightRefusal, add_file, hash_of_scene, without_folders
 
 ROUNDS = ((1, 2, 3, 4), (5, 6, 7, 8), tuple(range(9, 17)))   # seeds; a row that agrees early stops early
 
 
 @dataclass
 class Result:
-    """A row after the comparison. `status`: agrees, deviates, noisy, refused, failed, or no peer (Mitsuba cannot read it)."""
+    """A row after the comparison. `status`: agrees, deviates, noisy, refused, failed, or no peer (Mitsuba does not read it)."""
     name: str
     status: str
     passed: bool
@@ -68,8 +68,10 @@ class Comparison:
     def _compared(self, row, path, wrong):
         try:
             theirs = self._mitsuba.pictures(path, row)
+        except UnreadableScene as failure:
+            return Result(row.name, 'no peer', bool(row.path), without_folders(f'Mitsuba: {failure}'))
         except MitsubaFailure as failure:
-            return Result(row.name, 'no peer' if row.path else 'failed', bool(row.path), f'Mitsuba: {failure}')
+            return Result(row.name, 'failed', False, f'Mitsuba: {failure}')
         try:
             return self._judged(row, wrong, theirs)
         except NearlightRefusal as refusal:

@@ -20,6 +20,10 @@ class MitsubaFailure(Exception):
     """Mitsuba could not do what it was asked for."""
 
 
+class UnreadableScene(MitsubaFailure):
+    """Mitsuba does not read the scene."""
+
+
 class Worker:
     """Sends requests to the process, which is started when it is needed. What Mitsuba complains of goes to the log."""
 
@@ -42,7 +46,7 @@ class Worker:
             self.stop()
             raise MitsubaFailure(f'Mitsuba ended, see {self._log}' if ended else f'Mitsuba took more than {seconds} s')
         if 'error' in answer:
-            raise MitsubaFailure(answer['error'])
+            raise (UnreadableScene if answer['is_unreadable'] else MitsubaFailure)(answer['error'])
         return answer
 
     def stop(self):
@@ -77,10 +81,14 @@ def point_to_llvm():
 def render(mi, np, request):
     """Several independent pictures of a scene, as block means."""
     from agreement import block_means
-    scene = mi.load_file(request['render'])
-    if request.get('size'):
+    try:
+        scene = mi.load_file(request['render'])
+    except Exception as failure:
+        raise UnreadableScene(failure) from None
+    if request['size']:
         parameters = mi.traverse(scene)
-        parameters['sensor.film.size'] = request['size']
+        size, = (name for name in parameters.keys() if name.endswith('film.size'))   # scenes with one sensor only
+        parameters[size] = request['size']
         parameters.update()
     pictures = []
     for seed in request['seeds']:
@@ -135,9 +143,10 @@ def main():
                 assets.write(request['write'])
                 answer = {}
         except Exception as failure:
+            is_unreadable = isinstance(failure, UnreadableScene)
             while failure.__cause__ is not None:
                 failure = failure.__cause__
-            answer = {'error': ' '.join(str(failure).split())}
+            answer = {'error': ' '.join(str(failure).split()), 'is_unreadable': is_unreadable}
         print(json.dumps(answer), flush=True)
     os._exit(0)
 

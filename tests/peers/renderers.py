@@ -121,6 +121,10 @@ class Nearlight:
 
 
 def _messages(text, kind):
-    """Messages of one kind, without the folders of files, which differ from one machine to another."""
-    found = re.findall(rf'^(?:nearlight: )?{kind}: (.*)$', text, flags=re.MULTILINE)
-    return [re.sub(r'/\S*/', '', message) for message in found]
+    """Messages of one kind."""
+    return [without_folders(m) for m in re.findall(rf'^(?:nearlight: )?{kind}: (.*)$', text, flags=re.MULTILINE)]
+
+
+def without_folders(message):
+    """A message about a file that reads the same on every machine."""
+    return re.sub(r'/\S*/', '', message)
