@@ -103,6 +103,9 @@ class Rows(unittest.TestCase):
                 other = texts.setdefault((row.text, row.block), row.name)
                 self.assertEqual(other, row.name, 'these two rows are the same')
 
+    def test_the_fast_rows_exist(self):
+        self.assertEqual({row.name for row in rows.fast_rows()}, set(rows.FAST))
+
     def test_planted_rows_differ(self):
         planted = [row for row in rows.all_rows() if row.planted]
         self.assertTrue(planted)

@@ -50,7 +50,7 @@ def parsed_arguments():
 def chosen(rows, arguments):
     """The rows that the patterns name; a name without a star is that of a group, or of a row."""
     patterns = [form for pattern in arguments.patterns or ['*'] for form in (pattern, pattern.rstrip('/') + '/*')]
-    return [row for row in rows if any(fnmatch.fnmatch(row.name, p) for p in patterns) and (row.fast or not arguments.fast)]
+    return [row for row in rows if any(fnmatch.fnmatch(row.name, p) for p in patterns)]
 
 
 def main():
@@ -61,7 +61,8 @@ def main():
         return SKIPPED
     import rooms
     import rows
-    wanted = chosen(rows.all_rows() + rooms.rows(arguments.rooms, arguments.size), arguments)
+    tables = rows.fast_rows() if arguments.fast else rows.all_rows()
+    wanted = chosen(tables + rooms.rows(arguments.rooms, arguments.size), arguments)
     if arguments.list:
         print('\n'.join(row.name for row in wanted))
         return 0

@@ -11,12 +11,11 @@ def rows():
 
 
 ALL = 'furnace point area sky'
-FAST = ('diffuse/furnace', 'diffuse/area', 'plastic/furnace')
 HARD = dict(area=1024)    # reflected lamps need more samples
 
 
 def _row(name, material, light):
-    return Row(f'bsdfs/{name}/{light}', LIGHTS[light](material), spp=HARD.get(light, 256), fast=f'{name}/{light}' in FAST,
+    return Row(f'bsdfs/{name}/{light}', LIGHTS[light](material), spp=HARD.get(light, 256),
                supported=name not in ('pplastic', 'principledthin'))
 
 

@@ -27,7 +27,7 @@ def _diffuse():
         turned=[turn('y', y), turn('z', -y / 90 * 20)]) for x,
         y in ((-0.25, 90), (0.25, -90))]
     return {
-        'room-grey': (_room(diffuse(0.5)), dict(fast=True)),
+        'room-grey': _room(diffuse(0.5)),
         'room-white': _room(diffuse(0.85)),
         'room-white-deep': _room(diffuse(0.95), depth=30),
         'room-point': _room(diffuse(0.7), point_light(4, at=(0.8, 2.2, 0.5))),

@@ -21,13 +21,13 @@ def _spot(*children, at=(1.2, 2.8, 2.5), **properties):
 
 def _points():
     return {
-        'point': (_lit(point_light()), dict(fast=True)),
+        'point': _lit(point_light()),
         'point-coloured': _lit(emitter('point', position=point(1, 2, 2), intensity=rgb(9, 4, 1))),
         'point-to-world': _lit(emitter('point', to_world=transform(move(1, 2, 2)), intensity=rgb(9))),
         'point-near-wall': _lit(emitter('point', position=point(0.9, 1.2, -1.2), intensity=rgb(3))),
         'points-five': _lit(*(emitter('point', position=point(x, 1.8 + 0.2 * x, 1), intensity=rgb(3 + x, 3, 3 - x))
             for x in (-2, -1, 0, 1, 2))),
-        'spot': (_lit(_spot(intensity=rgb(40))), dict(fast=True)),
+        'spot': _lit(_spot(intensity=rgb(40))),
         'spot-wide': _lit(_spot(intensity=rgb(20), cutoff_angle=60.0, beam_width=5.0)),
         'spot-hard-edge': _lit(_spot(intensity=rgb(40), cutoff_angle=18.0, beam_width=17.9)),
         'spot-textured': _lit(_spot(texture=bitmap('slide.png'), intensity=rgb(60), cutoff_angle=25.0, beam_width=25.0)),
@@ -46,7 +46,7 @@ def _points():
 def _areas():
     above = dict(to_world=place(0.4, (0.8, 2.6, 1), turn('x', 90)))
     return {
-        'area-rectangle': (_lit(lamp()), dict(fast=True)),
+        'area-rectangle': _lit(lamp()),
         'area-rectangle-near': _lit(rectangle(area(4), diffuse(0), at=(0.3, 1.3, 0.2), size=0.6, turned=DOWN)),
         'area-disk': _lit(shape('disk', area(14), **above)),
         'area-sphere': _lit(sphere(area(5), at=(1, 2.4, 1), radius=0.4)),
@@ -88,9 +88,9 @@ def _skies():
         return emitter(kind, **{**dict(to_world=TO_SKY, turbidity=3.0, albedo=rgb(0.3)), **properties})
     sun = vector(0.4, 0.7, 0.5)
     return {
-        'constant': (_lit(constant()), dict(fast=True)),
+        'constant': _lit(constant()),
         'constant-coloured': _lit(emitter('constant', radiance=rgb(0.9, 0.5, 0.2))),
-        'envmap': (_lit(envmap()), dict(fast=True)),
+        'envmap': _lit(envmap()),
         'envmap-turned': _lit(envmap(to_world=transform(turn('y', 70)))),
         'envmap-tilted': _lit(envmap(to_world=transform(turn('x', 40), turn('y', 200)))),
         'envmap-scaled': _lit(envmap(scale=2.5)),

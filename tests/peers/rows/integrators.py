@@ -21,8 +21,7 @@ def _inside(depth):
 
 
 def _scenes():
-    depths = {f'max-depth-{depth}': (_with(integrator('path', max_depth=depth)), dict(fast=depth == 3))
-        for depth in (1, 2, 3, 8)}
+    depths = {f'max-depth-{depth}': _with(integrator('path', max_depth=depth)) for depth in (1, 2, 3, 8)}
     rooms = {f'room-depth-{depth}': _inside(depth) for depth in (1, 2, 3, 4, 10)}
     return {
         **depths,
@@ -48,7 +47,8 @@ def _scenes():
             path=integrator('path', max_depth=5, hide_emitters=True)),
         'direct-hide-emitters': _with(integrator('direct', hide_emitters=True)),
         'volpath': (_with(integrator('volpath', max_depth=5)), dict(supported=False)),
-        'ptracer': (_with(integrator('ptracer', max_depth=5)), dict(supported=False, spp=2048)),
+        'ptracer': (scene(*stage(), point_light(), path=integrator('ptracer', max_depth=5)),
+            dict(supported=False, spp=2048)),
         'depth-through-glass': scene(*stage(), rectangle(bsdf('dielectric'), at=(0, 1, 1.0), size=1.5),
             rectangle(bsdf('dielectric'), at=(0, 1, 0.9), size=1.5, turned=[turn('y', 180)]), lamp(), depth=4),
         'depth-in-mirror': scene(floor(), rectangle(bsdf('conductor', material='none'), at=(0, 0, -1.5), size=4),

@@ -10,7 +10,6 @@ class Row:
     supported: bool = True   # False: nearlight may refuse it by name
     block: int = 8           # side in pixels of the blocks that are compared
     options: tuple = ()      # for nearlight, besides its defaults
-    fast: bool = False       # part of the subset that ctest runs
     path: str = ''           # a file that exists already, instead of one made from the text
     size: tuple = ()         # of the picture, where it is not the film's
     planted: str = ''        # a scene that is wrong on purpose and that nearlight renders; the comparison must see it

@@ -51,7 +51,7 @@ def _films():
 
     crop = dict(width=128, height=96, crop_offset_x=24, crop_offset_y=16, crop_width=64, crop_height=48)
     return {
-        'plain': (with_film(), dict(fast=True)),
+        'plain': with_film(),
         'crop': with_film(**crop),
         'crop-gaussian': with_film(rfilter('gaussian'), **crop),
         'rgba': with_film(pixel_format='rgba'),

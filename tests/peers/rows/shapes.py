@@ -25,7 +25,7 @@ def _shapes():
         to_world=place(size, (x, 0.1, 0), turn('z', degrees)))
     return {
         'rectangle': _lit(rectangle(PAINT, at=(0, 0.9, 0), size=0.7)),
-        'cube': (_lit(box(PAINT)), dict(fast=True)),
+        'cube': _lit(box(PAINT)),
         'sphere': _lit(sphere(PAINT)),
         'sphere-to-world': _lit(shape('sphere', PAINT, to_world=place(0.7, (0, 0.7, 0)))),
         'sphere-flipped': _lit(sphere(PAINT, flip_normals=True)),
@@ -58,10 +58,14 @@ def _transforms():
         'uneven-scale': _lit(mesh('ball.obj', PAINT, to_world=place((1.1, 0.5, 0.4), (0, 0.75, 0), turn('z', 30)))),
         'matrix': _lit(shape('cube', PAINT,
             to_world=transform('<matrix value="0.5 0.2 0 0  0 0.5 0 0.6  0 0.1 0.5 0  0 0 0 1"/>'))),
-        'rotation-about-axis': _lit(shape('cube', PAINT, to_world=transform(scale(0.4),
-            '<rotate x="1" y="1" z="0.3" angle="50"/>', move(0, 0.8, 0)))),
+        'rotation-about-axis': _lit(shape('cube', PAINT, to_world=_about('x="0.6" y="0.8"'))),
+        'rotation-about-long-axis': _lit(shape('cube', PAINT, to_world=_about('x="1" y="1" z="0.3"'))),   # Mitsuba shears
         'flipped-mesh': _lit(mesh('fine_ball.obj', PAINT, flip_normals=True, to_world=_placed())),
     }
+
+
+def _about(axis):
+    return transform(scale(0.4), f'<rotate {axis} angle="50"/>', move(0, 0.8, 0))
 
 
 def _normals():

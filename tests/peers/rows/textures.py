@@ -23,7 +23,7 @@ def _bitmaps():
     tiles = lambda **p: _on_sheet(bitmap('tiles.png', **p))
     wraps = {f'bitmap-wrap-{mode}': tiles(wrap_mode=mode, to_uv=beyond) for mode in ('repeat', 'mirror', 'clamp')}
     return {
-        'bitmap': (tiles(), dict(fast=True)),
+        'bitmap': tiles(),
         'bitmap-nearest': tiles(filter_type='nearest'),
         'bitmap-bilinear': tiles(filter_type='bilinear'),
         **wraps,
