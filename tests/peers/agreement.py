@@ -65,7 +65,8 @@ def compare(ours, theirs):
         seeds=(len(ours), len(theirs)))
     if abs(ratio - 1) > max(MEAN_TOLERANCE, doubt) or result.block_excess > BLOCK_TOLERANCE:
         result.verdict = 'deviates'
-        result.is_clear = abs(ratio - 1) > 2 * max(MEAN_TOLERANCE, doubt) or result.block_excess > 2 * BLOCK_TOLERANCE
+        result.is_clear = abs(ratio - 1) > 2 * max(MEAN_TOLERANCE, doubt) or (
+            result.block_excess > 2 * BLOCK_TOLERANCE and result.block_sigmas > 2 * BLOCK_SIGMAS)
     elif doubt > MAX_MEAN_DOUBT or result.block_doubt > MAX_BLOCK_DOUBT:
         result.verdict = 'noisy'
     else:
@@ -107,7 +108,7 @@ def _block_deviations(ours, theirs):
 
 
 def _block_variance(blocks):
-    """Variance of the mean of each block. A few seeds estimate it badly, so it is no less than that of the 3x3 blocks around."""
+    """Variance of the mean of each block. Few seeds estimate it badly, so it is no less than around it, over 3x3 blocks."""
     own = blocks.var(axis=0, ddof=1) / len(blocks)
     padded = np.pad(own.mean(axis=2), 1, mode='edge')
     rows, columns = own.shape[:2]

@@ -256,7 +256,7 @@ class Verdicts(unittest.TestCase):
 
 class Report(unittest.TestCase):
     def test_the_page_has_all_rows_but_planted_ones(self):
-        results = [Result('a/b', 'refused', True, 'a | b'), Result('planted/x', 'deviates', True),
+        results = [Result('a/b', 'refused', True, 'a__b.xml:7: a | b'), Result('planted/x', 'deviates', True),
                    Result('c/d', 'agrees', True, agreement=agreement.compare(np.ones((2, 1, 1, 3)), np.ones((2, 1, 1, 3))))]
         with tempfile.TemporaryDirectory() as folder:
             report.write(f'{folder}/page.md', results, 'tests/peers/peers.py', '1.0', '3.9')
@@ -265,7 +265,7 @@ class Report(unittest.TestCase):
         self.assertIn('| b | refused |  |  | a \\| b |', page)
         self.assertIn('| d | agrees | 1.0000 ± 0.0000 | 0.0% |  |', page)
         self.assertNotIn('planted', page)
-        self.assertIn('`tests/peers/peers.py`, with nearlight 1.0 and Mitsuba 3.9', page)
+        self.assertIn('with nearlight 1.0 and Mitsuba 3.9:\n\n    tests/peers/peers.py\n', page)
 
 
 if __name__ == '__main__':

@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/mitsuba-support.md: what agrees with Mitsuba, what is refused, what deviates."""
 from itertools import groupby
+import re
 
 HEAD = '''# Beside Mitsuba 3
 
 <!-- Made by tests/peers; do not edit. -->
-This page is made by `{command}`, with nearlight {ours} and Mitsuba {theirs}. Each row is a small scene
-(`tests/peers/rows/`) that both renderers render: nearlight at its defaults, Mitsuba with the integrator that the file
-names, until its own noise is small.
+This page is made by this command, with nearlight {ours} and Mitsuba {theirs}:
+
+    {command}
+
+Each row is a small scene (`tests/peers/rows/`) that both renderers render: nearlight at its defaults, Mitsuba with the
+integrator that the file names, until its own noise is small. The last column has what nearlight said.
 
 *Ratio* is the mean of nearlight's pictures ÷ the mean of Mitsuba's, with its standard error. *Block* is the largest
-deviation of the mean of 8 × 8 pixels, in one colour, after the noise of both renderers is taken off. A row *agrees* if the
-ratio is within 0.5 % of 1 (or within its noise, which may be 1.5 % at most) and the block within 2 %. nearlight *refuses*
-what it does not know, with the message shown and exit code 3; it leaves nothing out in silence.
+deviation of the mean of 8 × 8 pixels (fewer for sensors, textures and filters), in one colour, after the noise of both
+renderers is taken off. A row *agrees* if the ratio is within 0.5 % of 1 (or within its noise, which may be 1.5 % at most)
+and the block within 2 %. What nearlight *refuses* ends it with exit code 3.
 
 '''
 KINDS = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
@@ -52,4 +56,5 @@ def _line(result):
 
 
 def _escaped(text):
-    return text.replace('|', '\\|').replace('<', '&lt;')
+    """A message without the place in the scene's file, and without what Markdown would take for its own."""
+    return re.sub(r'^\S+\.xml:\d+: ', '', text).replace('|', '\\|').replace('<', '&lt;')
