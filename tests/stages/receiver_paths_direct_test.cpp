@@ -269,7 +269,7 @@ TEST_F(ReceiverPathsDirectTest, ConstantSkyGivesPiTimesItsRadianceInMean) {
 }
 
 /// The disc of a sun, which is small against 1/cosθ, brings its radiance times its solid angle times cosθ.
-TEST_F(DirectLightTest, SunBringsItsSolidAngle) {
+TEST_F(ReceiverPathsDirectTest, SunBringsItsSolidAngle) {
     Scene scene;
     add_triangle(scene, {90, 90, 90}, {91, 90, 90}, {90, 91, 90}, add_material(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 1,
@@ -281,9 +281,9 @@ TEST_F(DirectLightTest, SunBringsItsSolidAngle) {
                          .sun_radiance = {20000, 10000, 5000}};
     const double half = 0.2679 * std::numbers::pi / 180;
     const double solid_angle = 4 * std::numbers::pi * std::pow(std::sin(half / 2), 2);
-    on_each_ray_tree([&](Device& device) {
+    on_each_sample_count([&](Device& device, const Samples& samples) {
         const auto e = illuminate(
-            device, scene, test::pack_receivers({{{0, 0, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, -1, 0}}}), 64);
+            device, scene, test::pack_receivers({{{0, 0, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, -1, 0}}}), samples);
         EXPECT_NEAR(irradiance_at(e, 0).y, 10000 * solid_angle * 0.8, 1e-3 * 10000 * solid_angle);
         EXPECT_EQ(irradiance_at(e, 1).y, 0.0f);
     });
