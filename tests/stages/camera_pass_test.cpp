@@ -310,6 +310,29 @@ TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     });
 }
 
+/// A mirror of reflectance 0.1 shows a wall behind the camera, which a point light shines at.
+TEST_F(CameraPassTest, PathsOfLittleWeightAreTracedToTheirEnds) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0},
+             add_material(scene, conductor_material({0, 0, 0}, {1, 1, 1}, {0.1f, 0.1f, 0.1f})));
+    add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    add_point_light(scene, {0.5f, 0, 0}, {1, 4, 1});
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 0.01);
+    const float radiance = 0.5f / kPi * 4 / std::pow(1.25f, 1.5f);
+    on_each_ray_tree([&](Device& device) {
+        for (const float min_weight : {0.0f, 0.09f, 0.11f}) {
+            const bool is_traced = min_weight > 0.1f;
+            const GBuffer found =
+                Shooting(device, scene, 8, 8).shoot({.tile_row_count = 1, .min_weight = min_weight});
+            for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+                EXPECT_NEAR(found.vertices[i].traced.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
+                EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced);
+                EXPECT_TRUE(is_zero(found.vertices[i].emitted));
+            }
+        }
+    });
+}
+
 struct Scattered {
     double up = 0;
     double down = 0;
