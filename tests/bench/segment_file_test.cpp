@@ -49,7 +49,7 @@ class SegmentFile : public testing::Test {
     }
     [[nodiscard]] std::size_t receivers_at() const { return vpls_at() + segments_.vpls.size() * 36; }
     [[nodiscard]] std::size_t rays_at() const {
-        return receivers_at() + segments_.receivers.size() * sizeof(ReceiverPacket);
+        return receivers_at() + segments_.receivers.size() * offsetof(ReceiverPacket, surface);
     }
 
     TemporaryFolder folder_;
@@ -77,7 +77,7 @@ TEST_F(SegmentFile, ComesBackAsItWas) {
     }
     ASSERT_EQ(read.receivers.size(), segments_.receivers.size());
     EXPECT_EQ(std::memcmp(read.receivers.data(), segments_.receivers.data(),
-                          read.receivers.size() * sizeof(ReceiverPacket)),
+                          read.receivers.size() * offsetof(ReceiverPacket, surface)),
               0);
     EXPECT_EQ(read.rays, segments_.rays);
     EXPECT_GT(count_bits(read.rays), 0u);
@@ -118,7 +118,7 @@ TEST_F(SegmentFile, RefusesWrongContents) {
     const float infinity = std::numeric_limits<float>::infinity();
     const auto vertices = static_cast<uint>(segments_.geometry.vertices.size());
     const std::size_t last_receiver =
-        receivers_at() + segments_.receivers.size() * sizeof(ReceiverPacket) - 4;
+        receivers_at() + segments_.receivers.size() * offsetof(ReceiverPacket, surface) - 4;
     expect_refusal("vertex", [&] { read_with(kHeaderBytes + 4, infinity); });
     expect_refusal("vertex", [&] { read_with(triangles_at() + 8, vertices); });
     expect_refusal("VPL", [&] { read_with(vpls_at() + 32, infinity); });
