@@ -48,6 +48,7 @@ class SegmentFile : public testing::Test {
         return triangles_at() + segments_.geometry.triangles.size() * 12;
     }
     [[nodiscard]] std::size_t receivers_at() const { return vpls_at() + segments_.vpls.size() * 36; }
+    /// Of a packet, only the places of its receivers are stored.
     [[nodiscard]] std::size_t rays_at() const {
         return receivers_at() + segments_.receivers.size() * offsetof(ReceiverPacket, surface);
     }
@@ -77,7 +78,7 @@ TEST_F(SegmentFile, ComesBackAsItWas) {
     }
     ASSERT_EQ(read.receivers.size(), segments_.receivers.size());
     EXPECT_EQ(std::memcmp(read.receivers.data(), segments_.receivers.data(),
-                          read.receivers.size() * offsetof(ReceiverPacket, surface)),
+                          read.receivers.size() * sizeof(ReceiverPacket)),
               0);
     EXPECT_EQ(read.rays, segments_.rays);
     EXPECT_GT(count_bits(read.rays), 0u);
