@@ -84,12 +84,13 @@ class AnyClampRadius : public test::DeviceTest {
         const RenderSettings settings{
             .view = {.range = 2.0f, .clamp_radius = radius, .max_depth = 6},
             .sampling = {.sampler = variant.sampler, .policy = variant.policy, .vpl_count = 1000},
-            .gather = {.samples_per_pixel = 8, .direct_samples_per_pixel = 32}};
+            .gather = {.samples_per_pixel = 8, .direct_samples_per_pixel = 32, .rays_per_pixel = 64}};
         const std::vector<Image> renders = test::render_seeds(session, settings, 300, kRadiusSeeds);
         for (const std::string layer : {"direct", "indirect"}) {
             const test::Verdict verdict = test::judge_convergence(renders, truth, layer);
             EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;
-            EXPECT_LT(verdict.relative_error, 0.015) << layer << ": too noisy to tell anything, bias " << verdict.bias;
+            EXPECT_LT(verdict.relative_error, 0.015)
+                << layer << ": too noisy to tell anything, bias " << verdict.bias;
         }
     }
 };

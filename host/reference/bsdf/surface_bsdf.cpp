@@ -149,7 +149,11 @@ BsdfValue SurfaceBsdf::eval(Vec3d wi) const {
     if (has_specular()) {
         const bool enters = local.z < 0 && !parameters_.thin;
         const double eta = enters ? parameters_.eta.x : 1;
-        value.specular = specular_->eval(parameters_, wo_, local) * (shadowing * radiance_scale(eta));
+        value.specular = specular_->eval(parameters_, wo_, local) * shadowing;
+        // A perfect mirror has the index 0, but lets no light enter.
+        if (!is_zero(value.specular)) {
+            value.specular *= radiance_scale(eta);
+        }
     }
     return value;
 }
