@@ -22,6 +22,7 @@ using namespace small_scenes;
 using test::SceneOnDevice;
 
 constexpr std::size_t kTile = NEARLIGHT_TILE_SIZE;
+constexpr uint kManyEdges = 64;
 
 struct GBuffer {
     std::vector<ReceiverPacket> receivers;
@@ -40,8 +41,7 @@ class Shooting {
           cameras_(device, std::span(&camera, 1)),
           regions_(device, std::span(&region, 1)) {}
 
-    GBuffer shoot(CameraBand band, uint seed = 1) {
-        band.max_depth = 64;
+    GBuffer shoot(const CameraBand& band, uint seed = 1) {
         const std::size_t packets = packet_count(band, camera.width);
         Buffer<ReceiverPacket> receivers(*device_, packets);
         Buffer<CameraVertex> vertices(*device_, packets * NEARLIGHT_PACKET_SIZE);
@@ -53,7 +53,8 @@ class Shooting {
         return shoot({.tile_row_count = tiles_across(camera.height),
                       .sample_count = samples,
                       .samples_per_pixel = samples,
-                      .branch_count = branches},
+                      .branch_count = branches,
+                      .max_depth = kManyEdges},
                      seed);
     }
 
@@ -163,7 +164,8 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
                                                  .first_sample = first_sample,
                                                  .sample_count = samples,
                                                  .samples_per_pixel = kSamples,
-                                                 .branch_count = 2});
+                                                 .branch_count = 2,
+                                                 .max_depth = kManyEdges});
             for (std::size_t p = 0; p < part.receivers.size(); ++p) {
                 const std::size_t tile = p / (2 * samples) + first_row * tiles_x;
                 const std::size_t sample = p / 2 % samples + first_sample;
@@ -317,13 +319,13 @@ TEST_F(CameraPassTest, PathsOfLittleWeightAreTracedToTheirEnds) {
              add_material(scene, conductor_material({0, 0, 0}, {1, 1, 1}, {0.1f, 0.1f, 0.1f})));
     add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
     add_point_light(scene, {0.5f, 0, 0}, {1, 4, 1});
-    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 0.01);
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 0.001);
     const float radiance = 0.5f / kPi * 4 / std::pow(1.25f, 1.5f);
     on_each_ray_tree([&](Device& device) {
         for (const float min_weight : {0.0f, 0.09f, 0.11f}) {
             const bool is_traced = min_weight > 0.1f;
-            const GBuffer found =
-                Shooting(device, scene, 8, 8).shoot({.tile_row_count = 1, .min_weight = min_weight});
+            const GBuffer found = Shooting(device, scene, 8, 8)
+                                      .shoot({.tile_row_count = 1, .max_depth = 3, .min_weight = min_weight});
             for (std::size_t i = 0; i < found.vertices.size(); ++i) {
                 EXPECT_NEAR(found.vertices[i].traced.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
                 EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced);
