@@ -16,7 +16,7 @@ namespace {
 Scene many_lamps(std::size_t count, const std::function<Vec3(std::size_t)>& position) {
     Scene scene;
     scene.materials.resize(1, Material{});
-    scene.materials[0].emission = {1, 2, 3};
+    scene.materials[0].emission = {{1, 2, 3}, -1};
     Pcg32 random(3);
     for (std::size_t i = 0; i < count; ++i) {
         const auto first = static_cast<uint>(scene.vertices.size());
