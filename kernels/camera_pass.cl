@@ -7,8 +7,8 @@
 // tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers. At the first surface
 // with two ways on (D and S, or glass), branch 0 takes D or the refraction and branch 1 S or the reflection,
 // each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
-// chance. Branch 1 of a sample that never divides is absent. A path of little weight gets no receiver: it is
-// traced to its end, and its light is added up in CameraVertex. One work-item for each sample, with all its
+// chance. Branch 1 of a sample that never divides is absent. A receiver of little weight is absent too: its
+// light is traced at once and added up in CameraVertex. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/camera.cl"
@@ -16,7 +16,8 @@
 #include "lib/receiver_path.cl"
 
 #define MAX_CHAIN 24
-#define MAX_HIDDEN 256  // emitters that one camera ray looks through where they are hidden
+#define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
+#define MAX_HIDDEN 256              // emitters that one camera ray looks through where they are hidden
 
 typedef struct CameraPath {
     PathRay ray;
@@ -178,18 +179,23 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
 typedef struct CameraLimits {
     uint max_edges;      // from the camera to a light; 1 sees lights themselves only
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
-    float min_weight;    // paths of less weight than this are traced to their ends, without a receiver
+    float min_weight;    // the light of receivers that weigh less than this is traced at once
 } CameraLimits;
 
-/// Traces a path of little weight to its end: a receiver would cost as much as one that fills the pixel. At
-/// most `max_edges` edges are left to a light.
-inline void trace_to_end(const SceneView* scene, CameraPath* path, uint max_edges, uint key) {
-    const SurfaceHit hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
-    path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
-    if (hit.t >= 0.0f) {
-        path->traced += continued_light(scene, path->ray, hit, 1.0f, max_edges,
-                                        random_uint4((uint4)(path->key, key, 0x7ace5u, 0x3u)));
-    }
+/// Adds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
+/// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
+/// left.
+inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
+                        const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
+    const ReceiverPoint at = {offset_point(scene, hit->position, hit->geometric), surface->frame.n,
+                              surface->bsdf.curve};
+    const PathLimits ray = {max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
+                            1};
+    const ReceivedLight light =
+        received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)));
+    const float3 response = path->ray.throughput * albedo * M_1_PI_F;
+    path->emitted += response * light.direct;
+    path->traced += response * light.indirect;
 }
 
 inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
@@ -251,14 +257,13 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
         const uint light_samples = step + 1 < limits->max_edges ? limits->light_samples : 0;
         const uint way =
             follow_surface(scene, path, &hit, &surface, branch, light_samples, &numbers, &albedo);
-        if (way == WAY_RECEIVER) {
+        const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
+        if (way == WAY_RECEIVER && is_weak) {
+            trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1);
+        } else if (way == WAY_RECEIVER) {
             set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
         }
         if (way != WAY_ON) {
-            break;
-        }
-        if (luminance(path->ray.throughput) < limits->min_weight) {
-            trace_to_end(scene, path, limits->max_edges - step - 1, step);
             break;
         }
         // A pane that does not turn the path hides no less than air does, as in Mitsuba.

@@ -19,7 +19,7 @@ struct CameraBand {
     /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
     /// part; at least 1.
     uint light_samples = 1;
-    /// Paths of less weight than this are traced to their ends and get no receiver; 0: all get one.
+    /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
     float min_weight = 0.0f;
 };
 

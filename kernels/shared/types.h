@@ -306,7 +306,7 @@ typedef struct CameraVertex {
     uint flags;
     Vec3 emitted;         // radiance of lights and environment seen on the way
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
-    Vec3 traced;          // indirect radiance of a path that was traced to its end, without a receiver
+    Vec3 traced;          // indirect radiance of a receiver of little weight, which is absent
     float pad0;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
