@@ -25,5 +25,6 @@ function(embed_kernels target)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/embedded_kernels.cpp.in" "${generated_dir}/registry.cpp" @ONLY)
   add_library(${target} STATIC ${sources} "${generated_dir}/registry.cpp")
   nearlight_for_shared_library(${target})
-  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include")
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include"
+    "${PROJECT_SOURCE_DIR}/kernels")
 endfunction()

@@ -1,34 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera pass: follows camera paths through glass, mirrors and coats to the first diffuse surface (the
-// G-buffer).
+// Camera pass: follows camera paths by the part S of surfaces (coats, metals, glass) to receivers, which are
+// the Lambertian parts D of surfaces, and adds up the light of lamps that it meets or finds in S on the way.
 //
 // Receivers are in this order: packet = ((tile · sample_count) + sample) · branch_count + branch, where tile
 // = row of tiles × tiles_x + column, counted from the first tile row of the band, and lane = row within the
 // tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers. At the first surface
-// with two ways on (a coat, glass), branch 0 takes the base or the refraction and branch 1 the reflection,
+// with two ways on (D and S, or glass), branch 0 takes D or the refraction and branch 1 S or the reflection,
 // each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
-// chance. Branch 1 of a sample that never divides is absent. One work-item for each sample, with all its
+// chance. Branch 1 of a sample that never divides is absent. A receiver of little weight is absent too: its
+// light is traced at once and added up in CameraVertex. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
+#include "lib/camera.cl"
 #include "lib/close_range.cl"
-#include "lib/emitter.cl"
-#include "lib/fresnel.cl"
-#include "lib/material.cl"
+#include "lib/receiver_path.cl"
 
 #define MAX_CHAIN 24
+#define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
+#define MAX_HIDDEN 256              // emitters that one camera ray looks through where they are hidden
 
 typedef struct CameraPath {
-    float3 origin;
-    float3 direction;
-    float3 throughput;
+    PathRay ray;
     float3 emitted;
+    float3 traced;   // indirect light of a path that is traced to its end
     uint key;        // key of the random sequence
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
+    float t_min;     // where the first surface may lie on the ray
+    float t_max;
+    float filter_weight;
+    uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
 } CameraPath;
 
-/// Chooses between reflection (true) and the other way. The first division gives each branch one way with its
-/// full weight. Later ones choose by chance, reflection with probability p.
-inline bool choose_reflection(CameraPath* path, uint branch, float p, float u) {
+/// The ways on from a surface.
+#define WAY_END 0u       // none
+#define WAY_RECEIVER 1u  // the path ends here: the Lambertian part is its receiver
+#define WAY_ON 2u        // the path has a new direction
+
+/// Decides at a surface with two ways on. The first division gives each branch one way with its full weight:
+/// branch 0 the first way, branch 1 the second. Later ones choose the second with probability p. Returns true
+/// for the second way.
+inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
     if (path->undivided) {
         path->undivided = 0;
         if (branch == 1) {
@@ -36,134 +47,80 @@ inline bool choose_reflection(CameraPath* path, uint branch, float p, float u) {
         }
         return branch == 1;
     }
-    const bool reflection = u < p;
-    path->throughput *= 1.0f / (reflection ? p : 1.0f - p);
-    return reflection;
+    const bool second = u < p;
+    path->ray.throughput *= 1.0f / (second ? p : 1.0f - p);
+    return second;
 }
 
-/// A microfacet normal that the viewer sees, for roughness alpha.
-inline float3 sample_facet(float3 n, float3 to_viewer, float alpha, float2 u) {
-    if (alpha < 1e-3f) {
-        return n;
-    }
-    const Frame frame = make_frame(n);
-    float3 viewer = world_to_frame(&frame, to_viewer);
-    viewer.z = fmax(viewer.z, 1e-4f);
-    return frame_to_world(&frame, sample_visible_normal(normalize(viewer), alpha, u));
+/// The random numbers of a path at one surface.
+typedef struct SurfaceNumbers {
+    float model;  // for masks and blends
+    float part;   // D or S
+    float lobe;   // within S
+    float2 direction;
+    uint light_seed;
+} SurfaceNumbers;
+
+inline SurfaceNumbers surface_numbers(uint key, uint step) {
+    const uint4 random = random_uint4((uint4)(key, step, 0x5f3759u, 0x1u));
+    SurfaceNumbers numbers;
+    numbers.model = to_unit_float(random.x);
+    numbers.part = sample_2d(0, 2 * step + 2, key).x;
+    numbers.lobe = to_unit_float(random.y);
+    numbers.direction = sample_2d(0, 2 * step + 1, key);
+    numbers.light_seed = random.z;
+    return numbers;
 }
 
-/// Turns the path into the mirror direction about the facet. Returns false where that goes below the surface.
-inline bool reflect_path(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, float3 n,
-                         float3 facet, float alpha, float3 weight) {
-    const float3 to_viewer = -path->direction;
-    const float3 reflected = 2.0f * dot(to_viewer, facet) * facet - to_viewer;
-    const float cosine = dot(reflected, n);
-    if (!(cosine > 0.0f) || !(dot(reflected, hit->geometric) > 0.0f)) {
-        return false;
+/// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
+/// reflects and lets light through, the first division of the path gives branch 0 what is let through and
+/// branch 1 the reflection.
+inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                            const SurfaceBsdf* surface, uint branch, uint light_samples,
+                            const SurfaceNumbers* numbers) {
+    if (light_samples == 0) {
+        return WAY_END;
     }
-    path->throughput *= weight * (alpha < 1e-3f ? 1.0f : ggx_masking(cosine, alpha));
-    path->direction = normalize(reflected);
-    path->origin = offset_point(scene, hit->position, hit->geometric);
-    return true;
+    path->emitted += path->ray.throughput *
+                     reflected_light(scene, hit, surface, BSDF_S, light_samples, numbers->light_seed);
+    float choice = numbers->lobe;
+    const float reflected = reflection_probability(surface, numbers->direction);
+    if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
+        const bool second = take_second_way(path, branch, 0.5f, 0.0f);
+        path->ray.throughput *= second ? reflected : 1.0f - reflected;
+        choice = second ? 0.0f : 0x1.fffffep-1f;
+    }
+    if (!scatter_ray(scene, &path->ray, hit, surface, BSDF_S, choice, numbers->direction)) {
+        return WAY_END;
+    }
+    path->ray.pdf /= (float)light_samples;
+    return WAY_ON;
 }
 
-/// Follows the path at metal, which only reflects. Returns false where the path ends.
-inline bool scatter_conductor(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                              const global Material* material, float3 n, float2 u) {
-    const float3 facet = sample_facet(n, -path->direction, material->roughness, u);
-    const float cosine = fmax(dot(-path->direction, facet), 0.0f);
-    const float3 weight =
-        load3(material->specular) * fresnel_conductor(cosine, load3(material->eta), load3(material->k));
-    return reflect_path(scene, path, hit, n, facet, material->roughness, weight);
-}
-
-/// Follows the path at solid glass, by reflection or refraction. Returns false where the path ends.
-inline bool scatter_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                               const global Material* material, float3 n, uint branch, float2 u_facet,
-                               float u_choice) {
-    const float eta = hit->front ? material->eta.x : 1.0f / material->eta.x;
-    const float3 facet = sample_facet(n, -path->direction, material->roughness, u_facet);
-    const float cosine = fmax(dot(-path->direction, facet), 0.0f);
-    float cos_far;
-    const float reflectance = fresnel_dielectric(cosine, eta, &cos_far);
-    if (reflectance >= 1.0f) {
-        return reflect_path(scene, path, hit, n, facet, material->roughness, load3(material->specular));
+/// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
+inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                           const SurfaceBsdf* surface, uint branch, uint light_samples,
+                           const SurfaceNumbers* numbers, float3* albedo) {
+    const float3 wo = world_to_frame(&surface->frame, surface->wo);
+    *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
+    const float3 specular = s_albedo(&surface->bsdf, wo);
+    const bool has_diffuse = !is_black(*albedo);
+    if (is_black(specular)) {
+        return has_diffuse ? WAY_RECEIVER : WAY_END;
     }
-    if (choose_reflection(path, branch, reflectance, u_choice)) {
-        return reflect_path(scene, path, hit, n, facet, material->roughness,
-                            load3(material->specular) * reflectance);
-    }
-    const float3 refracted = normalize(path->direction / eta + (cosine / eta - cos_far) * facet);
-    const float cosine_below = -dot(refracted, n);
-    if (!(cosine_below > 0.0f) || !(dot(refracted, hit->geometric) < 0.0f)) {
-        return false;
-    }
-    const float masking = material->roughness < 1e-3f ? 1.0f : ggx_masking(cosine_below, material->roughness);
-    path->throughput *= load3(material->transmission) * ((1.0f - reflectance) * masking);
-    path->direction = refracted;
-    path->origin = offset_point(scene, hit->position, -hit->geometric);
-    return true;
-}
-
-/// Follows the path at a pane, which counts as both its faces at once and does not bend it. Returns false
-/// where the path ends.
-inline bool scatter_thin_dielectric(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                                    const global Material* material, float3 n, uint branch, float u_choice) {
-    float cos_far;
-    const float once = fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
-    const float reflectance = once >= 1.0f ? 1.0f : 2.0f * once / (1.0f + once);
-    if (choose_reflection(path, branch, reflectance, u_choice)) {
-        return reflect_path(scene, path, hit, n, n, 0.0f, load3(material->specular) * reflectance);
-    }
-    path->throughput *= load3(material->transmission) * (1.0f - reflectance);
-    path->origin = offset_point(scene, hit->position, -hit->geometric);
-    return true;
-}
-
-/// Follows the path over one surface. Returns 1 if it goes on, 0 if it ends without a receiver, and 2 if this
-/// surface is the receiver; then `albedo` gets what the camera sees there.
-inline uint scatter(const SceneView* scene, CameraPath* path, const SurfaceHit* hit, uint branch, uint step,
-                    float3* albedo) {
-    const global Material* material = scene->materials + hit->material;
-    const float2 u_facet = sample_2d(0, 2 * step + 1, path->key);
-    const float u_choice = sample_2d(0, 2 * step + 2, path->key).x;
-    const float3 n = dot(hit->shading, path->direction) < 0.0f ? hit->shading : hit->geometric;
-    switch (material->lobe) {
-        case NEARLIGHT_LOBE_CONDUCTOR:
-            return reflects(material, hit->front) &&
-                   scatter_conductor(scene, path, hit, material, n, u_facet);
-        case NEARLIGHT_LOBE_DIELECTRIC:
-            return scatter_dielectric(scene, path, hit, material, n, branch, u_facet, u_choice);
-        case NEARLIGHT_LOBE_THIN_DIELECTRIC:
-            return scatter_thin_dielectric(scene, path, hit, material, n, branch, u_choice);
-        default:
-            break;
-    }
-    if (!reflects(material, hit->front)) {
-        return 0;
-    }
-    *albedo = camera_albedo(scene, material, hit->uv);
-    if (material->lobe == NEARLIGHT_LOBE_COAT) {
-        const float3 facet = sample_facet(n, -path->direction, material->roughness, u_facet);
-        float cos_far;
-        const float facet_reflectance =
-            fresnel_dielectric(fmax(dot(-path->direction, facet), 0.0f), material->eta.x, &cos_far);
-        const float reflectance =
-            fresnel_dielectric(fmax(dot(-path->direction, n), 0.0f), material->eta.x, &cos_far);
-        const float p =
-            clamp(reflectance / (reflectance + (1.0f - reflectance) * luminance(*albedo)), 0.05f, 0.95f);
-        if (choose_reflection(path, branch, p, u_choice)) {
-            return reflect_path(scene, path, hit, n, facet, material->roughness,
-                                load3(material->specular) * facet_reflectance);
+    if (has_diffuse) {
+        const float share = luminance(specular) / (luminance(specular) + luminance(*albedo));
+        if (!take_second_way(path, branch, clamp(share, 0.05f, 0.95f), numbers->part)) {
+            return WAY_RECEIVER;
         }
-        *albedo *= 1.0f - reflectance;
     }
-    return 2;
+    return follow_specular(scene, path, hit, surface, branch, light_samples, numbers);
 }
 
 /// Where a camera path ends, and what it saw on the way.
 typedef struct CameraReceiver {
     float3 position, normal;  // zero normal: there is no receiver
+    uint surface;             // ReceiverPacket.surface
     CameraVertex vertex;
 } CameraReceiver;
 
@@ -171,67 +128,149 @@ inline CameraReceiver absent_receiver(void) {
     CameraReceiver receiver;
     receiver.position = (float3)(0.0f);
     receiver.normal = (float3)(0.0f);
+    receiver.surface = 0;
     receiver.vertex.throughput = store3((float3)(0.0f));
     receiver.vertex.depth = 0.0f;
     receiver.vertex.albedo = store3((float3)(0.0f));
     receiver.vertex.flags = 0;
     receiver.vertex.emitted = store3((float3)(0.0f));
+    receiver.vertex.filter_weight = 0.0f;
+    receiver.vertex.traced = store3((float3)(0.0f));
     receiver.vertex.pad0 = 0.0f;
     return receiver;
 }
 
-inline CameraPath start_path(const global PinholeCamera* camera, uint x, uint y, uint sample,
-                             uint sequence_length, uint branch_count, uint seed) {
+inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
+                             uint branch_count, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraPath path;
     path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
-    // A single sample goes through the centre of its pixel.
     const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-    const float2 jitter = sequence_length > 1 ? sample_2d(sample, 0, pixel_key) : (float2)(0.5f);
-    path.origin = load3(camera->origin);
-    path.direction = normalize(load3(camera->corner) + ((float)x + jitter.x) * load3(camera->step_x) +
-                               ((float)y + jitter.y) * load3(camera->step_y));
-    path.throughput = (float3)(1.0f);
-    path.emitted = (float3)(0.0f);
+    // A single sample goes through the centre of its pixel, but through any part of the lens.
+    const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
+                                                : middle_of_pixel(x, y);
+    const CameraRay ray = camera_ray(camera, film.position, sample_2d(sample, 1, pixel_key));
+    path.ray.origin = ray.origin;
+    path.ray.direction = ray.direction;
+    path.ray.throughput = (float3)(1.0f);
+    path.ray.normal = ray.direction;
+    path.ray.pdf = 0.0f;
+    path.t_min = ray.t_min;
+    path.t_max = ray.t_max;
+    path.emitted = path.traced = (float3)(0.0f);
     path.undivided = branch_count > 1;
+    path.filter_weight = film.weight;
+    path.flags = film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
     return path;
 }
 
-/// Follows one branch to its receiver. Branch 0 sets `first` to the first surface that it meets, and branch 1
+inline void set_receiver(const SceneView* scene, const global CloseRange* close_range, const CameraPath* path,
+                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint surfaces,
+                         CameraReceiver* receiver) {
+    receiver->position = offset_point(scene, hit->position, hit->geometric);
+    receiver->normal = surface->frame.n;
+    receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+    receiver->vertex.throughput = store3(path->ray.throughput);
+    receiver->vertex.albedo = store3(albedo);
+    receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
+}
+
+/// How camera paths are followed.
+typedef struct CameraLimits {
+    uint max_edges;      // from the camera to a light; 1 sees lights themselves only
+    uint light_samples;  // at each surface that reflects other than by a Lambertian part
+    float min_weight;    // the light of receivers that weigh less than this is traced at once
+} CameraLimits;
+
+/// Adds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
+/// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
+/// left.
+inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
+                        const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
+    const ReceiverPoint at = {offset_point(scene, hit->position, hit->geometric), surface->frame.n,
+                              surface->bsdf.curve};
+    const PathLimits ray = {max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
+                            1};
+    const ReceivedLight light =
+        received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)));
+    const float3 response = path->ray.throughput * albedo * M_1_PI_F;
+    path->emitted += response * light.direct;
+    path->traced += response * light.indirect;
+}
+
+inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
+    return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
+}
+
+/// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
+/// planes end at the first one, as in Mitsuba.
+inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraPath* path) {
+    const float3 direction = path->ray.direction;
+    SurfaceHit hit = trace_between(scene, path->ray.origin, direction, path->t_min, path->t_max);
+    for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
+        const float passed = hit.t;
+        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
+        hit = i < MAX_HIDDEN ? trace_surface(scene, origin, direction, INFINITY) : no_surface();
+        hit.t += hit.t >= 0.0f ? passed : 0.0f;
+    }
+    return hit;
+}
+
+/// The surface that the path meets at a step. Branch 0 sets `first` to that of the first step, and branch 1
 /// takes it from there.
-inline CameraReceiver follow_path(const SceneView* scene, const global CloseRange* close_range,
+inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera, const CameraPath* path,
+                             uint step, uint branch, SurfaceHit* first) {
+    if (step > 0) {
+        return trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
+    }
+    if (branch == 0) {
+        *first = trace_first(scene, camera, path);
+    }
+    return *first;
+}
+
+/// Follows one branch to its receiver.
+inline CameraReceiver follow_path(const SceneView* scene, const global Camera* camera,
+                                  const global CloseRange* close_range, const CameraLimits* limits,
                                   CameraPath* path, uint branch, SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
-    float3 albedo = (float3)(0.0f);
-    for (uint step = 0; step < MAX_CHAIN; ++step) {
-        const bool known = step == 0 && branch == 1;
-        const SurfaceHit hit = known ? *first : trace_camera(scene, path->origin, path->direction);
-        if (step == 0) {
-            *first = hit;
+    receiver.vertex.filter_weight = path->filter_weight;
+    const float3 straight = path->ray.direction;
+    bool sees_sky = !camera->hides_emitters;
+    for (uint step = 0; step < min(limits->max_edges, (uint)MAX_CHAIN); ++step) {
+        const SurfaceHit hit = trace_step(scene, camera, path, step, branch, first);
+        if (hit.t >= 0.0f || sees_sky) {
+            path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
         }
         if (hit.t < 0.0f) {
-            path->emitted += path->throughput * environment_radiance(scene, path->direction);
             break;
         }
         if (step == 0) {
             receiver.vertex.depth = hit.t;
+            receiver.vertex.flags = path->flags;
         }
-        if (hit.front) {
-            path->emitted += path->throughput * load3(scene->materials[hit.material].emission);
+        const SurfaceNumbers numbers = surface_numbers(path->key, step);
+        const SurfaceBsdf surface =
+            surface_bsdf(scene, &hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
+        float3 albedo;
+        // A surface that paths must not leave reflects no light of lamps, but it shows in the other layers.
+        const uint light_samples = step + 1 < limits->max_edges ? limits->light_samples : 0;
+        const uint way =
+            follow_surface(scene, path, &hit, &surface, branch, light_samples, &numbers, &albedo);
+        const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
+        if (way == WAY_RECEIVER && is_weak) {
+            trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1);
+        } else if (way == WAY_RECEIVER) {
+            set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
         }
-        const uint outcome = scatter(scene, path, &hit, branch, step, &albedo);
-        if (outcome == 2) {
-            receiver.position = offset_point(scene, hit.position, hit.geometric);
-            receiver.normal = hit.shading;
-            receiver.vertex.throughput = store3(path->throughput);
-            receiver.vertex.albedo = store3(albedo);
-            receiver.vertex.flags = in_close_range(close_range, hit.position) ? NEARLIGHT_VERTEX_CLOSE : 0;
-        }
-        if (outcome != 1) {
+        if (way != WAY_ON) {
             break;
         }
+        // A pane that does not turn the path hides no less than air does, as in Mitsuba.
+        sees_sky = sees_sky || any(path->ray.direction != straight);
     }
     receiver.vertex.emitted = store3(path->emitted);
+    receiver.vertex.traced = store3(path->traced);
     return receiver;
 }
 
@@ -240,6 +279,7 @@ inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));
     receiver->vertex.emitted = store3((float3)(0.0f));
+    receiver->vertex.traced = store3((float3)(0.0f));
     receiver->normal = (float3)(0.0f);
 }
 
@@ -251,14 +291,15 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
     to->nx[lane] = from->normal.x;
     to->ny[lane] = from->normal.y;
     to->nz[lane] = from->normal.z;
+    to->surface[lane] = from->surface;
     *vertex = from->vertex;
 }
 
-kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict camera,
+kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
-                        uint branch_count, uint seed, global ReceiverPacket* restrict receivers,
-                        global CameraVertex* restrict vertices) {
+                        uint branch_count, uint max_edges, uint light_samples, float min_weight, uint seed,
+                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint sample = index / NEARLIGHT_PACKET_SIZE % sample_count;
@@ -273,13 +314,14 @@ kernel void camera_pass(SCENE_PARAMETERS, const global PinholeCamera* restrict c
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, branch_count, seed);
+    const CameraLimits limits = {max_edges, light_samples, min_weight};
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;
     for (uint branch = 0; branch < branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
-            receiver = follow_path(&scene, close_range, &path, branch, &first);
+            receiver = follow_path(&scene, camera, close_range, &limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {
             leave_to_branch_0(&receiver);

@@ -23,9 +23,17 @@ inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
     return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
 }
 
+/// Whether a sample's position and depth replace the stored ones: the first sample that met something on the
+/// pixel's own square has precedence over the first one anywhere, whose depth is stored as negative.
+inline bool is_better_depth(float stored, const CameraVertex* vertex) {
+    const bool is_own = (vertex->flags & NEARLIGHT_VERTEX_OWN_PIXEL) != 0;
+    return vertex->depth > 0.0f && (stored == 0.0f || (stored < 0.0f && is_own));
+}
+
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
                      const global IrradiancePacket* restrict direct,
+                     const global IrradiancePacket* restrict gathered,
                      const global IrradiancePacket* restrict indirect, uint width, uint row_count,
                      uint sample_count, uint branch_count, global float* restrict sums) {
     const uint index = (uint)get_global_id(0);
@@ -42,20 +50,26 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         const global ReceiverPacket* receiver = receivers + packet;
         const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);
-        const float3 response = reflectance / M_PI_F;
+        const float weight = vertex.filter_weight;
+        const float3 response = weight * reflectance / M_PI_F;
         add_to_sum(pixel + NEARLIGHT_SUM_DIRECT,
-                   load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
-        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, response * irradiance_of(indirect + packet, lane));
+                   weight * load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
+        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
+                   weight * load3(vertex.traced) + response * (irradiance_of(gathered + packet, lane) +
+                                                               irradiance_of(indirect + packet, lane)));
+        // Only light has the filter's weights. Surfaces are averaged over where the samples lie, so that no
+        // layer of them overshoots where the filter is negative.
         add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
         if (i % branch_count != 0) {
             continue;  // geometry layers come from branch 0 only
         }
         add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
                    (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
-        if (pixel[NEARLIGHT_SUM_DEPTH] == 0.0f && vertex.depth > 0.0f) {
+        if (is_better_depth(pixel[NEARLIGHT_SUM_DEPTH], &vertex)) {
             store_channels(pixel + NEARLIGHT_SUM_POSITION,
                            (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]));
-            pixel[NEARLIGHT_SUM_DEPTH] = vertex.depth;
+            pixel[NEARLIGHT_SUM_DEPTH] =
+                vertex.flags & NEARLIGHT_VERTEX_OWN_PIXEL ? vertex.depth : -vertex.depth;
         }
         pixel[NEARLIGHT_SUM_CLOSE_RANGE] += vertex.flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
     }
@@ -76,6 +90,11 @@ inline void resolve_first(const global float* sums, uint first, uint count, floa
     for (uint c = 0; c < count; ++c) {
         layer[c] = sums[first + c];
     }
+}
+inline void resolve_depth(const global float* sums, uint first, uint count, float scale,
+                          global float* layer) {
+    (void)count, (void)scale;
+    layer[0] = fabs(sums[first]);
 }
 inline void resolve_direction(const global float* sums, uint first, uint count, float scale,
                               global float* layer) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums a set of VPLs over receivers, for CPUs:
-// irradiance E(x) = Σ power/π · max0(cosθx)·max0(cosθy)/max(r², R²) · V.
+// irradiance E(x) = Σ power/π · T(cosθx)·T(cosθy) · max0(cosθx)·max0(cosθy)/max(r², R²) · V, where T are the
+// transmission curves of both surfaces (lib/curve.cl), which are 1 for most.
 //
 // A work-item takes beams of GATHER_BEAM_WIDTH receivers, each with a run of VPLs. The compiler does not turn
 // a divergent traversal loop into vector code, so the vectors are written out: a beam is rows of 16 lanes
@@ -100,7 +101,8 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls,
     const global ReceiverPacket* packets, const global GatherParams* launch_params,
-    const global float* thresholds, global IrradiancePacket* sums, global IrradiancePacket* group_sums,
+    const global float* thresholds, const global float* curves, global IrradiancePacket* sums,
+    global IrradiancePacket* group_sums,
     volatile global uint* next_beam GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
     BeamBounds bounds;
@@ -119,6 +121,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
         gather_receivers(&receivers, &bounds, packets, &bundle, first);
         if (params.has_thresholds) {
             load_thresholds(&receivers, thresholds, &bundle, first);
+        }
+        if (params.has_curves) {
+            load_curves(&receivers, packets, &bundle, first);
         }
         const uint end = GATHER_END(index, &params);
         for (uint chunk = params.first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
@@ -140,6 +145,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
                 record_open(record, i, params.recorded_vpls, &bundle, first, receivers.order, &segments,
                             false);
 #endif
+                if (params.has_curves) {
+                    weigh_by_curves(&segments, vpls + i, &receivers, curves);
+                }
                 add_visible(&sum, &segments, scale, gather_squared(vpls + i));
                 if (params.group_size != 0) {
                     add_visible(&squares, &segments, scale * scale, true);

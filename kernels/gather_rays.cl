@@ -5,6 +5,7 @@
 // both.
 
 #include "lib/bvh_traverse.cl"
+#include "lib/curve.cl"
 #include "lib/gather.cl"
 #include "lib/vpl.cl"
 
@@ -19,6 +20,14 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
     return cos_vpl > 0.0f && cos_receiver > 0.0f && term < INFINITY ? term : 0.0f;
 }
 
+/// The product of the transmission curves of both ends of a segment.
+inline float segment_transmission(const global float* curves, const global Vpl* vpl, float3 normal,
+                                  uint curve, float3 segment) {
+    const float3 direction = normalize(segment);
+    return curve_value(curves, vpl_curve(vpl), dot(load3(vpl->normal), direction)) *
+           curve_value(curves, curve, -dot(normal, direction));
+}
+
 inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum) {
     to->r[lane] = sum.x;
     to->g[lane] = sum.y;
@@ -30,7 +39,7 @@ inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum)
 kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
                         const global Vpl* vpls, const global ReceiverPacket* receivers,
                         const global GatherParams* launch_params, const global float* thresholds,
-                        global IrradiancePacket* sums,
+                        const global float* curves, global IrradiancePacket* sums,
                         global IrradiancePacket* group_sums GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const GatherParams params = *launch_params;
     const uint item = (uint)get_global_id(0);
@@ -45,6 +54,7 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
     const global ReceiverPacket* from = receivers + packet;
     const float3 position = receiver_position(from, lane);
     const float3 normal = receiver_normal(from, lane);
+    const uint curve = receiver_curve(from, lane);
     global IrradiancePacket* to = sums + packet;
     float3 total = params.first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
     const uint end = GATHER_END(index, &params);
@@ -64,8 +74,12 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < threshold);
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
-            sum += visible ? scale * (gather_squared(vpl) ? term * term : term) : (float3)0.0f;
-            squares += visible ? scale * scale * (term * term) : (float3)0.0f;
+            const float weight = !visible ? 0.0f
+                                 : params.has_curves
+                                     ? term * segment_transmission(curves, vpl, normal, curve, segment)
+                                     : term;
+            sum += scale * (gather_squared(vpl) ? weight * weight : weight);
+            squares += scale * scale * (weight * weight);
 #ifdef GATHER_RECORD
             record[gather_record_index(packet, i, params.recorded_vpls, lane)] = !open ? 0
                                                                                  : visible

@@ -2,6 +2,7 @@
 // Writes the facts of shared/layout_facts.h as the device has them: one uint for each fact, in the order of
 // the list, then the first channel and the first sum of each film layer. Launched with a single work-item.
 
+#include "shared/bsdf_query.h"
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"
 #include "shared/types.h"

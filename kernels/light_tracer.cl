@@ -2,15 +2,16 @@
 // Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3
 // (3)].
 //
-// One work-item for each walk, from first_walk on; any work-group size. A walk leaves a light and deposits a
-// VPL wherever it lands, up to bounce_count times. The deposit goes to slot (walk − first_walk) ·
-// bounce_count + (depth − 1) of `vpls`, and the same slot of `flags` gets 1 if it is to be kept. Absorption
-// is fractional: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j − 1]. A VPL of depth
-// j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are launched that far, never
-// by how many arrive. With a uniform random shift, this is unbiased for every depth.
+// One work-item for each walk, from first_walk on; any work-group size. A walk leaves a light, meets up to
+// bounce_count surfaces, and deposits a VPL on each that has a Lambertian part. The deposit goes to slot
+// (walk − first_walk) · bounce_count + (depth − 1) of `vpls`, and the same slot of `flags` gets 1 if it is to
+// be kept. Absorption is fractional: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j
+// − 1]. A VPL of depth j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are
+// launched that far, never by how many arrive. With a uniform random shift, this is unbiased for every depth.
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
+#include "lib/random.cl"
 
 // Which deposits in the close range a policy keeps (docs/method.md).
 #define KEEP_ALL 0u              // complete, and samplers without a close range
@@ -42,19 +43,21 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         emit_particle(&scene, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed), sample_2d(walk, 2, seed));
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         const float launched = walks_at_depth[bounce];
-        SurfaceHit hit;
+        const float2 choice = sample_2d(walk, 3 + WALK_PAIRS_PER_STEP * bounce, seed);
+        Landing at;
         if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) ||
-            !land(&scene, &particle, &hit)) {
+            !land(&scene, &particle, choice.x, &at)) {
             return;
         }
+        const float3 reflected = reflected_flux(&scene, &particle, &at);
         const bool is_close =
-            is_close_surface(close_range, close_triangles, whole_triangles, hit.triangle, hit.position);
+            is_close_surface(close_range, close_triangles, whole_triangles, at.hit.triangle, at.hit.position);
         const bool kept = keep == KEEP_ALL || !is_close || (keep == KEEP_INDIRECT_INSIDE && bounce > 0);
-        if (kept && !is_black(particle.flux)) {
+        if (kept && !is_black(reflected)) {
             vpls[index * bounce_count + bounce] = make_deposit(
-                &particle, &hit, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, particle.flux / launched);
+                &scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
             flags[index * bounce_count + bounce] = 1;
         }
-        scatter(&particle, &hit, sample_2d(walk, 3 + bounce, seed));
+        scatter(&scene, &particle, &at, choice.y, sample_2d(walk, 4 + WALK_PAIRS_PER_STEP * bounce, seed));
     }
 }

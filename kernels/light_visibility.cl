@@ -7,21 +7,18 @@
 // tracing, so no light is lost (docs/method.md). One point for each area_per_point (m²) of a triangle is
 // therefore enough, up to MAX_POINTS.
 
-#include "lib/emitter.cl"
-#include "lib/material.cl"
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
 
 #define MAX_POINTS 8u
 #define LIGHTS_PER_POINT 2u
 
 inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
-    const global Emitter* emitter = scene->emitters + index;
-    if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+    if (scene->emitters[index].type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         return true;  // finding the one window of a room takes more rays than it is worth
     }
-    const float3 e = emitter->type == NEARLIGHT_EMITTER_TRIANGLE
-                         ? triangle_irradiance(scene, emitter, x, n, u)
-                         : delta_irradiance(scene, emitter, x, n);
-    return !is_black(e);
+    const LightSample light = sample_emitter(scene, index, x, u);
+    return dot(n, light.direction) > 0.0f && !is_black(light.radiance) && light_is_visible(scene, x, &light);
 }
 
 inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {
@@ -48,13 +45,14 @@ kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, 
     const uint id = ids[index];
     const global Material* material = scene.materials + scene.triangles[id].material;
     const uint key = random_uint4((uint4)(id, seed, 0x715u, 0x1u)).x;
-    const bool two_sided = reflects(material, 0);
+    const bool front = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_FRONT) != 0;
+    const bool back = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_BACK) != 0;
     const uint point_count = (uint)clamp(triangle_area(&scene, id) / area_per_point, 1.0f, (float)MAX_POINTS);
     for (uint i = 0; i < point_count; ++i) {
         float3 normal;
         const float3 point = triangle_point(&scene, id, square_to_triangle(sample_2d(i, 0, key)), &normal);
-        if (point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key) ||
-            (two_sided && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
+        if ((front && point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key)) ||
+            (back && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
             selected[id] = 1;
             return;
         }

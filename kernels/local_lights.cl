@@ -114,14 +114,16 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
     const float reach = max_radius + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
-    const SurfaceHit hit = trace_opaque(&scene, receiver.position, direction, reach);
-    if (hit.t < 0.0f || !reflects(scene.materials + hit.material, hit.front)) {
+    const SurfaceHit hit = trace_surface(&scene, receiver.position, direction, reach);
+    if (hit.t < 0.0f) {
         return;
     }
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(index, 1, key).x);
     LocalPoint light;
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
-    const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
+    const float3 albedo = surface.bsdf.diffuse;
     const GatherRadius law = {max_radius, min_radius, at_unit_light, seed};
     const float radius = gather_radius(&scene, &law, light.position, light.normal);
     if (is_black(albedo) || !(local_geometry(&scene, &receiver, &light, radius) > 0.0f)) {
@@ -129,12 +131,14 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
     const Connections to = {vpls, vpl_radii, vpl_count, connections, law};
-    const float3 exitance = albedo * short_walk_irradiance(&scene, &to, light.position, light.normal,
-                                                           bounce_count, direct_samples, walk_key);
+    const ReceiverPoint at = {light.position, surface.frame.n, surface.bsdf.curve};
+    const float3 exitance =
+        albedo * short_walk_irradiance(&scene, &to, &at, bounce_count, direct_samples, walk_key);
     if (is_black(exitance)) {
         return;
     }
-    lights[slot] = make_vpl(light.position, light.normal, 0, 0, exitance);
+    lights[slot] =
+        make_vpl(light.position, light.normal, surface.frame.n, surface.bsdf.curve, 0, 0, exitance);
     light_radii[slot] = radius;
     flags[slot] = 1;
 }
@@ -184,6 +188,7 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
     const uint first_slot = index / NEARLIGHT_PACKET_SIZE * slots_per_packet;
     const LocalPoint receiver =
         receiver_point(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
+    const uint curve = receiver_curve(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
     float3 sum = (float3)(0.0f);
     for (uint slot = first_slot; slot < first_slot + slots_per_packet; ++slot) {
         if (flags[slot] == 0 || (seen_by[slot] >> lane & 1) == 0) {
@@ -196,8 +201,12 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         // This is (G_R − G_Rg) / G_0, for a distance below R_g.
         const float bounded = clamp_radius * clamp_radius;
         const float part = (squared < bounded ? squared / bounded : 1.0f) - squared / (radius * radius);
-        sum +=
-            load3(lights[slot].power) * (M_1_PI_F * part * local_geometry(&scene, &receiver, &light, radius));
+        const float inverse = rsqrt(squared);
+        const float transmission =
+            diffuse_transmission(&scene, vpl_curve(lights + slot), dot(light.normal, between) * inverse) *
+            diffuse_transmission(&scene, curve, -dot(receiver.normal, between) * inverse);
+        sum += load3(lights[slot].power) *
+               (M_1_PI_F * part * transmission * local_geometry(&scene, &receiver, &light, radius));
     }
     global IrradiancePacket* out = irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE;
     out->r[lane] += sum.x;

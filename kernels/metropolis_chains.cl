@@ -4,9 +4,9 @@
 // Algorithm, 2002].
 //
 // A state is a point of the unit cube, in pairs of numbers: (depth, choice of light), position and direction
-// on the light, then one pair for each bounce. It stands for one VPL: the deposit of that walk at that depth,
-// with its flux divided by the probability of the depth. Pair p of state i lies at p · count + i. Pairs of
-// bounces beyond the state's depth are unused.
+// on the light, then WALK_PAIRS_PER_STEP pairs for each surface. It stands for one VPL: the deposit of that
+// walk at that depth, with its flux divided by the probability of the depth. Pair p of state i lies at p ·
+// count + i. Pairs of bounces beyond the state's depth are unused.
 //
 // - metropolis_seeds: writes the numbers of independent states, by index into a randomised sequence.
 // - metropolis_walks: turns numbers into VPLs, of power 0 and without a normal where the walk does not get
@@ -20,6 +20,7 @@
 // One work-item for each state; any work-group size.
 
 #include "lib/light_walk.cl"
+#include "lib/random.cl"
 
 /// The share of proposals that forget the state.
 #define LARGE_STEPS 0.3f
@@ -52,16 +53,26 @@ kernel void metropolis_walks(SCENE_PARAMETERS, const global float* restrict dept
     const float probability = depth_cdf[last] - (last == 0 ? 0.0f : depth_cdf[last - 1]);
     EmittedParticle particle =
         emit_particle(&scene, (float2)(choice.y, 0.0f), numbers[count + index], numbers[2 * count + index]);
-    SurfaceHit hit;
-    bool landed = !is_black(particle.flux) && land(&scene, &particle, &hit);
-    for (uint bounce = 0; landed && bounce < last; ++bounce) {
-        scatter(&particle, &hit, numbers[(3 + bounce) * count + index]);
-        landed = !is_black(particle.flux) && land(&scene, &particle, &hit);
+    Landing at;
+    float3 reflected = (float3)(0.0f);
+    for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {
+        const uint pair = 3 + WALK_PAIRS_PER_STEP * step;
+        const float2 choice = numbers[pair * count + index];
+        if (!land(&scene, &particle, choice.x, &at)) {
+            break;
+        }
+        if (step == last) {
+            reflected = reflected_flux(&scene, &particle, &at);
+        } else {
+            scatter(&scene, &particle, &at, choice.y, numbers[(pair + 1) * count + index]);
+        }
     }
-    if (!landed) {
-        hit.geometric = particle.origin = particle.flux = (float3)(0.0f);
+    if (is_black(reflected)) {
+        vpls[index] = make_vpl((float3)(0.0f), (float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), 0, last + 1, 0,
+                               (float3)(0.0f));
+    } else {
+        vpls[index] = make_deposit(&scene, &at, last + 1, 0, reflected / probability);
     }
-    vpls[index] = make_deposit(&particle, &hit, last + 1, 0, particle.flux / probability);
 }
 
 kernel void metropolis_targets(const global Vpl* restrict vpls, const global uint* restrict order,

@@ -8,8 +8,9 @@
 // decides point by point, the sample lies outside the close range. One work-item for each slot; any
 // work-group size.
 
+#include "lib/bsdf/bsdf.cl"
 #include "lib/close_range.cl"
-#include "lib/material.cl"
+#include "lib/random.cl"
 #include "lib/vpl.cl"
 
 kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict samples, uint sample_count,
@@ -23,17 +24,22 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
     flags[index] = 0;
     const SurfaceSample point = samples[index / 2];
     const bool front = index % 2 == 0;
-    const global Material* material = scene.materials + scene.triangles[point.triangle].material;
     const float3 position = load3(point.position);
-    if (!reflects(material, front) || !(whole_triangles || in_close_range(close_range, position))) {
+    if (!(whole_triangles || in_close_range(close_range, position))) {
         return;
     }
-    const float3 power = light_albedo(&scene, material, (float2)(point.u, point.v)) * area_per_sample;
+    const SurfaceHit hit =
+        surface_at(&scene, point.triangle, (float2)(point.u, point.v), position, load3(point.normal), front);
+    const uint4 random =
+        random_uint4((uint4)(as_uint(position.x), as_uint(position.y), as_uint(position.z), 0x9a7c4u));
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, -hit.geometric, BSDF_RADIANCE, to_unit_float(random.x));
+    const float3 power = surface.bsdf.diffuse * area_per_sample;
     if (is_black(power)) {
         return;
     }
-    const float3 normal = front ? load3(point.normal) : -load3(point.normal);
     // Depth 0 stands for light of all depths.
-    vpls[index] = make_vpl(offset_point(&scene, position, normal), normal, 0, NEARLIGHT_VPL_CLOSE, power);
+    vpls[index] = make_vpl(offset_point(&scene, position, hit.geometric), hit.geometric, surface.frame.n,
+                           surface.bsdf.curve, 0, NEARLIGHT_VPL_CLOSE, power);
     flags[index] = 1;
 }

@@ -13,7 +13,7 @@
 // One work-item for each ray; ray r belongs to point r / m. Where it lands on a surface that reflects, slot r
 // of `vpls` gets a VPL whose power is the albedo there, and slot r of `flags` gets 1. Any work-group size.
 
-#include "lib/material.cl"
+#include "lib/bsdf/bsdf.cl"
 #include "lib/random.cl"
 #include "lib/sampling.cl"
 #include "lib/vpl.cl"
@@ -33,11 +33,13 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     // among them.
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 0, seed)), load3(point->normal));
-    const SurfaceHit hit = trace_opaque(&scene, origin, direction, INFINITY);
-    if (hit.t < 0.0f || !reflects(scene.materials + hit.material, hit.front)) {
+    const SurfaceHit hit = trace_surface(&scene, origin, direction, INFINITY);
+    if (hit.t < 0.0f) {
         return;
     }
-    const float3 albedo = light_albedo(&scene, scene.materials + hit.material, hit.uv);
+    const SurfaceBsdf surface =
+        surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(ray, 1, seed).x);
+    const float3 albedo = surface.bsdf.diffuse;
     const float3 y = offset_point(&scene, hit.position, hit.geometric);
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane
     // of y.
@@ -45,6 +47,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     if (is_black(albedo) || !(height > 0.1f * ray_epsilon(y, scene.info->extent))) {
         return;
     }
-    vpls[ray] = make_vpl(y, hit.geometric, 0, 0, albedo);  // depth 0: light of all depths
+    // Depth 0 stands for light of all depths.
+    vpls[ray] = make_vpl(y, hit.geometric, surface.frame.n, surface.bsdf.curve, 0, 0, albedo);
     flags[ray] = 1;
 }

@@ -5,8 +5,8 @@
 // classification]
 //
 // The answer errs towards "yes", by a margin as large as the rounding of in_close_range() can be, so that no
-// point that passes that test lies on a triangle that was left out. Glass carries no VPLs and is left out,
-// and so are triangles without area.
+// point that passes that test lies on a triangle that was left out. Triangles without a Lambertian part carry
+// no VPLs and are left out, and so are triangles without area.
 //
 // Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) for each
 // triangle. One work-item for each triangle; work-group size: any.
@@ -18,15 +18,14 @@
 #define ROUNDING_MARGIN 4e-6f
 
 inline bool carries_vpls(const global Material* material) {
-    return material->lobe != NEARLIGHT_LOBE_DIELECTRIC && material->lobe != NEARLIGHT_LOBE_THIN_DIELECTRIC;
+    return (material->flags & (NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK)) != 0;
 }
 
 inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c, float3 normal) {
     const float3 origin = load3(region->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     const float margin = ROUNDING_MARGIN * max_component(reach);
-    // Positions are relative to the camera, through which all planes go, so that numbers are small where
-    // accuracy matters.
+    // Positions and planes are relative to the camera, so that numbers are small where accuracy matters.
     Polygon polygon;
     polygon.vertices[0] = a - origin;
     polygon.vertices[1] = b - origin;
@@ -34,7 +33,7 @@ inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, fl
     polygon.count = 3;
     for (int i = 0; i < 5; ++i) {
         const global float* plane = region->planes[i];
-        clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), margin);
+        clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), plane[3] + margin);
     }
     const float range = region->range + margin;
     return squared_distance_to_polygon(&polygon, normal) < range * range;

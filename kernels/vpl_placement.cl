@@ -54,13 +54,12 @@ inline SurfaceSample sample_on_triangle(const global Vertex* restrict vertices, 
     const float3 edge1 = load3(b->position) - load3(a->position);
     const float3 edge2 = load3(c->position) - load3(a->position);
     const float3 normal = cross(edge1, edge2);
-    const float w = 1.0f - weights.x - weights.y;
     SurfaceSample sample;
     sample.position = store3(load3(a->position) + weights.x * edge1 + weights.y * edge2);
     sample.triangle = triangle_id;
     sample.normal = store3(normal / sqrt(dot(normal, normal)));
-    sample.u = w * a->u + weights.x * b->u + weights.y * c->u;
-    sample.v = w * a->v + weights.x * b->v + weights.y * c->v;
+    sample.u = weights.x;
+    sample.v = weights.y;
     sample.pad0 = 0.0f;
     sample.pad1 = 0.0f;
     sample.pad2 = 0.0f;

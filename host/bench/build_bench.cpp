@@ -83,7 +83,7 @@ std::vector<double> ratios(const std::vector<double>& ours, const std::vector<do
 }  // namespace
 
 BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config) {
-    const Bvh first = build_scene_bvhs(scene).opaque;
+    const Bvh first = build_scene_bvh(scene);
     const std::vector<uint> ids = distinct_triangles(first);
     const TreeWork work = make_tree_work(scene, first, config);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -15,15 +15,13 @@ namespace {
 constexpr float kClampRadiusShare =
     0.01f;  // of the scene's extent; without roulette the work does not depend on it
 
-Scene opaque_geometry(const Scene& scene) {
+Scene geometry_of(const Scene& scene) {
     Scene result;
     result.name = scene.name;
     result.vertices = scene.vertices;
     result.materials.emplace_back();
     for (const Triangle& triangle : scene.triangles) {
-        if (!is_glass(scene.materials[triangle.material])) {
-            result.triangles.push_back({triangle.v0, triangle.v1, triangle.v2, 0});
-        }
+        result.triangles.push_back({triangle.v0, triangle.v1, triangle.v2, 0});
     }
     return result;
 }
@@ -47,7 +45,7 @@ std::uint64_t lanes_that_face(const Vpl& vpl, const ReceiverPacket& packet, floa
 
 GatherSegments make_gather_segments(const Scene& scene, std::vector<Vpl> vpls,
                                     std::vector<ReceiverPacket> receivers, float clamp_radius) {
-    GatherSegments segments{opaque_geometry(scene), std::move(vpls), std::move(receivers), clamp_radius, {}};
+    GatherSegments segments{geometry_of(scene), std::move(vpls), std::move(receivers), clamp_radius, {}};
     segments.rays.reserve(segments.receivers.size() * segments.vpls.size());
     for (const ReceiverPacket& packet : segments.receivers) {
         for (const Vpl& vpl : segments.vpls) {

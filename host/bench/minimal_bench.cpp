@@ -40,7 +40,7 @@ struct Options {
 
 struct Workload {
     Scene scene;
-    SceneBvhs bvhs;
+    Bvh bvh;
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
 };
@@ -64,17 +64,17 @@ Options parse(int argc, char** argv) {
 Workload make_workload(const Options& options) {
     Workload work;
     work.scene = make_sphere_room(options.triangles);
-    work.bvhs = build_scene_bvhs(work.scene);
-    work.vpls = make_traced_vpls(work.scene, work.bvhs.opaque, options.vpls);
+    work.bvh = build_scene_bvh(work.scene);
+    work.vpls = make_traced_vpls(work.scene, work.bvh, options.vpls);
     const int side = static_cast<int>(options.side);
-    work.receivers = make_camera_receivers(work.scene, work.bvhs.opaque, side, side);
+    work.receivers = make_camera_receivers(work.scene, work.bvh, side, side);
     return work;
 }
 
 /// The input of a gather, on a device.
 struct GatherJob {
     GatherJob(Device& device, const Workload& work, GatherKernel kernel, std::size_t vpl_count)
-        : tree(upload_tree(device, work.bvhs.opaque, kernel)),
+        : tree(upload_tree(device, work.bvh, kernel)),
           vpls(device, std::span(work.vpls).first(std::min(vpl_count, work.vpls.size()))),
           receivers(device, work.receivers),
           sums(device, work.receivers.size()) {}
@@ -103,7 +103,7 @@ bool check_pairs(Device& device, const Workload& work, Gatherer& gatherer) {
         const Vpl& vpl = work.vpls[i / NEARLIGHT_PACKET_SIZE % job.vpls.count()];
         const ReceiverPacket& packet = work.receivers[i / NEARLIGHT_PACKET_SIZE / job.vpls.count()];
         const Vec3 receiver = receiver_at(packet, i % NEARLIGHT_PACKET_SIZE).position;
-        const bool expected = occluded(work.bvhs.opaque, vpl.position, receiver - vpl.position,
+        const bool expected = occluded(work.bvh, vpl.position, receiver - vpl.position,
                                        NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
         ++rays;
         blocked += expected ? 1 : 0;

@@ -27,6 +27,12 @@ struct Header {
 };
 static_assert(sizeof(Header) == 40);
 
+/// The places of a packet's receivers, which are all that a gather of plain surfaces reads of them.
+struct StoredPacket {
+    float places[6][NEARLIGHT_PACKET_SIZE];  // px, py, pz, nx, ny, nz
+};
+static_assert(sizeof(StoredPacket) == offsetof(ReceiverPacket, surface));
+
 struct StoredVpl {
     Vec3 position, normal, power;
 };
@@ -62,7 +68,7 @@ std::uint64_t bytes_after_header(const Header& header) {
     return std::uint64_t{header.vertex_count} * sizeof(Vec3) +
            std::uint64_t{header.triangle_count} * sizeof(StoredTriangle) +
            std::uint64_t{header.vpl_count} * sizeof(StoredVpl) +
-           std::uint64_t{header.packet_count} * sizeof(ReceiverPacket) +
+           std::uint64_t{header.packet_count} * sizeof(StoredPacket) +
            std::uint64_t{header.packet_count} * header.vpl_count * sizeof(std::uint64_t);
 }
 
@@ -136,10 +142,11 @@ GatherSegments read_arrays(const Header& header, Reader& reader) {
     }
     for (std::uint32_t i = 0; i < header.vpl_count; ++i) {
         const auto vpl = reader.take<StoredVpl>();
-        segments.vpls.push_back({vpl.position, 0, vpl.normal, 0, vpl.power, 0.0f});
+        segments.vpls.push_back({vpl.position, 0, vpl.normal, 0, vpl.power, 0});
     }
     for (std::uint32_t i = 0; i < header.packet_count; ++i) {
-        segments.receivers.push_back(reader.take<ReceiverPacket>());
+        const auto packet = reader.take<StoredPacket>();
+        std::memcpy(&segments.receivers.emplace_back(), &packet, sizeof packet);
     }
     for (std::size_t i = 0; i < std::size_t{header.packet_count} * header.vpl_count; ++i) {
         segments.rays.push_back(reader.take<std::uint64_t>());
@@ -166,7 +173,9 @@ void write_segments(const std::filesystem::path& file, const GatherSegments& seg
         append(bytes, StoredVpl{vpl.position, vpl.normal, vpl.power});
     }
     for (const ReceiverPacket& packet : segments.receivers) {
-        append(bytes, packet);
+        StoredPacket places;
+        std::memcpy(&places, &packet, sizeof places);
+        append(bytes, places);
     }
     for (const std::uint64_t word : segments.rays) {
         append(bytes, word);

@@ -126,7 +126,7 @@ RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::stri
 }  // namespace
 
 TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenchConfig& config) {
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const std::vector<uint> ids = distinct_triangles(bvh);
     OurTracer own(device, bvh);
     const EmbreeRays embree(scene, ids);

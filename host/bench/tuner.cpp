@@ -12,9 +12,9 @@
 #include "host/reference/synthetic_scene.h"
 #include "host/session/session.h"
 #include "host/stages/camera_pass.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/morton_sort.h"
+#include "host/stages/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -51,7 +51,7 @@ struct Room {
         : scene(make_sphere_room(config.triangles)),
           session(device, scene, {.bvh_quality = BvhQuality::fast}),
           view(session.look({.width = config.size, .height = config.size}, 0)),
-          segments(make_camera_segments(scene, build_scene_bvhs(scene).opaque, config.vpl_count, config.size,
+          segments(make_camera_segments(scene, build_scene_bvh(scene), config.vpl_count, config.size,
                                         config.size)) {}
     Scene scene;
     Session session;
@@ -86,23 +86,24 @@ Work picture_work(Device& device, const Room& room) {
     struct State {
         State(Device& on, const Room& of)
             : camera_pass(on),
-              direct_light(on),
+              receiver_paths(on),
               camera(on, std::span(&of.view.camera, 1)),
               close_range(on, std::span(&of.view.close_range, 1)),
               band{.tile_row_count = tiles_across(of.view.camera.height)},
               packets(packet_count(band, of.view.camera.width)),
               receivers(on, packets),
               vertices(on, packets * NEARLIGHT_PACKET_SIZE),
-              irradiance(on, packets) {}
+              direct(on, packets),
+              indirect(on, packets) {}
         CameraPass camera_pass;
-        DirectLight direct_light;
-        Buffer<PinholeCamera> camera;
+        ReceiverPaths receiver_paths;
+        Buffer<Camera> camera;
         Buffer<CloseRange> close_range;
         CameraBand band;
         std::size_t packets;
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
-        Buffer<IrradiancePacket> irradiance;
+        Buffer<IrradiancePacket> direct, indirect;
     };
     const auto state = std::make_shared<State>(device, room);
     return {[state, &room] {
@@ -110,9 +111,11 @@ Work picture_work(Device& device, const Room& room) {
                 const DeviceScene& scene = room.session.device_scene();
                 s.camera_pass.run(scene, s.camera, room.view.camera.width, s.close_range, s.band, 1,
                                   s.receivers, s.vertices);
-                s.direct_light.run(scene, s.receivers, s.packets, 4, 1, s.irradiance);
+                s.receiver_paths.run(scene, s.receivers, s.packets,
+                                     {.light_samples = 4, .path_count = 1, .max_edges = 3, .seed = 1},
+                                     s.direct, s.indirect);
             },
-            [state] { return hash_of(state->irradiance); }};
+            [state] { return hash_of(state->direct); }};
 }
 
 Work sort_work(Device& device, std::size_t count) {
@@ -264,7 +267,7 @@ TunerResult tune(Device& device, const TunerConfig& config) {
     result.device = device.entry().label();
     result.usual = result.chosen = tunables_row(device.entry().kind).values;
     result.kernels = {"gather_packets.cl", "gather_rays.cl", "camera_pass.cl",
-                      "direct_light.cl",   "morton_sort.cl", "prefix_scan.cl"};
+                      "receiver_paths.cl", "morton_sort.cl", "prefix_scan.cl"};
     device.set_tunables(result.usual);
     const Room room(device, config);
     for (const Trial& trial : make_trials(device, room, config)) {

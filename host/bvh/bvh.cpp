@@ -2,6 +2,7 @@
 #include "host/bvh/bvh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "host/bvh/child_order.h"
@@ -36,15 +37,10 @@ std::vector<uint> distinct_triangles(const Bvh& bvh) {
     return ids;
 }
 
-SceneBvhs build_scene_bvhs(const Scene& scene, const BvhConfig& config) {
-    std::vector<uint> opaque;
-    std::vector<uint> glass;
-    opaque.reserve(scene.triangles.size());
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const Material& material = scene.materials[scene.triangles[i].material];
-        (is_glass(material) ? glass : opaque).push_back(static_cast<uint>(i));
-    }
-    return {build_bvh(scene, opaque, config), build_bvh(scene, glass, config), !glass.empty()};
+Bvh build_scene_bvh(const Scene& scene, const BvhConfig& config) {
+    std::vector<uint> ids(scene.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    return build_bvh(scene, ids, config);
 }
 
 }  // namespace nearlight::core

@@ -43,13 +43,8 @@ Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& co
 /// The ids of the triangles that the tree was built over, in ascending order, each once.
 std::vector<uint> distinct_triangles(const Bvh& bvh);
 
-/// The two trees of a scene: what light and camera see, and the glass that only the camera sees.
-struct SceneBvhs {
-    Bvh opaque;
-    Bvh glass;
-    bool has_glass = false;
-};
-SceneBvhs build_scene_bvhs(const Scene& scene, const BvhConfig& config = {});
+/// Builds the tree over all triangles of the scene.
+Bvh build_scene_bvh(const Scene& scene, const BvhConfig& config = {});
 
 /// Checks every invariant of the layout: each entry is in exactly one leaf, and each triangle in at least
 /// one; child boxes hold the triangles below them, and those of a cut triangle together hold every part

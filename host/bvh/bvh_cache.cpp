@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Must change whenever the builder makes other trees or the format of files changes.
-constexpr std::uint64_t kVersion = 6;
+constexpr std::uint64_t kVersion = 7;
 constexpr const char* kExtension = ".tree";
 
 Hash128 key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes) {
@@ -32,110 +32,97 @@ Hash128 key_of(const Scene& scene, const BvhConfig& config, const TreeShapes& sh
     key.add(config.max_duplication);
     key.add(shapes.binary);
     key.add(shapes.wide);
-    std::vector<std::uint8_t> glass;
-    for (const Material& material : scene.materials) {
-        glass.push_back(is_glass(material) ? 1 : 0);
-    }
-    key.add_array(glass);
     key.add_array(scene.vertices);
     key.add_array(scene.triangles);
     return key.hash128();
 }
 
-/// The start of a file, which the arrays of both trees follow.
+/// The start of a file, which the arrays of the tree follow.
 struct Header {
     std::array<char, 8> magic{'N', 'L', 'T', 'R', 'E', 'E', '0', '1'};
     Hash128 key{};
     Hash128 checksum{};  ///< hash of the rest of the header and of what follows
-    struct Tree {
-        std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
-        double sah_cost = 0;
-        std::int64_t depth = 0;
-    };
-    Tree opaque{}, glass{};
-    std::uint64_t has_glass = 0;
+    std::uint64_t nodes = 0, triangles = 0, wide_nodes = 0, block_columns = 0;
+    double sah_cost = 0;
+    std::int64_t depth = 0;
 };
 
-Header::Tree describe(const ShapedBvh& tree) {
-    return {tree.binary.nodes.size(), tree.binary.triangle_ids.size(),
-            tree.wide.nodes.size(),   tree.wide.triangle_ids.size(),
-            tree.binary.sah_cost,     tree.binary.depth};
+Header describe(const ShapedBvh& tree) {
+    Header header;
+    header.nodes = tree.binary.nodes.size();
+    header.triangles = tree.binary.triangle_ids.size();
+    header.wide_nodes = tree.wide.nodes.size();
+    header.block_columns = tree.wide.triangle_ids.size();
+    header.sah_cost = tree.binary.sah_cost;
+    header.depth = tree.binary.depth;
+    return header;
 }
 
-/// The size in a file of the arrays of one tree.
-std::uint64_t array_bytes(const Header::Tree& tree) {
-    return tree.nodes * sizeof(BvhNode) + tree.wide_nodes * sizeof(WideNode) +
-           (tree.triangles + tree.block_columns) * sizeof(uint);
+/// The size in a file of the arrays of a tree.
+std::uint64_t array_bytes(const Header& header) {
+    return header.nodes * sizeof(BvhNode) + header.wide_nodes * sizeof(WideNode) +
+           (header.triangles + header.block_columns) * sizeof(uint);
 }
 
 /// Calls visit(array) for all arrays of a file, in their order. Triangles are not among them, because the
 /// scene has them.
-template <typename Trees, typename Visitor>
-void for_each_array(Trees& trees, const Visitor& visit) {
-    for (auto* tree : {&trees.opaque, &trees.glass}) {
-        visit(tree->binary.nodes), visit(tree->binary.triangle_ids);
-        visit(tree->wide.nodes), visit(tree->wide.triangle_ids);
-    }
+template <typename Tree, typename Visitor>
+void for_each_array(Tree& tree, const Visitor& visit) {
+    visit(tree.binary.nodes), visit(tree.binary.triangle_ids);
+    visit(tree.wide.nodes), visit(tree.wide.triangle_ids);
 }
 
-Hash128 checksum_of(Header header, const SceneTrees& trees) {
+Hash128 checksum_of(Header header, const ShapedBvh& tree) {
     header.checksum = {};
     Hasher sum;
     sum.add(header);
-    for_each_array(trees, [&](const auto& values) { sum.add_array(std::span(values)); });
+    for_each_array(tree, [&](const auto& values) { sum.add_array(std::span(values)); });
     return sum.hash128();
 }
 
-ShapedBvh room_for(const Header::Tree& tree) {
+ShapedBvh room_for(const Header& header) {
     ShapedBvh result;
-    result.binary.nodes.resize(tree.nodes);
-    result.binary.triangle_ids.resize(tree.triangles);
-    result.binary.sah_cost = tree.sah_cost;
-    result.binary.depth = static_cast<int>(tree.depth);
-    result.wide.nodes.resize(tree.wide_nodes);
-    result.wide.triangle_ids.resize(tree.block_columns);
+    result.binary.nodes.resize(header.nodes);
+    result.binary.triangle_ids.resize(header.triangles);
+    result.binary.sah_cost = header.sah_cost;
+    result.binary.depth = static_cast<int>(header.depth);
+    result.wide.nodes.resize(header.wide_nodes);
+    result.wide.triangle_ids.resize(header.block_columns);
     return result;
 }
 
-std::optional<SceneTrees> read(const fs::path& path, const Hash128& key, const Scene& scene) {
+std::optional<ShapedBvh> read(const fs::path& path, const Hash128& key, const Scene& scene) {
     std::ifstream file(path, std::ios::binary);
     Header header;
     const Header expected;
     std::error_code ignored;
     if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != expected.magic ||
-        header.key != key ||
-        sizeof header + array_bytes(header.opaque) + array_bytes(header.glass) !=
-            fs::file_size(path, ignored)) {
+        header.key != key || sizeof header + array_bytes(header) != fs::file_size(path, ignored)) {
         return std::nullopt;
     }
-    SceneTrees trees{room_for(header.opaque), room_for(header.glass), header.has_glass != 0};
-    for_each_array(trees, [&](auto& values) {
+    ShapedBvh tree = room_for(header);
+    for_each_array(tree, [&](auto& values) {
         const auto bytes = std::as_writable_bytes(std::span(values));
         file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     });
-    if (!file || checksum_of(header, trees) != header.checksum) {
+    if (!file || checksum_of(header, tree) != header.checksum) {
         return std::nullopt;
     }
-    for (ShapedBvh* tree : {&trees.opaque, &trees.glass}) {
-        fetch_triangles(tree->binary, scene);
-        fetch_blocks(tree->wide, scene);
-    }
-    return trees;
+    fetch_triangles(tree.binary, scene);
+    fetch_blocks(tree.wide, scene);
+    return tree;
 }
 
-void write(const fs::path& path, const Hash128& key, const SceneTrees& trees) {
+void write(const fs::path& path, const Hash128& key, const ShapedBvh& tree) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
     AtomicFile result(path);
     std::ofstream file(result.temporary(), std::ios::binary);
-    Header header;
+    Header header = describe(tree);
     header.key = key;
-    header.opaque = describe(trees.opaque);
-    header.glass = describe(trees.glass);
-    header.has_glass = trees.has_glass ? 1 : 0;
-    header.checksum = checksum_of(header, trees);
+    header.checksum = checksum_of(header, tree);
     file.write(reinterpret_cast<const char*>(&header), sizeof header);
-    for_each_array(trees, [&](const auto& values) {
+    for_each_array(tree, [&](const auto& values) {
         const auto bytes = std::as_bytes(std::span(values));
         file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     });
@@ -170,23 +157,23 @@ void shrink(const fs::path& folder, std::uintmax_t max_bytes) {
 
 }  // namespace
 
-SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
-                                     const BvhCacheConfig& cache) {
+ShapedBvh find_or_build_scene_tree(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
+                                   const BvhCacheConfig& cache) {
     if (cache.folder.empty() || cache.folder == "none" || scene.triangles.size() < cache.min_triangles) {
-        return build_scene_trees(scene, config, shapes);
+        return build_scene_tree(scene, config, shapes);
     }
     const Hash128 key = key_of(scene, config, shapes);
     const fs::path path = cache.folder / (hex_digits(key[0]) + kExtension);
-    if (std::optional<SceneTrees> kept = read(path, key, scene)) {
+    if (std::optional<ShapedBvh> kept = read(path, key, scene)) {
         std::error_code ignored;
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
-        say_debug("trees taken from " + path.string());
+        say_debug("tree taken from " + path.string());
         return std::move(*kept);
     }
-    SceneTrees trees = build_scene_trees(scene, config, shapes);
-    write(path, key, trees);
+    ShapedBvh tree = build_scene_tree(scene, config, shapes);
+    write(path, key, tree);
     shrink(cache.folder, cache.max_bytes);
-    return trees;
+    return tree;
 }
 
 }  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "host/bvh/scene_trees.h"
+#include "host/bvh/shaped_bvh.h"
 
 namespace nearlight::core {
 
@@ -15,11 +15,11 @@ struct BvhCacheConfig {
     std::uintmax_t max_bytes = 1u << 30u;  ///< size of all files; the least recently used are removed
 };
 
-/// Returns what build_scene_trees() gives, bit by bit. They come from the cache if it has the trees of the
-/// same vertices, triangles, choice of glass, `config` and `shapes`; otherwise they are built and kept. A
+/// Returns what build_scene_tree() gives, bit by bit. They come from the cache if it has the trees of the
+/// same vertices, triangles, `config` and `shapes`; otherwise they are built and kept. A
 /// damaged file counts as missing, and a failure to write is no error. A file has 40 bytes a triangle and
 /// shape.
-SceneTrees find_or_build_scene_trees(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
-                                     const BvhCacheConfig& cache);
+ShapedBvh find_or_build_scene_tree(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
+                                   const BvhCacheConfig& cache);
 
 }  // namespace nearlight::core

@@ -32,10 +32,10 @@ GatherSegments make_segments(const BenchGatherOptions& options, Device& device) 
         return read_segments(options.replay);
     }
     const Scene scene = make_bench_scene(options.scene);
-    const SceneBvhs bvhs = build_scene_bvhs(scene, {.quality = options.bvh});
+    const Bvh bvh = build_scene_bvh(scene, {.quality = options.bvh});
     const auto [width, height] = options.size;
-    return options.rendered ? make_rendered_segments(device, scene, bvhs.opaque, options.vpls, width, height)
-                            : make_camera_segments(scene, bvhs.opaque, options.vpls, width, height);
+    return options.rendered ? make_rendered_segments(device, scene, bvh, options.vpls, width, height)
+                            : make_camera_segments(scene, bvh, options.vpls, width, height);
 }
 
 GatherKernel kernel_of(const std::string& name) {
@@ -121,9 +121,9 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
         write_segments(options.dump, segments);
         spdlog::info("wrote {}", options.dump.string());
     }
-    const SceneBvhs bvhs = build_scene_bvhs(segments.geometry, {.quality = options.bvh});
+    const Bvh bvh = build_scene_bvh(segments.geometry, {.quality = options.bvh});
     const GatherBenchResult result = bench_gather(
-        *device, segments, bvhs.opaque,
+        *device, segments, bvh,
         {.repeats = options.repeats, .kernel = kernel_of(options.kernel), .roulette = options.roulette});
     if (global.json) {
         print_json(to_json(segments.geometry.name, options.bvh, result));

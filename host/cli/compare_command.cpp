@@ -254,6 +254,7 @@ void add_compare_command(CommandLine& line) {
         .add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml), glTF (.gltf, .glb) or OBJ (.obj)")
         ->required();
     add_shared_scene_options(command, options->scene);
+    add_filter_option(command, options->scene.filter);
     add_bvh_option(command, options->settings.bvh_quality);
     command
         .add_option("-o,--output", options->settings.output, "Folder for the report and for all measurements")

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "host/scene/camera.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -118,11 +120,15 @@ void check_outputs(const PictureOptions& options) {
 
 Metadata camera_metadata(const SceneCamera& camera) {
     const Mat4 world_to_camera = inverse(camera.to_world);
-    const double tan_x = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
-    const double tan_y = tan_x * camera.height / camera.width;
-    // In NDC, x and y are in [0, 1] from the top left corner after division by w = z. The camera's +X points
-    // left.
-    Mat4 projection{{-0.5 / tan_x, 0, 0.5, 0, 0, -0.5 / tan_y, 0.5, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
+    const PictureWindow window = picture_window(camera, camera.width, camera.height);
+    const double x = window.pixel * camera.width;
+    const double y = window.pixel * camera.height;
+    // In NDC, x and y are in [0, 1] from the top left corner after division by w, which is z, or 1 for an
+    // orthographic camera. The camera's +X points left.
+    const Mat4 projection =
+        camera.kind == CameraKind::orthographic
+            ? Mat4{{-1 / x, 0, 0, -window.left / x, 0, -1 / y, 0, -window.top / y, 0, 0, 1, 0, 0, 0, 0, 1}}
+            : Mat4{{-1 / x, 0, -window.left / x, 0, 0, -1 / y, -window.top / y, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
     return {{"worldToCamera", transposed(world_to_camera)},
             {"worldToNDC", transposed(projection * world_to_camera)}};
 }

@@ -91,8 +91,8 @@ double noise(const Image& image) {
     return std::sqrt(sum / (3.0 * image.width * image.height));
 }
 
-nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracerSettings& settings,
-                               const Outcome& outcome) {
+nlohmann::ordered_json to_json(const ReferenceOptions& options, const Scene& scene,
+                               const PathTracerSettings& settings, const Outcome& outcome) {
     nlohmann::ordered_json outputs = nlohmann::ordered_json::array();
     for (const std::filesystem::path& output : options.outputs) {
         outputs.push_back(output.string());
@@ -106,6 +106,7 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const PathTracer
             {"clamp_radius", settings.clamp_radius},
             {"indirect_only", settings.indirect_only},
             {"pixel_centers", settings.pixel_centers},
+            {"filter", to_string(scene.camera.filter.kind)},
             {"seed", settings.seed},
             {"seconds",
              {{"load", outcome.load_seconds},
@@ -189,7 +190,7 @@ ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& glo
         spdlog::info("wrote {}{}", output.string(), outcome.stopped ? " with the samples so far" : "");
     }
     if (global.json) {
-        print_json(to_json(options, settings, outcome));
+        print_json(to_json(options, scene, settings, outcome));
     }
     return outcome.stopped ? ExitCode::interrupted : ExitCode::done;
 }
@@ -225,6 +226,7 @@ void add_reference_command(CommandLine& line) {
                     "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's)")
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
+    add_filter_option(command, options->scene.filter);
     command.add_flag("--resume", options->resume,
                      "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, "
                      "size and options must be the same");

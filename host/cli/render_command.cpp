@@ -242,6 +242,21 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->type_name("R")
         ->capture_default_str();
     command
+        .add_option_function<std::string>(
+            "--compensate",
+            [&settings](const std::string& text) { settings.gather.compensate = text == "on"; },
+            "on: rays bring back the light that the clamp radius takes away and what surfaces reflect other "
+            "than diffusely, so that the picture is the scene's own; off: the clamped picture of the VPLs")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off")
+        ->default_str("on");
+    command
+        .add_option("--rays", settings.gather.rays_per_pixel,
+                    "Rays per pixel for what --compensate brings back")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
         .add_option(
             "--max-depth", settings.view.max_depth,
             "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's, or 8)")
@@ -290,6 +305,7 @@ void add_render_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
+    add_filter_option(command, options->scene.filter);
     command
         .add_option("--spp", options->settings.gather.samples_per_pixel,
                     "Camera samples per pixel, for antialiasing")

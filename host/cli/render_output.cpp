@@ -46,8 +46,10 @@ Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& setting
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.clamp_radius;
+    metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
+    metadata["nearlight:filter"] = to_string(view.scene_camera.filter.kind);
     metadata["nearlight:seed"] = static_cast<int>(settings.seed);
     metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
     metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
@@ -83,7 +85,9 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.clamp_radius;
+    json["compensate"] = settings.gather.compensate;
     json["max_depth"] = report.max_depth;
+    json["filter"] = to_string(report.filter);
     json["seed"] = settings.seed;
     json["bvh"] = to_string(bvh);
     json["roulette"] = settings.gather.roulette;

@@ -22,6 +22,21 @@ void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_flag("--strict", options.strict, "Fail if the scene would have to be approximated");
 }
 
+void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter) {
+    const auto choose = [&filter](const std::string& name) {
+        filter = filter_kind(name);
+        if (!filter) {
+            throw Error(ErrorKind::invalid_argument,
+                        "unknown --filter '" + name + "'; choose one of: " + filter_names());
+        }
+    };
+    command
+        .add_option_function<std::string>("--filter", choose,
+                                          "Reconstruction filter, where a pixel has several samples: " +
+                                              filter_names() + " (default: the scene's)")
+        ->type_name("NAME");
+}
+
 void add_bvh_option(CLI::App& command, BvhQuality& quality) {
     command
         .add_option_function<std::string>(
@@ -53,6 +68,9 @@ Scene load_scene(const SceneOptions& options) {
     Scene scene = load_scene(options.file, load_options(options));
     for (const Note& note : scene.notes) {
         spdlog::warn("{}", to_string(note));
+    }
+    if (options.filter) {
+        scene.camera.filter = default_filter(*options.filter);
     }
     return scene;
 }

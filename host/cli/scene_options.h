@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,16 @@ struct SceneOptions {
     std::filesystem::path file;
     std::vector<std::string> definitions;  ///< "name=value"
     bool strict = false;
+    std::optional<FilterKind> filter;  ///< reconstruction filter; empty: the scene's
 };
 
 /// Adds the positional SCENE, -D and --strict.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds -D and --strict alone, for commands that take several scenes.
 void add_shared_scene_options(CLI::App& command, SceneOptions& options);
+
+/// Adds --filter NAME. Any other name throws Error(ErrorKind::invalid_argument).
+void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter);
 
 /// Adds --bvh fast|quality; `quality` has the default.
 void add_bvh_option(CLI::App& command, BvhQuality& quality);
@@ -30,7 +35,7 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality);
 /// '='.
 LoadOptions load_options(const SceneOptions& options);
 
-/// Reads the scene and logs its notes as warnings.
+/// Reads the scene, with the filter that the options say, and logs its notes as warnings.
 Scene load_scene(const SceneOptions& options);
 
 }  // namespace nearlight::core

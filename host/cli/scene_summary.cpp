@@ -4,8 +4,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "host/scene/camera.h"
 #include "host/scene/emitters.h"
 #include "kernels/shared/film_layers.h"
 
@@ -17,6 +19,8 @@ using Json = nlohmann::ordered_json;
 struct LightCounts {
     std::size_t points = 0;
     std::size_t spots = 0;
+    std::size_t projectors = 0;
+    std::size_t directional = 0;
     std::size_t triangles = 0;
     float power = 0.0f;  ///< luminance of all flux, W
 };
@@ -27,26 +31,41 @@ LightCounts count_lights(const Scene& scene) {
         return static_cast<std::size_t>(std::count_if(table.emitters.begin(), table.emitters.end(),
                                                       [&](const Emitter& e) { return e.type == type; }));
     };
-    return {count(NEARLIGHT_EMITTER_POINT), count(NEARLIGHT_EMITTER_SPOT), count(NEARLIGHT_EMITTER_TRIANGLE),
-            table.total_power};
+    return {count(NEARLIGHT_EMITTER_POINT),     count(NEARLIGHT_EMITTER_SPOT),
+            count(NEARLIGHT_EMITTER_PROJECTOR), count(NEARLIGHT_EMITTER_DIRECTIONAL),
+            count(NEARLIGHT_EMITTER_TRIANGLE),  table.total_power};
 }
 
 std::uint64_t texel_count(const Scene& scene) {
-    return std::accumulate(
-        scene.images.begin(), scene.images.end(), std::uint64_t{0},
-        [](std::uint64_t sum, const TextureImage& image) { return sum + image.texels.size(); });
+    return std::accumulate(scene.images.begin(), scene.images.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const TextureImage& image) {
+                               return sum + static_cast<std::uint64_t>(image.width) *
+                                                static_cast<std::uint64_t>(image.height);
+                           });
 }
 
-const char* kind_of(const Material& material) {
-    switch (material.lobe) {
-        case NEARLIGHT_LOBE_COAT:
+/// The name of the model that one sees: what a mask, a map or a two-sided material stands for.
+const char* kind_of(const Scene& scene, const Material& material) {
+    switch (material.model) {
+        case NEARLIGHT_BSDF_PLASTIC:
             return "coated";
-        case NEARLIGHT_LOBE_CONDUCTOR:
+        case NEARLIGHT_BSDF_CONDUCTOR:
             return "metal";
-        case NEARLIGHT_LOBE_DIELECTRIC:
+        case NEARLIGHT_BSDF_DIELECTRIC:
             return "glass";
-        case NEARLIGHT_LOBE_THIN_DIELECTRIC:
+        case NEARLIGHT_BSDF_THIN_DIELECTRIC:
             return "thin glass";
+        case NEARLIGHT_BSDF_PRINCIPLED:
+            return "principled";
+        case NEARLIGHT_BSDF_NULL:
+            return "invisible";
+        case NEARLIGHT_BSDF_BLEND:
+            return "blend";
+        case NEARLIGHT_BSDF_MASK:
+        case NEARLIGHT_BSDF_TWO_SIDED:
+        case NEARLIGHT_BSDF_NORMAL_MAP:
+        case NEARLIGHT_BSDF_BUMP_MAP:
+            return kind_of(scene, scene.materials[material.child[0]]);
         default:
             return "diffuse";
     }
@@ -113,18 +132,74 @@ Json json_lights(const Scene& scene) {
     const EnvironmentLight& environment = scene.environment;
     return {{"points", lights.points},
             {"spots", lights.spots},
+            {"projectors", lights.projectors},
+            {"directional", lights.directional},
             {"triangles", lights.triangles},
             {"environment",
              environment.width > 0 ? Json::array({environment.width, environment.height}) : Json()},
             {"power", lights.power}};
 }
 
+const char* kind_of(const SceneCamera& camera) {
+    return camera.kind == CameraKind::orthographic ? "orthographic"
+           : camera.aperture_radius > 0.0          ? "thin lens"
+                                                   : "perspective";
+}
+
+Json json_filter(const PixelFilter& filter) {
+    return {{"name", to_string(filter.kind)}, {"radius", filter.radius}, {"b", filter.b}, {"c", filter.c}};
+}
+
+/// A distance, or null where it is infinite, which JSON does not know.
+Json json_distance(double distance) {
+    return std::isfinite(distance) ? Json(distance) : Json();
+}
+
 Json json_camera(const Scene& scene) {
-    return {{"width", scene.camera.width},
-            {"height", scene.camera.height},
-            {"fov_x_degrees", scene.camera.fov_x_degrees},
+    const SceneCamera& camera = scene.camera;
+    return {{"kind", kind_of(camera)},
+            {"width", camera.width},
+            {"height", camera.height},
+            {"fov_x_degrees", camera.fov_x_degrees},
             {"position", json_vector(camera_position(scene))},
-            {"direction", json_vector(camera_direction(scene))}};
+            {"direction", json_vector(camera_direction(scene))},
+            {"film_part", camera.film_part},
+            {"center", Json::array({camera.center_x, camera.center_y})},
+            {"aperture_radius", camera.aperture_radius},
+            {"focus_distance", camera.focus_distance},
+            {"near_clip", camera.near_clip},
+            {"far_clip", json_distance(camera.far_clip)},
+            {"filter", json_filter(camera.filter)},
+            {"hide_emitters", camera.hide_emitters},
+            {"monochrome", camera.is_monochrome}};
+}
+
+/// The properties of the camera besides its size and place.
+std::string text_film(const SceneCamera& camera) {
+    std::string text =
+        fmt::format("{} filter of radius {:g}", to_string(camera.filter.kind), camera.filter.radius);
+    if (camera.film_part != 1.0 || camera.center_x != 0.0 || camera.center_y != 0.0) {
+        text += fmt::format(", {:.4g} of the film's width around ({:.4g}, {:.4g})", camera.film_part,
+                            camera.center_x, camera.center_y);
+    }
+    if (camera.near_clip > 0.0 || std::isfinite(camera.far_clip)) {
+        text += fmt::format(", from {:g} to {:g}", camera.near_clip, camera.far_clip);
+    }
+    text += camera.hide_emitters ? ", emitters hidden" : "";
+    return text + (camera.is_monochrome ? ", luminance only" : "");
+}
+
+/// What the camera takes in: its angle or its width, and its lens.
+std::string text_lens(const SceneCamera& camera) {
+    if (camera.kind == CameraKind::orthographic) {
+        return fmt::format("{:.6g} wide",
+                           picture_window(camera, camera.width, camera.height).pixel * camera.width *
+                               static_cast<double>(length(transform_vector(camera.to_world, {1, 0, 0}))));
+    }
+    const std::string angle = fmt::format("{:.6g} degrees wide", camera.fov_x_degrees);
+    return camera.aperture_radius > 0.0 ? fmt::format("{}, lens of radius {:g} in focus at {:g}", angle,
+                                                      camera.aperture_radius, camera.focus_distance)
+                                        : angle;
 }
 
 Json json_notes(const Scene& scene) {
@@ -171,10 +246,11 @@ MemoryEstimate estimate_memory(const Scene& scene) {
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    for (const char* kind : {"diffuse", "coated", "metal", "glass", "thin glass"}) {
+    for (const char* kind :
+         {"diffuse", "coated", "metal", "glass", "thin glass", "principled", "blend", "invisible"}) {
         const auto count = std::count_if(
             scene.materials.begin(), scene.materials.end(),
-            [&](const Material& material) { return std::string_view(kind_of(material)) == kind; });
+            [&](const Material& material) { return std::string_view(kind_of(scene, material)) == kind; });
         if (count > 0) {
             counts.emplace_back(kind, static_cast<std::size_t>(count));
         }
@@ -226,13 +302,14 @@ std::string scene_summary_text(const Scene& scene) {
            row("textures", fmt::format("{} of {} images, {} texels", scene.textures.size(),
                                        scene.images.size(), texel_count(scene))) +
            row("lights",
-               fmt::format("{} points, {} spots, {} triangles, {}; {:.6g} W", lights.points, lights.spots,
+               fmt::format("{} points, {} spots, {} projectors, {} directional, {} triangles, {}; {:.6g} W",
+                           lights.points, lights.spots, lights.projectors, lights.directional,
                            lights.triangles, text_environment(scene.environment), lights.power)) +
            row("camera",
-               fmt::format("{}x{}, {:.6g} degrees wide, at {} towards {}", scene.camera.width,
-                           scene.camera.height, scene.camera.fov_x_degrees,
-                           text_vector(camera_position(scene)), text_vector(camera_direction(scene)))) +
-           row("max depth", text_limit(scene.max_depth, "not given")) +
+               fmt::format("{}, {}x{}, {}, at {} towards {}", kind_of(scene.camera), scene.camera.width,
+                           scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),
+                           text_vector(camera_direction(scene)))) +
+           row("film", text_film(scene.camera)) + row("max depth", text_limit(scene.max_depth, "not given")) +
            row("samples", text_limit(scene.samples_per_pixel, "not given")) +
            row("host", text_parts(memory.host)) + row("device", text_parts(memory.device)) +
            row("notes", scene.notes.empty() ? "none" : std::to_string(scene.notes.size()));

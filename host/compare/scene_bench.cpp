@@ -124,7 +124,9 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
             .sampling = {.sampler = method.sampler,
                          .policy = method.policy.value_or(SamplingSettings{}.policy),
                          .vpl_count = vpls},
-            .gather = {.samples_per_pixel = settings_.samples_per_pixel, .indirect_only = true},
+            .gather = {.samples_per_pixel = settings_.samples_per_pixel,
+                       .compensate = false,
+                       .indirect_only = true},
             .seed = seed};
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/compare/pictures.h"
+#include "host/scene/camera.h"
 
 namespace nearlight::core {
 namespace {
@@ -64,17 +65,14 @@ bool is_visible(const FilmPoint& point, std::span<const float> depths, int width
 }  // namespace
 
 std::optional<FilmPoint> project(const SceneCamera& camera, Vec3 point) {
-    const Vec3 local = transform_point(inverse(camera.to_world), point);
-    if (!(local.z > 0.0f)) {
+    const std::optional<FilmPosition> position = film_position(camera, point);
+    if (!position) {
         return std::nullopt;
     }
     const auto width = static_cast<float>(camera.width);
     const auto height = static_cast<float>(camera.height);
-    const float half_side = static_cast<float>(std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0));
-    const float pixels_per_unit =
-        0.5f * width / half_side / local.z;  // pixels are square, so it holds for both axes
-    const FilmPoint film{0.5f * width - local.x * pixels_per_unit, 0.5f * height - local.y * pixels_per_unit,
-                         length(local)};
+    const FilmPoint film{static_cast<float>(position->x), static_cast<float>(position->y),
+                         static_cast<float>(position->distance)};
     const bool inside = film.x >= 0.0f && film.x < width && film.y >= 0.0f && film.y < height;
     return inside ? std::optional(film) : std::nullopt;
 }

@@ -2,9 +2,9 @@
 #include "host/reference/camera_oracle.h"
 
 #include "host/base/receivers.h"
+#include "host/reference/bsdf/surface_bsdf.h"
 #include "host/reference/close_range_oracle.h"
 #include "host/reference/ray_comparison.h"
-#include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
@@ -19,7 +19,13 @@ struct Found : ReceiverPoint {
 };
 
 bool is_absent(const Found& found) {
-    return is_zero(found.normal) && is_zero(found.vertex.throughput) && found.vertex.flags == 0;
+    return is_zero(found.normal) && is_zero(found.vertex.throughput) &&
+           (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) == 0;
+}
+
+/// Where no surface has S, random numbers do not matter.
+SurfaceBsdf bsdf_at(const Scene& scene, const Surface& surface, const RayQuery& ray) {
+    return {scene, surface, -normalize(as_double(ray.direction)), 0.5};
 }
 
 bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,
@@ -27,12 +33,12 @@ bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, con
     const Surface surface = surface_at(scene, hit, ray.direction);
     const float slack = kTolerance * extent;
     const Vec3 position = stand_off(surface.position, surface.geometric_normal, extent);
-    const Vec3 albedo = camera_albedo(scene, *surface.material, surface.u, surface.v);
+    const SurfaceBsdf bsdf = bsdf_at(scene, surface, ray);
     const bool is_close = (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) != 0;
     const float cosine = std::max(std::abs(dot(surface.geometric_normal, ray.direction)), 1e-3f);
     return length(found.position - position) <= slack / cosine &&
-           length(found.normal - surface.shading_normal) <= 1e-4f &&
-           length(found.vertex.albedo - albedo) <= 1e-4f &&
+           length(found.normal - as_float(bsdf.normal())) <= 1e-4f &&
+           length(found.vertex.albedo - as_float(bsdf.diffuse_reflectance())) <= 1e-4f &&
            std::abs(found.vertex.depth - hit.t) <= slack / cosine &&
            close_flag_fits(region, surface.position, is_close, slack / cosine);
 }
@@ -43,14 +49,8 @@ bool touches_edge(const Scene& scene, const BvhHit& hit, const RayQuery& ray, fl
 
 }  // namespace
 
-RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y) {
-    const Vec3 direction = camera.corner + (static_cast<float>(x) + 0.5f) * camera.step_x +
-                           (static_cast<float>(y) + 0.5f) * camera.step_y;
-    return {camera.origin, 0.0f, normalize(direction), std::numeric_limits<float>::infinity()};
-}
-
-CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
-                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, const CloseRange& close_range,
+                                     std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices) {
     const EmbreeScene embree(scene);
     const float extent = max_component(bounds(scene).size());
@@ -65,9 +65,10 @@ CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& ca
         const Found found{receiver_at(receivers, i), vertices[i]};
         const RayQuery ray = pixel_ray(camera, x, y);
         const BvhHit hit = x < camera.width && y < camera.height
-                               ? embree.closest_visible_hit(ray.origin, ray.direction, 0.0f, ray.t_max)
+                               ? embree.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max)
                                : BvhHit{};
-        const bool absent = hit.triangle == ~0u || !surface_at(scene, hit, ray.direction).reflects();
+        const bool absent =
+            hit.triangle == ~0u || !bsdf_at(scene, surface_at(scene, hit, ray.direction), ray).has_diffuse();
         const bool right = absent ? is_absent(found) : fits(scene, close_range, ray, hit, found, extent);
         ++(absent ? comparison.absent : comparison.receivers);
         comparison.mismatches += right || (!absent && touches_edge(scene, hit, ray, extent)) ? 0 : 1;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The oracle of the camera pass, by Embree: what it must find at pixel centres where no surface has lobes.
+// The oracle of the camera pass, by Embree: what it must find at pixel centres where no surface has S.
 #pragma once
 
 #include <span>
 
 #include "host/base/math.h"
 #include "host/reference/embree_scene.h"
+#include "host/scene/camera.h"
 
 namespace nearlight::core {
-
-/// The ray through the centre of a pixel; the direction has unit length.
-RayQuery pixel_ray(const PinholeCamera& camera, uint x, uint y);
 
 struct CameraComparison {
     std::size_t receivers = 0;  ///< receivers that are present
@@ -20,8 +18,8 @@ struct CameraComparison {
 };
 
 /// Compares a camera pass over the whole picture, made as one band of one sample and one branch, with Embree.
-CameraComparison compare_with_embree(const Scene& scene, const PinholeCamera& camera,
-                                     const CloseRange& close_range, std::span<const ReceiverPacket> receivers,
+CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, const CloseRange& close_range,
+                                     std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices);
 
 }  // namespace nearlight::core

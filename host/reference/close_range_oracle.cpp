@@ -42,7 +42,7 @@ double nearest_squared_distance(const TriangleCorners& t, const CloseRange& regi
     std::vector<Constraint> constraints{{1, 0, 0}, {0, 1, 0}, {-1, -1, 1}};
     for (const auto& plane : region.planes) {
         const Double3 n{plane[0], plane[1], plane[2]};
-        constraints.push_back({dot3(n, e), dot3(n, f), dot3(n, a) + slack});
+        constraints.push_back({dot3(n, e), dot3(n, f), dot3(n, a) + double{plane[3]} + slack});
     }
     const double ee = dot3(e, e), ef = dot3(e, f), ff = dot3(f, f), ae = dot3(a, e), af = dot3(a, f);
     const auto squared = [&](double u, double v) {
@@ -88,14 +88,15 @@ double nearest_squared_distance(const TriangleCorners& t, const CloseRange& regi
 }
 
 bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack) {
+    const Vec3 q = p - region.origin;
     bool surely_inside = true;
     bool surely_outside = false;
     for (const auto& plane : region.planes) {
-        const float height = plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3];
+        const float height = plane[0] * q.x + plane[1] * q.y + plane[2] * q.z + plane[3];
         surely_inside = surely_inside && height > slack;
         surely_outside = surely_outside || height < -slack;
     }
-    const float distance = length(p - region.origin);
+    const float distance = length(q);
     surely_inside = surely_inside && distance < region.range - slack;
     surely_outside = surely_outside || distance > region.range + slack;
     return flag ? !surely_outside : !surely_inside;

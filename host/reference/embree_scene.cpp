@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/embree_scene.h"
 
-#include <span>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -56,39 +56,20 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float t_min, float t_max) {
 struct EmbreeScene::State {
     EmbreeReport report;
     EmbreeDevice device;
-    std::vector<uint> opaque_ids;
-    std::vector<uint> glass_ids;
-    EmbreeTree opaque;
-    EmbreeTree glass;
+    EmbreeTree tree;
     bool coherent = false;
-
-    [[nodiscard]] BvhHit closest(RTCScene handle, std::span<const uint> ids, const RTCRay& ray) const {
-        RTCRayHit query{};
-        query.ray = ray;
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        EmbreeQuery(coherent).intersect(handle, query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-            return {};
-        }
-        return {query.ray.tfar, query.hit.u, query.hit.v, ids[query.hit.primID]};
-    }
 };
 
 EmbreeScene::EmbreeScene(const Scene& scene, const EmbreeOptions& options)
     : state_(std::make_unique<State>()) {
     State& state = *state_;
     state.device = open_embree(state.report);
-    for (uint id = 0; id < scene.triangles.size(); ++id) {
-        const bool glass = is_glass(scene.materials[scene.triangles[id].material]);
-        (glass ? state.glass_ids : state.opaque_ids).push_back(id);
-    }
     state.coherent = options.coherent;
-    const auto build = [&](std::span<const uint> ids) {
-        return build_embree_tree(state.device.get(), state.report, scene, ids, build_quality(options.quality),
-                                 options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    };
-    state.opaque = build(state.opaque_ids);
-    state.glass = build(state.glass_ids);
+    std::vector<uint> ids(scene.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    state.tree =
+        build_embree_tree(state.device.get(), state.report, scene, ids, build_quality(options.quality),
+                          options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 }
 
 EmbreeScene::~EmbreeScene() = default;
@@ -99,18 +80,14 @@ BvhHit EmbreeScene::closest_hit(Vec3 origin, Vec3 direction, float t_min, float 
     if (!is_traceable(origin, direction)) {
         return {};
     }
-    const RTCRay ray = make_ray(origin, direction, t_min, t_max);
-    return state_->closest(state_->opaque.get(), state_->opaque_ids, ray);
-}
-
-BvhHit EmbreeScene::closest_visible_hit(Vec3 origin, Vec3 direction, float t_min, float t_max) const {
-    const BvhHit opaque = closest_hit(origin, direction, t_min, t_max);
-    if (state_->glass_ids.empty() || !is_traceable(origin, direction)) {
-        return opaque;
+    RTCRayHit query{};
+    query.ray = make_ray(origin, direction, t_min, t_max);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    EmbreeQuery(state_->coherent).intersect(state_->tree.get(), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return {};
     }
-    const RTCRay ray = make_ray(origin, direction, t_min, std::min(t_max, opaque.t));
-    const BvhHit glass = state_->closest(state_->glass.get(), state_->glass_ids, ray);
-    return glass.t < opaque.t ? glass : opaque;
+    return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
 }
 
 bool EmbreeScene::occluded(Vec3 origin, Vec3 direction, float t_min, float t_max) const {
@@ -118,7 +95,7 @@ bool EmbreeScene::occluded(Vec3 origin, Vec3 direction, float t_min, float t_max
         return false;
     }
     RTCRay ray = make_ray(origin, direction, t_min, t_max);
-    EmbreeQuery(state_->coherent).occluded(state_->opaque.get(), ray);
+    EmbreeQuery(state_->coherent).occluded(state_->tree.get(), ray);
     return ray.tfar == -kInfinity;
 }
 
@@ -134,7 +111,7 @@ std::uint32_t EmbreeScene::occluded16(Rays16& rays, std::uint32_t active) const 
         rays.flags[lane] = 0;
         rays.time[lane] = 0.0f;
     }
-    EmbreeQuery(state_->coherent).occluded(valid, state_->opaque.get(), reinterpret_cast<RTCRay16&>(rays));
+    EmbreeQuery(state_->coherent).occluded(valid, state_->tree.get(), reinterpret_cast<RTCRay16&>(rays));
     std::uint32_t occluded = 0;
     for (uint lane = 0; lane < 16; ++lane) {
         occluded |= (rays.t_max[lane] == -kInfinity ? 1u : 0u) << lane;

@@ -29,9 +29,9 @@ struct alignas(64) Rays16 {
     std::uint32_t mask[16], id[16], flags[16];
 };
 
-/// The triangles of a scene as light sees them (opaque) and as the camera sees them (with glass). It keeps
-/// copies, so the scene may be destroyed. Any number of threads may query it at once. Rays with a NaN or
-/// infinite component, or with a zero direction, hit nothing.
+/// The triangles of a scene. All materials count alike, glass and masks too. It keeps copies, so the scene
+/// may be destroyed. Any number of threads may query it at once. Rays with a NaN or infinite component, or
+/// with a zero direction, hit nothing.
 class EmbreeScene {
   public:
     /// Throws Error with Embree's message: ErrorKind::out_of_memory or ErrorKind::failure.
@@ -40,13 +40,11 @@ class EmbreeScene {
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;
 
-    /// Closest hit on either side of an opaque triangle, with t between t_min and t_max.
+    /// Closest hit on either side of a triangle, with t between t_min and t_max.
     [[nodiscard]] BvhHit closest_hit(Vec3 origin, Vec3 direction, float t_min, float t_max) const;
-    /// Closest hit on either side of an opaque triangle or glass, with t between t_min and t_max.
-    [[nodiscard]] BvhHit closest_visible_hit(Vec3 origin, Vec3 direction, float t_min, float t_max) const;
-    /// Whether any opaque triangle is hit with t between t_min and t_max.
+    /// Whether any triangle is hit with t between t_min and t_max.
     [[nodiscard]] bool occluded(Vec3 origin, Vec3 direction, float t_min, float t_max) const;
-    /// Whether an opaque triangle cuts the segment between two points that already stand off their surfaces:
+    /// Whether a triangle cuts the segment between two points that already stand off their surfaces:
     /// t in (1e-5, 1 − 1e-5) of its length.
     [[nodiscard]] bool blocked(Vec3 from, Vec3 to) const;
     /// Queries the rays whose bits are set in `active`, and returns the bits of those that are occluded.

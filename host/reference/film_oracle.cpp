@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host/base/random.h"
@@ -18,6 +19,22 @@ std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, u
     return {(tile * layout.samples + sample) * layout.branches + branch, y % kTile * kTile + x % kTile};
 }
 
+/// The packet and the lane of the sample whose position and depth a pixel shows: the first on its own square
+/// that met something, otherwise the first that did; empty if none did.
+std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSamples& samples,
+                                                                const FilmLayout& layout, uint x, uint y) {
+    for (const uint required : {NEARLIGHT_VERTEX_OWN_PIXEL, 0u}) {
+        for (uint s = 0; s < layout.samples; ++s) {
+            const auto place = place_of(layout, x, y, s, 0);
+            const CameraVertex& vertex = samples.vertices[place.first * NEARLIGHT_PACKET_SIZE + place.second];
+            if (vertex.depth > 0.0f && (vertex.flags & required) == required) {
+                return place;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 FilmSamples random_film_samples(const FilmLayout& layout) {
@@ -31,10 +48,11 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
     const std::size_t tiles = layout.tile_columns() * layout.tile_rows();
     for (std::size_t p = 0; p < tiles * layout.samples * layout.branches; ++p) {
         ReceiverPacket receiver;
-        std::generate_n(receiver.px, sizeof(ReceiverPacket) / sizeof(float),
+        std::generate_n(receiver.px, offsetof(ReceiverPacket, surface) / sizeof(float),
                         [&] { return random.uniform() + 0.1f; });
+        std::ranges::fill(receiver.surface, 0u);
         samples.receivers.push_back(receiver);
-        for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.indirect}) {
+        for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.gathered, &samples.indirect}) {
             std::generate_n(light->emplace_back().r, sizeof(IrradiancePacket) / sizeof(float),
                             [&] { return random.uniform(); });
         }
@@ -43,9 +61,11 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
             samples.vertices.push_back({.throughput = color(),
                                         .depth = depth,
                                         .albedo = color(),
-                                        .flags = random.next() % 2,
+                                        .flags = random.next() % 4,
                                         .emitted = color(),
-                                        .pad0 = 0});
+                                        .filter_weight = 2.0f * random.uniform() - 0.5f,
+                                        .traced = color(),
+                                        .pad0 = 0.0f});
         }
     }
     return samples;
@@ -65,22 +85,22 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const int axis = static_cast<int>(c);
             const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
             const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
-            const double direct =
-                channel(vertex.emitted, axis) + reflectance / kPi * (&samples.direct[packet].r[0])[at];
-            const double indirect = reflectance / kPi * (&samples.indirect[packet].r[0])[at];
+            const double weight = vertex.filter_weight;
+            const double direct = weight * (channel(vertex.emitted, axis) +
+                                            reflectance / kPi * (&samples.direct[packet].r[0])[at]);
+            const double indirect =
+                weight * (channel(vertex.traced, axis) +
+                          reflectance / kPi *
+                              (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
+                               static_cast<double>((&samples.indirect[packet].r[0])[at])));
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
             out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
             out[NEARLIGHT_LAYER_BEAUTY + c] =
                 out[NEARLIGHT_LAYER_DIRECT + c] + out[NEARLIGHT_LAYER_INDIRECT + c];
             out[NEARLIGHT_LAYER_ALBEDO + c] += reflectance / layout.samples;
             normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
-            if (s % layout.branches == 0 && out[NEARLIGHT_LAYER_DEPTH] == 0.0 && vertex.depth > 0) {
-                out[NEARLIGHT_LAYER_POSITION + c] = (&receiver.px[0])[at];
-            }
         }
         if (s % layout.branches == 0) {
-            out[NEARLIGHT_LAYER_DEPTH] =
-                out[NEARLIGHT_LAYER_DEPTH] == 0.0 ? vertex.depth : out[NEARLIGHT_LAYER_DEPTH];
             out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
                 static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
         }
@@ -88,6 +108,14 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (std::size_t c = 0; c < 3; ++c) {
         out[NEARLIGHT_LAYER_NORMAL + c] = normal[c] / length;
+    }
+    if (const auto shown = shown_sample(samples, layout, x, y)) {
+        const auto [packet, lane] = *shown;
+        out[NEARLIGHT_LAYER_DEPTH] = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane].depth;
+        for (std::size_t c = 0; c < 3; ++c) {
+            out[NEARLIGHT_LAYER_POSITION + c] =
+                (&samples.receivers[packet].px[0])[c * NEARLIGHT_PACKET_SIZE + lane];
+        }
     }
     return out;
 }

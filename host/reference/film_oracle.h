@@ -26,11 +26,12 @@ struct FilmLayout {
     }
 };
 
-/// What the camera pass and the stages of direct and indirect light hand to the film, for the whole picture.
+/// What the camera pass, the gather and the receivers' paths hand to the film, for the whole picture.
 struct FilmSamples {
     std::vector<ReceiverPacket> receivers;
     std::vector<CameraVertex> vertices;
     std::vector<IrradiancePacket> direct;
+    std::vector<IrradiancePacket> gathered;
     std::vector<IrradiancePacket> indirect;
 };
 

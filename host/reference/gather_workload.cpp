@@ -7,9 +7,11 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
+#include "host/scene/camera.h"
 #include "host/scene/distribution.h"
 #include "host/scene/emitters.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/scene/reflectance.h"
 
 namespace nearlight::core {
 namespace {
@@ -83,7 +85,7 @@ Vec3 sphere_direction(Pcg32& random) {
 
 Vpl make_vpl(const ReceiverPoint& point, uint depth) {
     // All powers are equal, because the work does not depend on them.
-    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0.0f};
+    return {point.position, depth, point.normal, 0, {1.0f, 1.0f, 1.0f}, 0};
 }
 
 RayQuery endless_ray(Vec3 origin, Vec3 direction) {
@@ -102,11 +104,12 @@ RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter&
     return endless_ray(emitter.position, sphere_direction(random));
 }
 
-/// The emitters from which walks start: all but the environment.
+/// The emitters from which walks start: those that have a place.
 std::vector<Emitter> lamps(const EmitterTable& table) {
     std::vector<Emitter> result;
     for (const Emitter& emitter : table.emitters) {
-        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT) {
+        if (emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT && emitter.type != NEARLIGHT_EMITTER_DIRECTIONAL &&
+            emitter.type != NEARLIGHT_EMITTER_SUN) {
             result.push_back(emitter);
         }
     }
@@ -129,7 +132,7 @@ bool follow_walk(const Scene& scene, const Bvh& bvh, const PointMaker& points, R
             return false;
         }
         const Material& material = scene.materials[scene.triangles[hit.triangle].material];
-        if (random.uniform() >= max_component(light_albedo(scene, material, 0.0f, 0.0f))) {
+        if (random.uniform() >= max_component(mean_reflectance(scene, material, 0.0f, 0.0f))) {
             return true;
         }
         ray = endless_ray(point.position, cosine_direction(point.normal, random));
@@ -188,15 +191,6 @@ std::vector<Vpl> spread_over_surfaces(const Scene& scene, std::size_t count, Pcg
     return vpls;
 }
 
-Vec3 camera_direction(const SceneCamera& camera, int width, int height, int x, int y) {
-    const double tan_x = std::tan(camera.fov_x_degrees * std::numbers::pi / 360.0);
-    const double tan_y = tan_x * height / width;
-    const double film_x = 1.0 - 2.0 * (x + 0.5) / width;
-    const double film_y = 1.0 - 2.0 * (y + 0.5) / height;
-    const Vec3 local{static_cast<float>(film_x * tan_x), static_cast<float>(film_y * tan_y), 1.0f};
-    return normalize(transform_vector(camera.to_world, local));
-}
-
 struct Tile {
     int x = 0;
     int y = 0;
@@ -222,19 +216,19 @@ std::vector<Tile> tiles_in_morton_order(int width, int height) {
 
 std::vector<ReceiverPacket> make_camera_receivers(const Scene& scene, const Bvh& bvh, int width, int height) {
     const PointMaker points(scene);
-    const Vec3 origin = transform_point(scene.camera.to_world, {0, 0, 0});
+    const Camera camera = make_camera(scene.camera, width, height);
     std::vector<ReceiverPacket> packets;
     for (const Tile& tile : tiles_in_morton_order(width, height)) {
         ReceiverPacket& packet = packets.emplace_back();
         for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
             const int x = tile.x + i % NEARLIGHT_TILE_SIZE;
             const int y = tile.y + i / NEARLIGHT_TILE_SIZE;
-            const Vec3 direction = camera_direction(scene.camera, width, height, x, y);
-            const BvhHit hit = closest_hit(bvh, origin, direction, 0.0f, kInfinity);
+            const RayQuery ray = pixel_ray(camera, static_cast<uint>(x), static_cast<uint>(y));
+            const BvhHit hit = closest_hit(bvh, ray.origin, ray.direction, ray.t_min, ray.t_max);
             if (x >= width || y >= height || hit.triangle == ~0u) {
                 continue;
             }
-            set_receiver(packet, static_cast<std::size_t>(i), points.at_hit(hit, direction));
+            set_receiver(packet, static_cast<std::size_t>(i), points.at_hit(hit, ray.direction));
         }
     }
     return packets;
@@ -251,14 +245,14 @@ std::vector<Vpl> make_traced_vpls(const Scene& scene, const Bvh& bvh, std::size_
 }
 
 std::vector<RayQuery> make_camera_rays(const Scene& scene, int width, int height) {
-    const Vec3 origin = transform_point(scene.camera.to_world, {0, 0, 0});
+    const Camera camera = make_camera(scene.camera, width, height);
     std::vector<RayQuery> rays;
     for (const Tile& tile : tiles_in_morton_order(width, height)) {
         for (int i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
             const int x = tile.x + i % NEARLIGHT_TILE_SIZE;
             const int y = tile.y + i / NEARLIGHT_TILE_SIZE;
             if (x < width && y < height) {
-                rays.push_back(endless_ray(origin, camera_direction(scene.camera, width, height, x, y)));
+                rays.push_back(pixel_ray(camera, static_cast<uint>(x), static_cast<uint>(y)));
             }
         }
     }

@@ -1,239 +1,237 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/light_sampler.h"
 
-#include <span>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "host/base/math.h"
+#include "host/reference/delta_light.h"
+#include "host/reference/spherical_triangle.h"
+#include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
 namespace {
 
-// With more point and spot lights than this, one of them is chosen by power.
-constexpr uint kMaxDeltaRays = 16;
+// With more delta lights than this, they are chosen by power like all other lights.
+constexpr uint kMaxExactLights = 16;
 
-/// Index of the first entry above u, or of the last entry if rounding leaves none above.
-uint pick_entry(std::span<const float> cdf, float u) {
-    const auto found = std::upper_bound(cdf.begin(), cdf.end(), u);
-    return static_cast<uint>(std::min(found - cdf.begin(), std::ptrdiff_t(cdf.size()) - 1));
+/// Density per steradian of a point that is uniform over a triangle, seen under the given cosine.
+double area_density(const Emitter& emitter, double distance, double cosine) {
+    return cosine > 0.0 ? distance * distance / (cosine * static_cast<double>(emitter.area)) : 0.0;
 }
 
-const Emitter& pick_emitter(std::span<const Emitter> emitters, float u) {
-    const auto found =
-        std::upper_bound(emitters.begin(), emitters.end(), u,
-                         [](float value, const Emitter& emitter) { return value < emitter.cdf; });
-    return found == emitters.end() ? emitters.back() : *found;
-}
-
-/// Intensity (W/sr) of a point or spot light in the unit direction away from it.
-Vec3 intensity(const Emitter& emitter, Vec3 direction) {
-    if (emitter.type == NEARLIGHT_EMITTER_POINT) {
-        return emitter.radiance;
-    }
-    const float angle = std::acos(std::clamp(dot(direction, emitter.direction), -1.0f, 1.0f));
-    if (angle <= emitter.beam_angle) {
-        return emitter.radiance;
-    }
-    if (angle >= emitter.cutoff_angle) {
-        return {0, 0, 0};
-    }
-    return emitter.radiance * ((emitter.cutoff_angle - angle) / (emitter.cutoff_angle - emitter.beam_angle));
+/// The barycentric weights of the second and the third corner at a point of the triangle.
+Point2 weights_at(const std::array<Vec3, 3>& corners, Vec3 point) {
+    const Vec3 edge1 = corners[1] - corners[0];
+    const Vec3 edge2 = corners[2] - corners[0];
+    const Vec3 normal = cross(edge1, edge2);
+    const float scale = 1.0f / std::max(dot(normal, normal), std::numeric_limits<float>::min());
+    const float weight1 = dot(cross(point - corners[0], edge2), normal) * scale;
+    const float weight2 = dot(cross(edge1, point - corners[0]), normal) * scale;
+    return {std::clamp(weight1, 0.0f, 1.0f), std::clamp(weight2, 0.0f, 1.0f)};
 }
 
 }  // namespace
 
-Vec3 delta_light_irradiance(const EmbreeScene& embree, const Emitter& emitter, Vec3 position, Vec3 normal) {
-    const bool is_delta = emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT;
-    const Vec3 to_light = emitter.position - position;
-    const float distance2 = dot(to_light, to_light);
-    if (!is_delta || !(distance2 > 0.0f)) {
+Vec3 delta_light_irradiance(const Scene& scene, const EmbreeScene& embree, const Emitter& emitter,
+                            Vec3 position, Vec3 normal) {
+    const LightPick pick = LightSampler::exact_light(scene, emitter, position);
+    const float cosine = dot(normal, pick.direction);
+    if (cosine <= 0.0f || is_zero(pick.radiance) || !LightSampler::is_visible(embree, position, pick)) {
         return {0, 0, 0};
     }
-    const Vec3 direction = to_light / std::sqrt(distance2);
-    const float cosine = dot(normal, direction);
-    const Vec3 arriving = intensity(emitter, -direction);
-    if (cosine <= 0.0f || is_zero(arriving) || embree.blocked(position, emitter.position)) {
-        return {0, 0, 0};
-    }
-    return arriving * (cosine / distance2);
+    return pick.radiance * cosine;
 }
 
 LightSampler::LightSampler(const Scene& scene)
     : scene_(scene),
       table_(build_emitter_table(scene)),
-      environment_(build_environment_table(scene)),
+      environment_(scene),
       extent_(max_component(bounds(scene).size())) {
-    const std::span<const Emitter> area_lights =
-        std::span(table_.emitters).subspan(table_.delta_emitter_count);
-    for (const Emitter& emitter : area_lights) {
-        area_share_ += emitter.probability;
-    }
-    for (const Emitter& emitter : area_lights) {
-        const float probability = emitter.probability / area_share_;
-        if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-            environment_probability_ = probability;
-        } else if (!is_glass(scene.materials[scene.triangles[emitter.triangle].material])) {
-            triangle_density_.resize(scene.triangles.size(), 0.0f);
-            triangle_density_[emitter.triangle] = probability / emitter.area;
-        }
-    }
+    sampled_first_ = table_.delta_emitter_count <= kMaxExactLights ? table_.delta_emitter_count : 0;
+    sampled_before_ = sampled_first_ > 0 ? table_.emitters[sampled_first_ - 1].cdf : 0.0;
+}
+
+std::span<const Emitter> LightSampler::exact_lights() const {
+    return std::span(table_.emitters).first(sampled_first_);
+}
+
+LightPick LightSampler::exact_light(const Scene& scene, const Emitter& emitter, Vec3 position) {
+    const DeltaLight light = delta_light_at(scene, emitter, position);
+    return {.direction = light.direction,
+            .target = emitter.position,
+            .radiance = light.irradiance,
+            .density = 1.0,
+            .infinite = light.infinite,
+            .is_delta = true,
+            .can_be_met = false};
+}
+
+std::array<Vec3, 3> LightSampler::corners_of(uint triangle) const {
+    const Triangle& t = scene_.triangles[triangle];
+    return {scene_.vertices[t.v0].position, scene_.vertices[t.v1].position, scene_.vertices[t.v2].position};
 }
 
 Vec3 LightSampler::triangle_normal(uint triangle) const {
-    const Triangle& t = scene_.triangles[triangle];
-    const Vec3 v0 = scene_.vertices[t.v0].position;
-    return normalize(cross(scene_.vertices[t.v1].position - v0, scene_.vertices[t.v2].position - v0));
+    const auto [v0, v1, v2] = corners_of(triangle);
+    return normalize(cross(v1 - v0, v2 - v0));
 }
 
-Vec3 LightSampler::emitted_radiance(uint triangle, Vec3 direction) const {
-    const Vec3 emission = scene_.materials[scene_.triangles[triangle].material].emission;
-    return is_zero(emission) || dot(triangle_normal(triangle), direction) >= 0.0f ? Vec3{0, 0, 0} : emission;
+Vec3 LightSampler::emitted_radiance(const BvhHit& hit, Vec3 direction) const {
+    const Parameter& emission = scene_.materials[scene_.triangles[hit.triangle].material].emission;
+    if (is_zero(emission.value) || dot(triangle_normal(hit.triangle), direction) >= 0.0f) {
+        return {0, 0, 0};
+    }
+    return max(value_at(scene_, surface_at(scene_, hit, direction), emission), Vec3{0, 0, 0});
+}
+
+double LightSampler::choice_probability(const Emitter& emitter) const {
+    return emitter.probability / (1.0 - sampled_before_);
+}
+
+LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Point2 u) const {
+    const std::array<Vec3, 3> corners = corners_of(emitter.triangle);
+    const Vec3 light_normal = triangle_normal(emitter.triangle);
+    LightPick pick;
+    pick.can_be_met = true;
+    const double height = dot(light_normal, position - corners[0]);
+    if (!(height > 0.0)) {
+        return pick;
+    }
+    Vec3 point;
+    const SphericalTriangle seen(corners, position);
+    if (seen.solid_angle() > 0.0) {
+        pick.direction = seen.sample(u);
+        const double approach = -dot(light_normal, pick.direction);
+        point = position + pick.direction * static_cast<float>(height / std::max(approach, 1e-12));
+        pick.density = 1.0 / seen.solid_angle();
+    } else {
+        const Point2 weights = sample_triangle(u);
+        point = corners[0] + (corners[1] - corners[0]) * weights.x + (corners[2] - corners[0]) * weights.y;
+        pick.direction = normalize(point - position);
+        const double distance = length(point - position);
+        pick.density = area_density(emitter, distance, -dot(light_normal, pick.direction));
+    }
+    pick.target = stand_off(point, light_normal, extent_);
+    if (pick.density > 0.0) {
+        const auto [u1, u2] = weights_at(corners, point);
+        pick.radiance = emitted_radiance({0.0f, u1, u2, emitter.triangle}, pick.direction);
+    }
+    return pick;
+}
+
+LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) const {
+    (void)normal;
+    const auto lights = std::span(table_.emitters).subspan(sampled_first_);
+    if (lights.empty()) {
+        return {};
+    }
+    // Rounding is away from the entries that are summed exactly.
+    const double u = 1.0 - (1.0 - sampled_before_) * (1.0 - static_cast<double>(random.pick));
+    const auto found =
+        std::upper_bound(lights.begin(), lights.end(), u,
+                         [](double value, const Emitter& emitter) { return value < emitter.cdf; });
+    const Emitter& emitter = found == lights.end() ? lights.back() : *found;
+    LightPick pick;
+    if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter.type == NEARLIGHT_EMITTER_SUN) {
+        // The part of the random number that the choice of the light left unused chooses the row.
+        const double before = static_cast<double>(emitter.cdf) - static_cast<double>(emitter.probability);
+        const double row = std::clamp((u - before) / emitter.probability, 0.0, 0x1.fffffep-1);
+        const Vec3 direction = emitter.type == NEARLIGHT_EMITTER_SUN
+                                   ? environment_.sample_sun(random.place)
+                                   : environment_.sample(static_cast<float>(row), random.place);
+        return {.direction = direction,
+                .target = position,
+                .radiance = environment_.radiance(direction),
+                .density = distant_density(direction),
+                .infinite = true,
+                .is_delta = false,
+                .can_be_met = true};
+    }
+    if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
+        pick = triangle_pick(emitter, position, random.place);
+    } else {
+        pick = exact_light(scene_, emitter, position);
+    }
+    pick.density *= choice_probability(emitter);
+    return pick;
+}
+
+const Emitter* LightSampler::emitter_of_triangle(uint triangle) const {
+    const auto lights = std::span(table_.emitters).subspan(table_.delta_emitter_count);
+    const auto found =
+        std::lower_bound(lights.begin(), lights.end(), triangle, [](const Emitter& emitter, uint wanted) {
+            return emitter.type == NEARLIGHT_EMITTER_TRIANGLE && emitter.triangle < wanted;
+        });
+    const bool is_found =
+        found != lights.end() && found->type == NEARLIGHT_EMITTER_TRIANGLE && found->triangle == triangle;
+    return is_found ? &*found : nullptr;
+}
+
+double LightSampler::distant_density(Vec3 direction) const {
+    double density = 0.0;
+    for (auto emitter = table_.emitters.rbegin(); emitter != table_.emitters.rend(); ++emitter) {
+        if (emitter->type == NEARLIGHT_EMITTER_SUN) {
+            density += choice_probability(*emitter) * environment_.sun_density(direction);
+        } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT) {
+            density += choice_probability(*emitter) * environment_.density(direction);
+        } else {
+            break;  // these two stand last in the table
+        }
+    }
+    return density;
+}
+
+double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHit& hit) const {
+    (void)normal;
+    if (hit.triangle == ~0u) {
+        return distant_density(direction);
+    }
+    const Emitter* emitter = emitter_of_triangle(hit.triangle);
+    if (emitter == nullptr) {
+        return 0.0;
+    }
+    const double light_cosine = -dot(triangle_normal(hit.triangle), direction);
+    if (!(light_cosine > 0.0)) {
+        return 0.0;
+    }
+    const SphericalTriangle seen(corners_of(hit.triangle), position);
+    return choice_probability(*emitter) * (seen.solid_angle() > 0.0
+                                               ? 1.0 / seen.solid_angle()
+                                               : area_density(*emitter, hit.t, light_cosine));
+}
+
+bool LightSampler::is_visible(const EmbreeScene& embree, Vec3 position, const LightPick& pick) {
+    return pick.infinite ? !embree.occluded(position, pick.direction, 0.0f, kInfinity)
+                         : !embree.blocked(position, pick.target);
 }
 
 Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, Vec3 normal,
                                       LightRandom random) const {
-    Vec3 sum = delta_irradiance(embree, position, normal, random.pick);
-    if (!(area_share_ > 0.0f)) {
+    Vec3 sum{0, 0, 0};
+    for (const Emitter& emitter : exact_lights()) {
+        sum += delta_light_irradiance(scene_, embree, emitter, position, normal);
+    }
+    const LightPick pick = sample(position, normal, random);
+    const float cosine = dot(normal, pick.direction);
+    if (cosine <= 0.0f || is_zero(pick.radiance) || !is_visible(embree, position, pick)) {
         return sum;
     }
-    const auto area_lights = std::span(table_.emitters).subspan(table_.delta_emitter_count);
-    const Emitter& emitter = pick_emitter(area_lights, 1.0f - area_share_ * (1.0f - random.pick));
-    const float probability = emitter.probability / area_share_;
-    if (emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT) {
-        // The part of the random number that the choice of the light left unused chooses the row.
-        const float first = 1.0f - environment_probability_;
-        random.pick = std::clamp((random.pick - first) / environment_probability_, 0.0f, 0x1.fffffep-1f);
-        sum += environment_irradiance(embree, position, normal, probability, random);
-    } else {
-        sum += triangle_irradiance(embree, position, normal, emitter, probability, random.place);
-    }
-    return sum;
+    const double cosine_density = pick.can_be_met ? cosine / std::numbers::pi : 0.0;
+    return sum + pick.radiance * static_cast<float>(cosine / (pick.density + cosine_density));
 }
 
-Vec3 LightSampler::delta_irradiance(const EmbreeScene& embree, Vec3 position, Vec3 normal, float pick) const {
-    const auto lights = std::span(table_.emitters).first(table_.delta_emitter_count);
-    if (lights.size() > kMaxDeltaRays) {
-        const float share = lights.back().cdf;
-        const Emitter& emitter = pick_emitter(lights, pick * share);
-        return delta_light_irradiance(embree, emitter, position, normal) * (share / emitter.probability);
-    }
-    Vec3 sum{0, 0, 0};
-    for (const Emitter& emitter : lights) {
-        sum += delta_light_irradiance(embree, emitter, position, normal);
-    }
-    return sum;
-}
-
-Vec3 LightSampler::triangle_irradiance(const EmbreeScene& embree, Vec3 position, Vec3 normal,
-                                       const Emitter& emitter, float probability, Point2 u) const {
-    const Triangle& triangle = scene_.triangles[emitter.triangle];
-    const Vec3 v0 = scene_.vertices[triangle.v0].position;
-    const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
-    const Vec3 edge2 = scene_.vertices[triangle.v2].position - v0;
-    const Point2 weights = sample_triangle(u);
-    const Vec3 light_normal = normalize(cross(edge1, edge2));
-    const Vec3 target = stand_off(v0 + edge1 * weights.x + edge2 * weights.y, light_normal, extent_);
-
-    const Vec3 to_light = target - position;
-    const float distance2 = dot(to_light, to_light);
-    const Vec3 direction = normalize(to_light);
-    const float cosine = dot(normal, direction);
-    const float light_cosine = -dot(light_normal, direction);
-    if (cosine <= 0.0f || light_cosine <= 0.0f || embree.blocked(position, target)) {
+Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 position, Vec3 direction, Vec3 normal) const {
+    const Vec3 radiance =
+        hit.triangle == ~0u ? environment_radiance(direction) : emitted_radiance(hit, direction);
+    const double cosine_density = std::max(0.0f, dot(normal, direction)) / std::numbers::pi;
+    if (is_zero(radiance) || !(cosine_density > 0.0)) {
         return {0, 0, 0};
     }
-    const float density = probability / emitter.area * distance2 / light_cosine;
-    const bool can_be_met = !triangle_density_.empty() && triangle_density_[emitter.triangle] > 0.0f;
-    return emitter.radiance * (cosine / (density + (can_be_met ? cosine / kPi : 0.0f)));
-}
-
-Vec3 LightSampler::environment_irradiance(const EmbreeScene& embree, Vec3 position, Vec3 normal,
-                                          float probability, LightRandom random) const {
-    const Environment& parameters = environment_.parameters;
-    Pixel pixel;
-    pixel.row = pick_entry(environment_.row_cdf, random.pick);
-    const std::span columns =
-        std::span(environment_.column_cdf).subspan(pixel.row * parameters.width, parameters.width);
-    pixel.column = pick_entry(columns, random.place.x);
-    const float before = pixel.column > 0 ? columns[pixel.column - 1] : 0.0f;
-    const float share = columns[pixel.column] - before;
-    const float within = share > 0.0f ? std::clamp((random.place.x - before) / share, 0.0f, 1.0f) : 0.5f;
-
-    const float width = static_cast<float>(parameters.width);
-    const float height = static_cast<float>(parameters.height);
-    const float azimuth = 2.0f * kPi * (static_cast<float>(pixel.column) + within) / width;
-    const float cos_top = std::cos(kPi * static_cast<float>(pixel.row) / height);
-    const float cos_bottom = std::cos(kPi * static_cast<float>(pixel.row + 1) / height);
-    const float y = cos_top + (cos_bottom - cos_top) * random.place.y;
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - y * y));
-    const Vec3 local{std::sin(azimuth) * sine, y, -std::cos(azimuth) * sine};
-    const float* m = parameters.world_to_local;  // a rotation, so its transpose is its inverse
-    const Vec3 direction{m[0] * local.x + m[3] * local.y + m[6] * local.z,
-                         m[1] * local.x + m[4] * local.y + m[7] * local.z,
-                         m[2] * local.x + m[5] * local.y + m[8] * local.z};
-
-    const float cosine = dot(normal, direction);
-    if (cosine <= 0.0f || embree.occluded(position, direction, 0.0f, kInfinity)) {
-        return {0, 0, 0};
-    }
-    const float* rgba = &environment_.pixels[4 * (pixel.row * std::size_t{parameters.width} + pixel.column)];
-    const float density = probability * pixel_density(pixel);
-    return Vec3{rgba[0], rgba[1], rgba[2]} * (cosine / (density + cosine / kPi));
-}
-
-LightSampler::Pixel LightSampler::pixel_towards(Vec3 direction) const {
-    const Environment& parameters = environment_.parameters;
-    const float* m = parameters.world_to_local;
-    const Vec3 local{m[0] * direction.x + m[1] * direction.y + m[2] * direction.z,
-                     m[3] * direction.x + m[4] * direction.y + m[5] * direction.z,
-                     m[6] * direction.x + m[7] * direction.y + m[8] * direction.z};
-    float azimuth = std::atan2(local.x, -local.z) / (2.0f * kPi);
-    azimuth -= std::floor(azimuth);
-    const float inclination = std::acos(std::clamp(local.y, -1.0f, 1.0f)) / kPi;
-    return {std::min(static_cast<uint>(azimuth * static_cast<float>(parameters.width)), parameters.width - 1),
-            std::min(static_cast<uint>(inclination * static_cast<float>(parameters.height)),
-                     parameters.height - 1)};
-}
-
-float LightSampler::pixel_density(Pixel pixel) const {
-    const Environment& parameters = environment_.parameters;
-    const auto step = [](std::span<const float> cdf, uint i) { return i > 0 ? cdf[i] - cdf[i - 1] : cdf[i]; };
-    const std::span columns =
-        std::span(environment_.column_cdf).subspan(pixel.row * parameters.width, parameters.width);
-    const float probability = step(environment_.row_cdf, pixel.row) * step(columns, pixel.column);
-    const float height = static_cast<float>(parameters.height);
-    const float zone = std::cos(kPi * static_cast<float>(pixel.row) / height) -
-                       std::cos(kPi * static_cast<float>(pixel.row + 1) / height);
-    return probability * static_cast<float>(parameters.width) / (2.0f * kPi * zone);
-}
-
-Vec3 LightSampler::environment_radiance(Vec3 direction) const {
-    if (environment_.parameters.width == 0) {
-        return {0, 0, 0};
-    }
-    const Pixel pixel = pixel_towards(direction);
-    const float* rgba =
-        &environment_.pixels[4 * (pixel.row * std::size_t{environment_.parameters.width} + pixel.column)];
-    return {rgba[0], rgba[1], rgba[2]};
-}
-
-Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 direction, Vec3 normal) const {
-    const float cosine_density = std::max(0.0f, dot(normal, direction)) / kPi;
-    if (hit.triangle == ~0u) {
-        const Vec3 radiance = environment_radiance(direction);
-        if (is_zero(radiance)) {
-            return radiance;
-        }
-        const float density = environment_probability_ * pixel_density(pixel_towards(direction));
-        return radiance * (cosine_density / (cosine_density + density));
-    }
-    const float chosen = triangle_density_.empty() ? 0.0f : triangle_density_[hit.triangle];
-    const float light_cosine = chosen > 0.0f ? -dot(triangle_normal(hit.triangle), direction) : 0.0f;
-    if (light_cosine <= 0.0f) {
-        return {0, 0, 0};
-    }
-    const float density = chosen * hit.t * hit.t / light_cosine;
-    return emitted_radiance(hit.triangle, direction) * (cosine_density / (cosine_density + density));
+    const double density = pdf(position, normal, direction, hit);
+    return radiance * static_cast<float>(cosine_density / (cosine_density + density));
 }
 
 }  // namespace nearlight::core

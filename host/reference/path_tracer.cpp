@@ -13,131 +13,38 @@
 #include "host/base/math.h"
 #include "host/base/stopwatch.h"
 #include "host/reference/arena_size.h"
-#include "host/reference/camera_path.h"
-#include "host/reference/light_sampler.h"
+#include "host/reference/path_integrator.h"
 #include "host/reference/pixel_statistics.h"
-#include "host/reference/sample_batch.h"
-#include "host/reference/surface.h"
-#include "host/scene/ray_epsilon.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
 
-// Number of bounces before Russian roulette may end a path, and the maximum probability of survival after
-// that.
-constexpr int kSureBounces = 3;
-constexpr float kMaxSurvival = 0.95f;
 constexpr int kTileSize = 16;
-
-struct Light {
-    Vec3 direct{0, 0, 0};
-    Vec3 indirect{0, 0, 0};
-};
 
 class PathTracer {
   public:
     PathTracer(const Scene& scene, const PathTracerSettings& settings)
-        : scene_(scene),
-          settings_(settings),
-          embree_(scene),
-          lights_(scene),
-          camera_(scene.camera, settings.width, settings.height) {}
+        : settings_(settings),
+          integrator_(scene, settings.max_depth, settings.clamp_radius),
+          camera_(scene.camera, settings.width, settings.height),
+          filter_(scene.camera, settings.width, settings.height),
+          is_monochrome_(scene.camera.is_monochrome) {}
 
     void trace_batch(int x, int y, int batch, int batch_size, PixelStatistics& pixel) const;
 
   private:
-    [[nodiscard]] Light gather(const Receiver& receiver, SampleBatch& batch, int sample) const;
-    /// Direct light at a vertex of a path (irradiance ÷ π), and the ray on which the path continues.
-    struct Step {
-        Vec3 direct;
-        Vec3 direction;
-        BvhHit hit;
-    };
-    [[nodiscard]] Step step(Vec3 position, Vec3 normal, bool wants_direct, LightRandom light,
-                            Point2 bounce) const;
+    /// The light as the film has it.
+    [[nodiscard]] Vec3 seen(Vec3 light) const {
+        return is_monochrome_ ? Vec3{1, 1, 1} * luminance(light) : light;
+    }
 
-    const Scene& scene_;
     PathTracerSettings settings_;
-    EmbreeScene embree_;
-    LightSampler lights_;
+    PathIntegrator integrator_;
     CameraRays camera_;
+    FilterSampler filter_;
+    bool is_monochrome_;
 };
-
-struct StepRandom {
-    LightRandom light;
-    Point2 bounce;
-};
-
-StepRandom step_random(SampleBatch& batch, int sample, int bounce) {
-    if (bounce == 0) {
-        return {{batch.number(Decision::receiver_light_pick, sample),
-                 batch.point(Decision::receiver_light, sample)},
-                batch.point(Decision::bounce, sample)};
-    }
-    if (bounce == 1) {
-        return {
-            {batch.number(Decision::bounce_light_pick, sample), batch.point(Decision::bounce_light, sample)},
-            batch.point(Decision::second_bounce, sample)};
-    }
-    StepRandom result;
-    for (float* number : {&result.light.pick, &result.light.place.x, &result.light.place.y, &result.bounce.x,
-                          &result.bounce.y}) {
-        *number = batch.random().uniform();
-    }
-    return result;
-}
-
-PathTracer::Step PathTracer::step(Vec3 position, Vec3 normal, bool wants_direct, LightRandom light,
-                                  Point2 bounce) const {
-    Step result{};
-    result.direction = normalize(Frame(normal).to_world(sample_cosine_hemisphere(bounce)));
-    result.hit = embree_.closest_hit(position, result.direction, 0.0f, kInfinity);
-    if (wants_direct) {
-        result.direct = lights_.sampled_irradiance(embree_, position, normal, light) / kPi +
-                        lights_.met_radiance(result.hit, result.direction, normal);
-    }
-    return result;
-}
-
-// The light that the receiver reflects per unit of albedo. The weight of a cosine-distributed ray is albedo/π
-// · cosθ divided by its density, which is the albedo; the bounded geometry term scales it by r²/max(r², R²).
-Light PathTracer::gather(const Receiver& receiver, SampleBatch& batch, int sample) const {
-    Light light;
-    Vec3 weight{1, 1, 1};
-    Vec3 position = receiver.position;
-    Vec3 normal = receiver.normal;
-    for (int bounce = 0;; ++bounce) {
-        const StepRandom random = step_random(batch, sample, bounce);
-        const bool wants_direct = bounce > 0 || !settings_.indirect_only;
-        const Step next = step(position, normal, wants_direct, random.light, random.bounce);
-        (bounce == 0 ? light.direct : light.indirect) += weight * next.direct;
-        const int next_depth = bounce + 3;
-        if (next.hit.triangle == ~0u || (settings_.max_depth > 0 && next_depth > settings_.max_depth)) {
-            return light;
-        }
-        const Surface surface = surface_at(scene_, next.hit, next.direction);
-        if (!surface.reflects()) {
-            return light;
-        }
-        weight *= light_albedo(scene_, *surface.material, surface.u, surface.v);
-        if (bounce == 0 && settings_.clamp_radius > 0.0f) {
-            const float ratio = next.hit.t / settings_.clamp_radius;
-            weight *= std::min(1.0f, ratio * ratio);
-        }
-        if (bounce >= kSureBounces) {
-            const float survival = std::min(kMaxSurvival, max_component(weight));
-            if (batch.random().uniform() >= survival) {
-                return light;
-            }
-            weight *= 1.0f / survival;
-        } else if (is_zero(weight)) {
-            return light;
-        }
-        normal = surface.geometric_normal;
-        position = stand_off(surface.position, normal, lights_.extent());
-    }
-}
 
 void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, PixelStatistics& pixel) const {
     const auto pixel_index = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) +
@@ -145,21 +52,15 @@ void PathTracer::trace_batch(int x, int y, int batch_index, int batch_size, Pixe
     SampleBatch batch(settings_.seed, pixel_index, static_cast<std::uint64_t>(batch_index), batch_size);
     BatchSum sum;
     for (int sample = 0; sample < batch_size; ++sample) {
-        const Point2 film =
-            settings_.pixel_centers ? Point2{0.5f, 0.5f} : batch.point(Decision::film, sample);
-        const Ray ray = camera_.through(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
-        const CameraPath path = trace_camera_path(scene_, embree_, lights_, ray, batch, sample);
-        Light light;
-        if (!settings_.indirect_only) {
-            light.direct = path.emitted;
-        }
-        if (path.has_receiver && settings_.max_depth != 1) {
-            const Light gathered = gather(path.receiver, batch, sample);
-            const Vec3 reflectance = path.throughput * path.receiver.albedo;
-            light.direct += reflectance * gathered.direct;
-            light.indirect = reflectance * gathered.indirect;
-        }
-        sum.add(light.direct, light.indirect, path);
+        const FilterPoint film =
+            settings_.pixel_centers
+                ? FilterPoint{.place = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}}
+                : filter_.sample(x, y, batch.point(Decision::film, sample));
+        const Ray ray = camera_.through(film.place, batch.point(Decision::lens, sample));
+        const PathLight light = integrator_.trace(ray, batch, sample);
+        const auto weight = static_cast<float>(film.weight);
+        sum.add(settings_.indirect_only ? Vec3{0, 0, 0} : weight * seen(as_float(light.direct)),
+                weight * seen(as_float(light.indirect)), light.camera);
     }
     pixel.add(sum, batch_size);
 }
@@ -245,8 +146,11 @@ PathTracerSettings completed(PathTracerSettings settings, const SceneCamera& cam
         throw Error(ErrorKind::invalid_argument, "batches have 1, 4 or 16 samples");
     }
     settings.spp = (settings.spp + settings.batch_size - 1) / settings.batch_size * settings.batch_size;
-    if (settings.max_depth < 0 || !(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
-        throw Error(ErrorKind::invalid_argument, "max depth and clamp radius must be 0 or more");
+    if (settings.max_depth < -1) {
+        throw Error(ErrorKind::invalid_argument, "max depth must be 1 or more, or 0 or -1 for no limit");
+    }
+    if (!(settings.clamp_radius >= 0.0f) || !std::isfinite(settings.clamp_radius)) {
+        throw Error(ErrorKind::invalid_argument, "the clamp radius must be 0 or more");
     }
     return settings;
 }

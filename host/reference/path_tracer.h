@@ -13,11 +13,15 @@
 namespace nearlight::core {
 
 struct PathTracerSettings {
-    int width = 0;      ///< pixels; 0: the camera's
-    int height = 0;     ///< pixels; 0: the camera's, or in proportion to the width where only that is given
-    int spp = 64;       ///< samples per pixel, rounded up to whole batches
-    int max_depth = 0;  ///< 1: emission, 2: direct light too, 3: one bounce, …; 0: no limit
-    float clamp_radius = 0.0f;   ///< R of the bounded geometry term, m; 0: unbounded
+    int width = 0;   ///< pixels; 0: the camera's
+    int height = 0;  ///< pixels; 0: the camera's, or in proportion to the width where only that is given
+    int spp = 64;    ///< samples per pixel, rounded up to whole batches
+    /// 1: emission, 2: direct light too, 3: one bounce, …; −1 or 0: no limit. Every surface counts, glass
+    /// too.
+    int max_depth = 0;
+    /// R of the bounded geometry term, m; 0: unbounded. Above 0, light that other surfaces send to receivers
+    /// other than diffusely is left out (see PathIntegrator).
+    float clamp_radius = 0.0f;
     bool indirect_only = false;  ///< beauty is the indirect light alone
     bool pixel_centers = false;  ///< all samples go through pixels' centres, as the renderer's do at 1 spp
     int batch_size = 0;  ///< 1, 4 or 16 samples that are stratified together; 0: samples_per_batch(spp)
@@ -45,13 +49,13 @@ struct LongTrace {
     double seconds_between_saves = 180;
 };
 
-/// Renders the picture with the channels R, G, B (beauty: direct + indirect), direct.* (with emission),
-/// indirect.*, albedo.* (of the receiver, seen through mirrors and glass), N.X… and P.X… (of the receiver,
-/// world space), depth.Z (to the first surface, m; mean over the samples that met one), variance.* (of the
-/// mean of beauty), indirectVariance.*, and count.X, count.Y and count.Z: the numbers of samples, of samples
-/// that found a receiver, and of samples that found a surface, which a continuation needs. A variance is
-/// infinite where a pixel has fewer than two batches. If the rendering is stopped, each pixel has the mean of
-/// its finished samples. Throws what completed() throws, Error(ErrorKind::file) if `earlier` cannot be
+/// Renders the picture with the channels R, G, B (beauty: direct + indirect), direct.* and indirect.* (as in
+/// PathLight), albedo.* (of the receiver, seen by way of mirrors, coats and glass), N.X… and P.X… (of the
+/// receiver, world space), depth.Z (to the first surface, m; mean over the samples that met one), variance.*
+/// (of the mean of beauty), indirectVariance.*, and count.X, count.Y and count.Z: the numbers of samples, of
+/// samples that found a receiver, and of samples that found a surface, which a continuation needs. A variance
+/// is infinite where a pixel has fewer than two batches. If the rendering is stopped, each pixel has the mean
+/// of its finished samples. Throws what completed() throws, Error(ErrorKind::file) if `earlier` cannot be
 /// continued, and Embree's errors.
 Image trace_paths(const Scene& scene, const PathTracerSettings& settings, const Progress& progress = {},
                   const LongTrace& long_trace = {});

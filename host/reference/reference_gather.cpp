@@ -70,16 +70,17 @@ std::vector<Vpl> as_vpls(std::span<const Importon> importons) {
                         .normal = importon.normal,
                         .flags = importon.flags,
                         .power = importon.response,
-                        .pad0 = 0.0f});
+                        .shading = 0});
     }
     return vpls;
 }
 
-void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,
+void direct_reference(const EmbreeScene& embree, const Scene& scene,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads) {
+    const std::vector<Emitter>& lights = scene.delta_emitters;
     sum_terms(receivers, irradiance, threads, lights.size(), [&](Vec3 position, Vec3 normal, std::size_t i) {
-        return delta_light_irradiance(embree, lights[i], position, normal);
+        return delta_light_irradiance(scene, embree, lights[i], position, normal);
     });
 }
 

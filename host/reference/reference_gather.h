@@ -23,9 +23,9 @@ void gather_reference(const EmbreeScene& embree, std::span<const Vpl> vpls, floa
 /// The importons as senders in the form of VPLs, which gather_reference() takes.
 std::vector<Vpl> as_vpls(std::span<const Importon> importons);
 
-/// Computes E = Σ intensity · max0(cosθ) / r² · V over the point and spot lights for each receiver. Other
-/// lights in the span are left out. Threads: 0 is one per core.
-void direct_reference(const EmbreeScene& embree, std::span<const Emitter> lights,
+/// Sums the irradiance from the scene's delta lights, with visibility, for each receiver. Threads: 0 is one
+/// per core.
+void direct_reference(const EmbreeScene& embree, const Scene& scene,
                       std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance,
                       int threads = 0);
 

@@ -10,17 +10,19 @@
 
 namespace nearlight::core {
 
-/// The decisions of a path that are stratified over a batch. Later decisions use independent random numbers.
+/// The decisions of a path that are stratified over a batch: those at its first two vertices. Later decisions
+/// use independent random numbers.
 enum class Decision {
     film,
-    lobe,
-    lobe_direction,
-    receiver_light,
-    receiver_light_pick,
-    bounce,
-    bounce_light,
-    bounce_light_pick,
-    second_bounce,
+    lens,
+    first_part,  ///< x: which material of a mask or blend, y: which part of the BSDF
+    first_lobe,  ///< x: which lobe of the part, y: which light
+    first_direction,
+    first_light,
+    second_part,
+    second_lobe,
+    second_direction,
+    second_light,
     count,
 };
 
@@ -36,7 +38,6 @@ class SampleBatch {
     [[nodiscard]] Point2 point(Decision decision, int sample) const {
         return points_[static_cast<std::size_t>(decision)][static_cast<std::size_t>(sample)];
     }
-    [[nodiscard]] float number(Decision decision, int sample) const { return point(decision, sample).x; }
     [[nodiscard]] Pcg32& random() { return random_; }
 
   private:

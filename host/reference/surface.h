@@ -11,18 +11,20 @@ struct Surface {
     Vec3 position;          ///< on the triangle
     Vec3 geometric_normal;  ///< unit vector, on the side that the ray came from
     Vec3 shading_normal;    ///< unit vector, on the side that the ray came from
-    float u = 0.0f;         ///< texture coordinates
+    Vec3 front_normal;      ///< the shading normal as the vertices have it, which says where the front is
+    Vec3 along_u;  ///< derivatives of the position by the texture coordinates; zero where these do not
+    Vec3 along_v;  ///< span the triangle
+    Vec3 vertex_color{1, 1, 1};
+    float u = 0.0f;  ///< texture coordinates
     float v = 0.0f;
     const Material* material = nullptr;
     bool front = true;  ///< the ray came from the triangle's front
-
-    /// Whether the side that was hit reflects light.
-    [[nodiscard]] bool reflects() const {
-        return front || (material->flags & NEARLIGHT_MATERIAL_TWO_SIDED) != 0u;
-    }
 };
 
 /// The surface at a hit of a ray with the given direction.
 Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction);
+
+/// The value of a parameter at the surface.
+Vec3 value_at(const Scene& scene, const Surface& surface, const Parameter& parameter);
 
 }  // namespace nearlight::core

@@ -5,28 +5,20 @@
 #include <cmath>
 
 #include "host/base/random.h"
+#include "host/scene/material_model.h"
 
 namespace nearlight::core {
 namespace {
 
 constexpr Vec3 kRoomMin{-4.0f, 0.0f, -4.0f};
 constexpr Vec3 kRoomMax{4.0f, 4.0f, 4.0f};
-constexpr uint kWallMaterial = 0;
-constexpr uint kSphereMaterial = 1;
-constexpr uint kLampMaterial = 2;
+// Each two-sided material stands after the one that it shows on both sides.
+constexpr uint kWallMaterial = 1;
+constexpr uint kSphereMaterial = 3;
+constexpr uint kLampMaterial = 5;
 constexpr int kSphereRings = 16;  // 2·(16 − 1)·32 triangles per sphere
 constexpr int kSphereSegments = 32;
 constexpr std::size_t kSphereTriangles = 2 * (kSphereRings - 1) * kSphereSegments;
-
-Material diffuse(Vec3 base) {
-    Material material{};
-    material.base = base;
-    material.base_texture = -1;
-    material.base_scale = 1.0f;
-    material.light_scale = 1.0f;
-    material.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
-}
 
 uint add_vertex(Scene& scene, Vec3 position) {
     Vertex vertex{};
@@ -98,8 +90,10 @@ void set_camera(Scene& scene) {
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed) {
     Scene scene;
     scene.name = "sphere-room-" + std::to_string(triangle_count);
-    scene.materials = {diffuse({0.7f, 0.7f, 0.7f}), diffuse({0.6f, 0.45f, 0.3f}), diffuse({0, 0, 0})};
-    scene.materials[kLampMaterial].emission = {20, 20, 20};
+    for (const Vec3 color : {Vec3{0.7f, 0.7f, 0.7f}, Vec3{0.6f, 0.45f, 0.3f}, Vec3{0, 0, 0}}) {
+        add_two_sided(scene, diffuse_material(color));
+    }
+    scene.materials[kLampMaterial].emission = parameter_of(Vec3{20, 20, 20});
     add_room(scene);
     Pcg32 random(seed);
     const std::size_t spheres = std::max<std::size_t>(1, triangle_count / kSphereTriangles);

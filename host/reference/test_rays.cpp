@@ -3,6 +3,7 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
+#include "host/scene/material_model.h"
 
 namespace nearlight::core {
 namespace {
@@ -58,9 +59,7 @@ RayFamily grazing_rays(const Scene& scene, std::size_t count, Pcg32& random) {
 
 Scene make_triangle_soup(std::size_t triangle_count, std::uint64_t seed) {
     Scene scene;
-    Material material{};
-    material.base_texture = -1;
-    scene.materials.push_back(material);
+    scene.materials.push_back(diffuse_material({0, 0, 0}));
     Pcg32 random(seed);
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const Vec3 a = point_in_cube(random);

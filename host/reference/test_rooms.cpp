@@ -30,7 +30,7 @@ void add_inward_triangle(Scene& scene, uint a, uint b, uint c) {
 Scene make_even_room(Vec3 albedo) {
     Scene scene = make_sphere_room(kRoomTriangles);
     for (Material& material : scene.materials) {
-        material.base = albedo;
+        material.reflectance = parameter_of(albedo);
     }
     return scene;
 }
@@ -38,7 +38,7 @@ Scene make_even_room(Vec3 albedo) {
 Scene make_delta_lit_room() {
     Scene scene = make_sphere_room(kRoomTriangles);
     for (Material& material : scene.materials) {
-        material.emission = {0, 0, 0};
+        material.emission = parameter_of(0.0f);
     }
     for (const float x : {-2.5f, -0.5f, 1.5f, 3.0f}) {
         Emitter light = delta_light(x < 0 ? NEARLIGHT_EMITTER_POINT : NEARLIGHT_EMITTER_SPOT,

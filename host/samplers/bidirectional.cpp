@@ -86,7 +86,7 @@ ExaminedVpls examine(SamplerStages& stages, const SamplingTask& task, const Bala
     const std::size_t packets = receiver_packet_count(vpls.size());
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     GatherSums<Importon> density(stages.device, packets);
-    stages.vpl_light.make_receivers(sorted.buffer(), vpls.size(), receivers);
+    stages.vpl_light.make_receivers(sorted.buffer(), vpls.size(), VplSide::emits, receivers);
     stages.reverse_vpls().measure_density(task.scene, balance.points, receivers, packets, density);
     for (const Vec3 n : unpack(density.light, vpls.size())) {
         candidates.reverse_density.push_back(n.x);

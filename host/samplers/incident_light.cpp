@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/incident_light.h"
 
+#include <limits>
 #include <span>
 
 #include "host/base/math.h"
@@ -47,10 +48,16 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                            const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance) {
     const DeviceScene& scene = sources.scene;
-    stages.direct_light.run(scene, receivers, packet_count, quality.direct_samples, seed, irradiance);
-    if (sources.bounce_count == 0) {
-        return;
-    }
+    Buffer<IrradiancePacket> indirect(stages.device, packet_count);
+    stages.receiver_paths.run(
+        scene, receivers, packet_count,
+        {.light_samples = quality.direct_samples,
+         .path_count = quality.paths,
+         .max_edges = sources.bounce_count + 1,
+         .clamp_radius = sources.vpls.empty() ? std::numeric_limits<float>::infinity() : sources.clamp_radius,
+         .seed = seed},
+        irradiance, indirect);
+    stages.vpl_light.add(indirect, packet_count, irradiance);
     if (!sources.vpls.empty()) {
         GatherSums<Vpl> gathered(stages.device, packet_count);
         stages.gatherer.gather({.tree = scene.tree,
@@ -58,15 +65,11 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                 .vpl_count = sources.vpls.count(),
                                 .receivers = receivers,
                                 .packet_count = packet_count,
-                                .clamp_radius = sources.clamp_radius},
+                                .clamp_radius = sources.clamp_radius,
+                                .curves = scene.curves_in_use()},
                                gathered);
         stages.vpl_light.add(gathered.light, packet_count, irradiance);
     }
-    const BouncePaths paths{.sample_count = quality.paths,
-                            .bounce_count = sources.bounce_count,
-                            .clamp_radius = sources.clamp_radius,
-                            .seed = seed ^ kSparseSeed};
-    stages.bounce_tracer.run(scene, receivers, packet_count, paths, irradiance);
 }
 
 std::vector<Vec3> unpack(const Buffer<IrradiancePacket>& packets, std::size_t count) {
@@ -82,7 +85,7 @@ std::vector<Vec3> incident_light_at(SamplerStages& stages, const SamplingTask& t
     const Buffer<Vpl> vpls(stages.device, points);
     Buffer<ReceiverPacket> receivers(stages.device, packets);
     Buffer<IrradiancePacket> irradiance(stages.device, packets);
-    stages.vpl_light.make_receivers(vpls, points.size(), receivers);
+    stages.vpl_light.make_receivers(vpls, points.size(), VplSide::receives, receivers);
     const IncidentSources sources{.scene = task.scene,
                                   .bounce_count = task.bounce_count > 0 ? task.bounce_count - 1 : 0,
                                   .vpls = sparse.vpls,

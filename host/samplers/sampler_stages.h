@@ -4,15 +4,14 @@
 
 #include <optional>
 
-#include "host/stages/bounce_tracer.h"
 #include "host/stages/compaction.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/light_visibility.h"
 #include "host/stages/metropolis_chains.h"
 #include "host/stages/morton_sort.h"
 #include "host/stages/patch_vpls.h"
+#include "host/stages/receiver_paths.h"
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_contribution.h"
@@ -31,9 +30,8 @@ struct SamplerStages {
           morton_sort(device),
           vpl_placement(device),
           patch_vpls(device),
-          direct_light(device),
+          receiver_paths(device),
           vpl_light(device),
-          bounce_tracer(device),
           light_tracer(device),
           vpl_order(device),
           vpl_contribution(device, gatherer) {}
@@ -48,9 +46,8 @@ struct SamplerStages {
     MortonSort morton_sort;
     VplPlacement vpl_placement;
     PatchVpls patch_vpls;
-    DirectLight direct_light;
+    ReceiverPaths receiver_paths;
     VplLight vpl_light;
-    BounceTracer bounce_tracer;
     LightTracer light_tracer;
     VplOrder vpl_order;
     VplContribution vpl_contribution;

@@ -11,7 +11,7 @@ constexpr Vec3 kTowardsCamera{0.45f, 0.4f, 0.8f};
 bool has_light(const Scene& scene) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
            std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& material) { return !is_zero(material.emission); });
+                       [](const Material& material) { return !is_zero(material.emission.value); });
 }
 
 float radius_of(const Aabb& box) {

@@ -2,6 +2,8 @@
 #include "host/scene/emitters.h"
 
 #include "host/scene/distribution.h"
+#include "host/scene/light_tree.h"
+#include "host/scene/texture.h"
 
 namespace nearlight::core {
 namespace {
@@ -57,9 +59,22 @@ double spot_solid_angle(double beam, double cutoff) {
     return 2 * kPiD * (1 - mean_cosine);
 }
 
-/// The luminance of all flux that a light emits, W; for an environment, of what enters the scene's sphere.
-double emitted_power(const Emitter& emitter, float scene_radius) {
-    const double radiance = luminance(emitter.radiance);
+/// 1 − cosine of the half angle under which the sun is seen.
+double sun_height(const EnvironmentLight& environment) {
+    const double sine = std::sin(0.5 * static_cast<double>(environment.sun_half_angle));
+    return 2.0 * sine * sine;
+}
+
+/// The mean of the light's image.
+Vec3 mean_image(const Scene& scene, const Emitter& emitter) {
+    return mean_value(scene, {{1, 1, 1}, static_cast<int>(emitter.image) - 1});
+}
+
+/// The luminance of all flux that a light emits, W; for lights that are infinitely far away, of what enters
+/// the scene's sphere.
+double emitted_power(const Scene& scene, const Emitter& emitter, float scene_radius) {
+    const double radiance = luminance(emitter.radiance * mean_image(scene, emitter));
+    const double scene_disc = kPiD * scene_radius * scene_radius;
     switch (emitter.type) {
         case NEARLIGHT_EMITTER_POINT:
             return 4 * kPiD * radiance;
@@ -67,9 +82,15 @@ double emitted_power(const Emitter& emitter, float scene_radius) {
             return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
         case NEARLIGHT_EMITTER_TRIANGLE:
             return kPiD * emitter.area * radiance;
+        case NEARLIGHT_EMITTER_DIRECTIONAL:
+            return scene_disc * radiance;
+        case NEARLIGHT_EMITTER_SUN:
+            return scene_disc * emitter.area * radiance;
+        case NEARLIGHT_EMITTER_PROJECTOR:
+            return emitter.area * radiance;
         default:
             // From each direction light passes through the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
-            return kPiD * scene_radius * scene_radius * 4 * kPiD * radiance;
+            return scene_disc * 4 * kPiD * radiance;
     }
 }
 
@@ -78,7 +99,7 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& triangle = scene.triangles[i];
-        const Vec3 emission = scene.materials[triangle.material].emission;
+        const Vec3 emission = scene.materials[triangle.material].emission.value;
         if (is_zero(emission)) {
             continue;
         }
@@ -87,6 +108,14 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
         emitter.triangle = static_cast<uint>(i);
         emitter.radiance = emission;
         emitter.area = triangle_area(scene, triangle);
+        emitters.push_back(emitter);
+    }
+    if (scene.environment.sun_half_angle > 0.0f) {
+        Emitter emitter{};
+        emitter.type = NEARLIGHT_EMITTER_SUN;
+        emitter.direction = -scene.environment.sun_direction;
+        emitter.radiance = scene.environment.sun_radiance;
+        emitter.area = static_cast<float>(2.0 * kPiD * sun_height(scene.environment));
         emitters.push_back(emitter);
     }
     if (scene.environment.width > 0) {
@@ -98,15 +127,32 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     return emitters;
 }
 
+/// The luminance of a pixel. Where radiance is interpolated, its neighbours reach into it, so that it has a
+/// part of their weight: no direction that shines may have the density 0.
+double pixel_weight(const EnvironmentLight& environment, int column, int row) {
+    const auto at = [&](int x, int y) {
+        const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(environment.width) +
+                           static_cast<std::size_t>((x + environment.width) % environment.width);
+        return static_cast<double>(std::max(luminance(environment.radiance[index]), 0.0f));
+    };
+    if (!environment.is_interpolated) {
+        return at(column, row);
+    }
+    double sum = at(column, row);
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, environment.height - 1); ++y) {
+        sum += (at(column - 1, y) + at(column, y) + at(column + 1, y)) / 8;
+    }
+    return sum;
+}
+
 void add_distributions(const EnvironmentLight& environment, EnvironmentTable& table) {
     std::vector<double> row_weights;
     std::vector<double> weights(static_cast<std::size_t>(environment.width));
-    const Vec3* pixel = environment.radiance.data();
     for (int row = 0; row < environment.height; ++row) {
         double sum = 0;
-        for (double& weight : weights) {
-            weight = std::max(luminance(*pixel++), 0.0f);
-            sum += weight;
+        for (int column = 0; column < environment.width; ++column) {
+            weights[static_cast<std::size_t>(column)] = pixel_weight(environment, column, row);
+            sum += weights[static_cast<std::size_t>(column)];
         }
         row_weights.push_back(sum * row_sine(row, environment.height));
         const std::vector<float> columns = cumulative_distribution(weights);
@@ -117,19 +163,23 @@ void add_distributions(const EnvironmentLight& environment, EnvironmentTable& ta
 
 }  // namespace
 
+bool is_delta_light(const Emitter& emitter) {
+    return emitter.type != NEARLIGHT_EMITTER_TRIANGLE && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT &&
+           emitter.type != NEARLIGHT_EMITTER_SUN;
+}
+
 EmitterTable build_emitter_table(const Scene& scene) {
-    const float scene_radius = scene.environment.width > 0 ? bounding_sphere(scene).radius : 0.0f;
+    const float scene_radius = bounding_sphere(scene).radius;
     EmitterTable table;
     std::vector<double> powers;
     double total = 0;
     for (const Emitter& emitter : collect_emitters(scene)) {
-        const double power = emitted_power(emitter, scene_radius);
+        const double power = emitted_power(scene, emitter, scene_radius);
         if (!(power > 0)) {
             continue;
         }
         table.emitters.push_back(emitter);
-        table.delta_emitter_count +=
-            emitter.type == NEARLIGHT_EMITTER_POINT || emitter.type == NEARLIGHT_EMITTER_SPOT ? 1u : 0u;
+        table.delta_emitter_count += is_delta_light(emitter) ? 1u : 0u;
         powers.push_back(power);
         total += power;
     }
@@ -138,6 +188,7 @@ EmitterTable build_emitter_table(const Scene& scene) {
         table.emitters[i].cdf = cdf[i];
         table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
     }
+    table.light_tree = build_light_tree(scene, table.emitters);
     table.total_power = static_cast<float>(total);
     return table;
 }
@@ -149,6 +200,10 @@ EnvironmentTable build_environment_table(const Scene& scene) {
     const Sphere sphere = bounding_sphere(scene);
     parameters.scene_center = sphere.center;
     parameters.scene_radius = sphere.radius;
+    parameters.sun_direction = environment.sun_direction;
+    parameters.sun_radiance = environment.sun_radiance;
+    parameters.sun_height = static_cast<float>(sun_height(environment));
+    parameters.sun_half_chord = 2.0f * std::sin(0.5f * environment.sun_half_angle);
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {  // the inverse of a rotation is its transpose
             parameters.world_to_local[row * 3 + column] =
@@ -162,6 +217,7 @@ EnvironmentTable build_environment_table(const Scene& scene) {
     }
     parameters.width = static_cast<uint>(environment.width);
     parameters.height = static_cast<uint>(environment.height);
+    parameters.interpolated = environment.is_interpolated ? 1 : 0;
     table.pixels.reserve(4 * environment.radiance.size());
     for (const Vec3 pixel : environment.radiance) {
         table.pixels.insert(table.pixels.end(), {pixel.x, pixel.y, pixel.z, 1.0f});

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "host/base/math.h"
+#include "host/scene/scene.h"
+#include "host/scene/transmission_curve.h"
 
 namespace nearlight::core {
 namespace {
-
-// Even in a closed room of metal, light must die out.
-constexpr float kMaxConductorAlbedo = 0.99f;
 
 template <typename Reflectance>
 double cosine_mean(Reflectance reflectance) {
@@ -23,13 +22,16 @@ double cosine_mean(Reflectance reflectance) {
     return 2.0 * sum / kSteps;
 }
 
-Material empty_material() {
-    Material material{};
-    material.base_texture = -1;
-    material.specular = {1, 1, 1};
-    material.transmission = {1, 1, 1};
-    material.eta = {1, 1, 1};
-    material.lobe = NEARLIGHT_LOBE_NONE;
+Vec3 grey(double value) {
+    return Vec3{1, 1, 1} * static_cast<float>(value);
+}
+
+/// A material that stands for `child`.
+Material wrapper_material(uint model, Parameter parameter, uint child) {
+    Material material = plain_material(model);
+    material.reflectance = parameter;
+    material.child[0] = child;
+    material.child[1] = child;
     return material;
 }
 
@@ -68,53 +70,103 @@ double mean_conductor_reflectance(double eta, double k) {
     return cosine_mean([&](double cosine) { return conductor_reflectance(cosine, eta, k); });
 }
 
+Material plain_material(uint model) {
+    const Parameter zero = parameter_of(0.0f);
+    const Parameter one = parameter_of(1.0f);
+    Material material{};
+    material.reflectance = material.specular = material.transmission = one;
+    material.roughness = material.emission = material.metallic = material.anisotropic = zero;
+    material.spec_trans = material.spec_tint = material.sheen = material.sheen_tint = zero;
+    material.flatness = material.clearcoat = material.clearcoat_gloss = zero;
+    material.eta = grey(1.5);
+    material.model = model;
+    return material;
+}
+
 Material diffuse_material(Vec3 reflectance) {
-    Material material = empty_material();
-    material.base = reflectance;
-    material.base_scale = 1.0f;
-    material.light_scale = 1.0f;
+    Material material = plain_material(NEARLIGHT_BSDF_DIFFUSE);
+    material.reflectance = parameter_of(reflectance);
     return material;
 }
 
-// Entering light is weighted by 1 − F outside and leaving light by 1 − F over η²; between the two it bounces
-// below the coat, whose mean reflectance from inside follows from reciprocity: 1 − F_in = (1 − F_out)/η².
-Material coat_material(Vec3 reflectance, Vec3 specular, double eta, float roughness, bool nonlinear) {
-    const double outside = mean_dielectric_reflectance(eta);
-    const double leaving = (1.0 - outside) / (eta * eta);
-    const double inside = 1.0 - leaving;
-    const double linear_factor = nonlinear ? 1.0 : 1.0 / leaving;
-    Material material = empty_material();
-    material.base = reflectance;
-    material.specular = specular;
-    material.roughness = roughness;
-    material.eta = Vec3{1, 1, 1} * static_cast<float>(eta);
-    material.lobe = NEARLIGHT_LOBE_COAT;
-    material.base_saturation = nonlinear ? static_cast<float>(inside) : 0.0f;
-    material.base_scale = static_cast<float>(leaving * linear_factor);
-    material.light_scale = static_cast<float>((1.0 - outside) * leaving * linear_factor);
-    material.light_offset = specular * static_cast<float>(outside);
-    return material;
-}
-
-Material conductor_material(Vec3 eta, Vec3 k, Vec3 specular, float roughness) {
-    Material material = empty_material();
-    material.specular = specular;
-    material.roughness = roughness;
+Material conductor_material(Vec3 eta, Vec3 k, Vec3 specular) {
+    Material material = plain_material(NEARLIGHT_BSDF_CONDUCTOR);
+    material.specular = parameter_of(specular);
     material.eta = eta;
     material.k = k;
-    material.lobe = NEARLIGHT_LOBE_CONDUCTOR;
-    const Vec3 mean{static_cast<float>(mean_conductor_reflectance(eta.x, k.x)),
-                    static_cast<float>(mean_conductor_reflectance(eta.y, k.y)),
-                    static_cast<float>(mean_conductor_reflectance(eta.z, k.z))};
-    material.light_offset = min(specular * mean, Vec3{1, 1, 1} * kMaxConductorAlbedo);
     return material;
 }
 
-Material glass_material(double eta, bool thin) {
-    Material material = empty_material();
-    material.eta = Vec3{1, 1, 1} * static_cast<float>(eta);
-    material.lobe = thin ? NEARLIGHT_LOBE_THIN_DIELECTRIC : NEARLIGHT_LOBE_DIELECTRIC;
+Material dielectric_material(double eta) {
+    Material material = plain_material(NEARLIGHT_BSDF_DIELECTRIC);
+    material.eta = grey(eta);
     return material;
+}
+
+Material thin_dielectric_material(double eta) {
+    Material material = plain_material(NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    material.eta = grey(eta);
+    return material;
+}
+
+Material plastic_material(Scene& scene, const Coat& coat) {
+    Material material = plain_material(NEARLIGHT_BSDF_PLASTIC);
+    const bool is_smooth = coat.alpha < static_cast<double>(NEARLIGHT_MIN_ALPHA);
+    material.roughness = parameter_of(static_cast<float>(coat.alpha));
+    material.eta = grey(coat.eta);
+    material.flags = (coat.beckmann ? NEARLIGHT_MATERIAL_BECKMANN : 0u) |
+                     (coat.nonlinear ? NEARLIGHT_MATERIAL_NONLINEAR : 0u);
+    material.curve = add_curve(scene, is_smooth ? smooth_coat_curve(coat.eta)
+                                                : rough_coat_curve(coat.eta, coat.alpha, coat.beckmann));
+    material.internal_reflectance =
+        static_cast<float>(is_smooth ? smooth_internal_reflectance(coat.eta)
+                                     : rough_internal_reflectance(coat.eta, coat.alpha, coat.beckmann));
+    return material;
+}
+
+Material principled_material(Scene& scene, double eta) {
+    Material material = plain_material(NEARLIGHT_BSDF_PRINCIPLED);
+    material.roughness = parameter_of(0.5f);
+    material.eta = grey(eta);
+    material.curve = add_curve(scene, principled_curve());
+    return material;
+}
+
+Material two_sided_material(uint front, uint back) {
+    Material material = wrapper_material(NEARLIGHT_BSDF_TWO_SIDED, parameter_of(1.0f), front);
+    material.child[1] = back;
+    return material;
+}
+
+Material mask_material(Parameter opacity, uint child) {
+    return wrapper_material(NEARLIGHT_BSDF_MASK, opacity, child);
+}
+
+Material blend_material(Parameter weight, uint first, uint second) {
+    Material material = wrapper_material(NEARLIGHT_BSDF_BLEND, weight, first);
+    material.child[1] = second;
+    return material;
+}
+
+Material normal_map_material(Parameter map, uint child) {
+    Material material = wrapper_material(NEARLIGHT_BSDF_NORMAL_MAP, map, child);
+    material.flags |= NEARLIGHT_MATERIAL_TANGENT;
+    return material;
+}
+
+Material bump_map_material(Parameter height, uint child) {
+    Material material = wrapper_material(NEARLIGHT_BSDF_BUMP_MAP, height, child);
+    material.flags |= NEARLIGHT_MATERIAL_TANGENT;
+    return material;
+}
+
+uint add_two_sided(Scene& scene, const Material& material) {
+    const auto side = static_cast<uint>(scene.materials.size());
+    scene.materials.push_back(material);
+    scene.materials.back().emission = parameter_of(0.0f);
+    scene.materials.push_back(two_sided_material(side, side));
+    scene.materials.back().emission = material.emission;
+    return side + 1;
 }
 
 }  // namespace nearlight::core

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the parameters of physical materials to the numbers in Material.
+// Makes materials of each model from physical parameters.
 #pragma once
 
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
+
+struct Scene;
 
 /// The unpolarised Fresnel reflectance of a dielectric, where eta = index behind ÷ index in front.
 double dielectric_reflectance(double cosine, double eta);
@@ -15,14 +17,60 @@ double mean_dielectric_reflectance(double eta);
 /// The mean of conductor_reflectance() over directions, weighted by cosine.
 double mean_conductor_reflectance(double eta, double k);
 
-/// A one-sided Lambertian material without emission and texture; `reflectance` is in [0, 1].
+/// Parameters without a texture, and a texture's own values scaled.
+constexpr Parameter parameter_of(Vec3 color) {
+    return {color, -1};
+}
+constexpr Parameter parameter_of(float number) {
+    return {{number, number, number}, -1};
+}
+constexpr Parameter textured(int texture, float scale = 1.0f) {
+    return {{scale, scale, scale}, texture};
+}
+
+/// All parameters of a material.
+inline constexpr Parameter Material::*kMaterialParameters[] = {
+    &Material::reflectance, &Material::specular,       &Material::transmission, &Material::roughness,
+    &Material::emission,    &Material::metallic,       &Material::anisotropic,  &Material::spec_trans,
+    &Material::spec_tint,   &Material::sheen,          &Material::sheen_tint,   &Material::flatness,
+    &Material::clearcoat,   &Material::clearcoat_gloss};
+
+/// A material of the model that is white where it reflects or lets light through, smooth, emits nothing, and
+/// has the index 1.5. Its parameters have no textures, and its D has no curve.
+Material plain_material(uint model);
+/// A one-sided Lambertian material; `reflectance` is in [0, 1].
 Material diffuse_material(Vec3 reflectance);
-/// A Lambertian base under a dielectric coat; `nonlinear` saturates colours by inter-reflection below the
-/// coat.
-Material coat_material(Vec3 reflectance, Vec3 specular, double eta, float roughness, bool nonlinear);
-/// A conductor with complex index eta + i·k, whose reflectance `specular` scales.
-Material conductor_material(Vec3 eta, Vec3 k, Vec3 specular, float roughness);
-/// A pane of glass if `thin` is true, otherwise the surface of a glass body.
-Material glass_material(double eta, bool thin);
+/// A smooth conductor with complex index eta + i·k, whose reflectance `specular` scales.
+Material conductor_material(Vec3 eta, Vec3 k, Vec3 specular = {1, 1, 1});
+/// The boundary of a smooth glass body; eta = interior ÷ exterior index.
+Material dielectric_material(double eta);
+/// A pane of glass, both faces at once.
+Material thin_dielectric_material(double eta);
+
+/// What lies on the base of a plastic.
+struct Coat {
+    double eta = 1.5;        ///< interior ÷ exterior index
+    double alpha = 0.0;      ///< roughness of the microfacets; smooth below NEARLIGHT_MIN_ALPHA
+    bool beckmann = false;   ///< their distribution; otherwise GGX
+    bool nonlinear = false;  ///< colours saturate by inter-reflection below the coat
+
+    auto operator<=>(const Coat&) const = default;
+};
+/// A white base under the coat. Adds the coat's transmission curve to the scene.
+Material plastic_material(Scene& scene, const Coat& coat);
+/// A principled material with its curve; roughness 0.5, all else 0, white.
+Material principled_material(Scene& scene, double eta);
+
+/// `front` and `back` are indices of materials, as `child` is below.
+Material two_sided_material(uint front, uint back);
+Material mask_material(Parameter opacity, uint child);
+/// `second` where the weight is 1, `first` where it is 0.
+Material blend_material(Parameter weight, uint first, uint second);
+Material normal_map_material(Parameter map, uint child);
+/// `height` is in metres.
+Material bump_map_material(Parameter height, uint child);
+
+/// Adds the two-sided material of a one-sided one, whose emission it takes over; returns its index.
+uint add_two_sided(Scene& scene, const Material& material);
 
 }  // namespace nearlight::core

@@ -39,8 +39,9 @@ void check_mesh(const Mesh& mesh) {
         throw Error(ErrorKind::file, mesh.source.string() + ": " + what);
     };
     if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
-        (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())) {
-        fail("the numbers of normals or texture coordinates differ from the number of vertices");
+        (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
+        (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())) {
+        fail("the numbers of normals, colours or texture coordinates differ from the number of vertices");
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const uint index : mesh.triangles[i]) {
@@ -95,6 +96,19 @@ void append_vertices(Scene& scene, const Mesh& mesh, std::span<const Vec3> posit
     }
 }
 
+// Keeps one colour a vertex as soon as any mesh has colours.
+void append_colors(Scene& scene, const Mesh& mesh) {
+    if (mesh.colors.empty() && scene.vertex_colors.empty()) {
+        return;
+    }
+    make_room(scene.vertex_colors, scene.vertices.size() - scene.vertex_colors.size());
+    scene.vertex_colors.resize(scene.vertices.size() - mesh.positions.size(), kNoColor);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool is_known = !mesh.colors.empty() && is_finite(mesh.colors[i]);
+        scene.vertex_colors.push_back(is_known ? max(mesh.colors[i], {0, 0, 0}) : kNoColor);
+    }
+}
+
 bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
     const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
     return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
@@ -133,6 +147,7 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
     const bool own_normals = !placement.face_normals && !mesh.normals.empty();
     const auto first = static_cast<uint>(scene.vertices.size());
     append_vertices(scene, mesh, positions, normals, placement.flip_normals);
+    append_colors(scene, mesh);
 
     std::size_t dropped = 0;
     make_room(scene.triangles, mesh.triangles.size());

@@ -13,14 +13,19 @@
 
 namespace nearlight::core {
 
+/// Stands for a missing colour of a vertex while scenes are loaded.
+inline constexpr Vec3 kNoColor{-1, -1, -1};
+
 struct Mesh {
     std::filesystem::path source;  ///< the file, for messages
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< one a position, or empty
     std::vector<std::array<float, 2>>
-        uvs;  ///< one a position, or empty; v = 0 at the bottom row of a texture
+        uvs;                   ///< one a position, or empty; v = 0 at the bottom row of a texture
+    std::vector<Vec3> colors;  ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
-    std::vector<uint> groups;  ///< one a triangle: index into MeshPlacement::materials; empty: all 0
+    bool face_normals = false;  ///< the file asks for flat facets
+    std::vector<uint> groups;   ///< one a triangle: index into MeshPlacement::materials; empty: all 0
 };
 
 struct MeshPlacement {
@@ -33,7 +38,8 @@ struct MeshPlacement {
 /// Adds the mesh to the scene. A mesh without normals gets smooth ones, weighted by angle. As in Mitsuba 3,
 /// the front of a triangle is the side of its vertex normals if the mesh has any, otherwise the side from
 /// which the transformed corners run counter-clockwise, even if the transform mirrors. Triangles with a NaN
-/// or infinite corner are left out, with a note. Throws Error(ErrorKind::file) for an index out of range.
+/// or infinite corner are left out, with a note. Colours of vertices are kept; vertices without one get
+/// kNoColor, which finish_vertex_colors() replaces. Throws Error(ErrorKind::file) for an index out of range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
 /// The unit normal at each position: the sum of the normals of the triangles around it, weighted by their

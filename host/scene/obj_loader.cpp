@@ -3,67 +3,20 @@
 
 #include <tiny_obj_loader.h>
 
-#include <fstream>
+#include <istream>
 #include <limits>
-#include <sstream>
-#include <streambuf>
 #include <string_view>
 
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
-#include "host/scene/material_model.h"
-#include "host/scene/texture_loader.h"
+#include "host/scene/obj_materials.h"
+#include "host/scene/obj_text.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
 
 constexpr uint kNone = std::numeric_limits<uint>::max();
-
-// An istream over text in memory, without a copy.
-class TextBuffer : public std::streambuf {
-  public:
-    explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
-};
-
-std::string trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos) {
-        return {};
-    }
-    return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
-}
-
-// Calls visit(line number, line) until it returns false.
-template <typename Visit>
-void for_each_line(std::string_view text, Visit visit) {
-    int number = 1;
-    for (std::size_t begin = 0; begin < text.size(); ++number) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        if (!visit(number, text.substr(begin, end - begin))) {
-            return;
-        }
-        begin = end + 1;
-    }
-}
-
-bool starts_with_word(std::string_view line, std::string_view word) {
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    return line.size() > word.size() && line.starts_with(word) &&
-           (line[word.size()] == ' ' || line[word.size()] == '\t');
-}
-
-// The number of the line `word … value`; 0 if there is none.
-int find_line(std::string_view text, std::string_view word, std::string_view value) {
-    int found = 0;
-    for_each_line(text, [&](int number, std::string_view line) {
-        if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {
-            found = number;
-        }
-        return found == 0;
-    });
-    return found;
-}
 
 int line_of_face(std::string_view text, std::size_t face) {
     int found = 0;
@@ -190,124 +143,6 @@ tinyobj::callback_t make_callbacks() {
     return callbacks;
 }
 
-// A material library, with its text for line numbers.
-struct MaterialLibrary {
-    std::filesystem::path file;
-    std::string text;
-    std::map<std::string, int> names;
-    std::vector<tinyobj::material_t> materials;
-};
-
-// Some releases of tinyobjloader cut the names of materials at the first blank, so they are read from the
-// text.
-void restore_names(MaterialLibrary& library) {
-    std::vector<std::string> names;
-    for_each_line(library.text, [&](int, std::string_view line) {
-        if (starts_with_word(line, "newmtl")) {
-            const std::string name = trimmed(line.substr(line.find("newmtl") + 6));
-            if (!name.empty()) {
-                names.push_back(name);
-            }
-        }
-        return true;
-    });
-    if (names.size() != library.materials.size()) {
-        return;
-    }
-    library.names.clear();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        library.names.emplace(names[i], static_cast<int>(i));
-        library.materials[i].name = names[i];
-    }
-}
-
-std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
-    std::vector<MaterialLibrary> libraries;
-    for (const std::string& name : obj.libraries) {
-        MaterialLibrary library;
-        library.file = resolve_path(obj.mesh.source, name);
-        try {
-            library.text = read_file_text(library.file);
-        } catch (const Error&) {
-            notes.approximation(obj.mesh.source, find_line(obj.text, "mtllib", name),
-                                "material library '" + name + "' cannot be read; its materials are grey");
-            continue;
-        }
-        TextBuffer buffer(library.text);
-        std::istream stream(&buffer);
-        std::string warning;
-        std::string error;
-        tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
-        restore_names(library);
-        libraries.push_back(std::move(library));
-    }
-    return libraries;
-}
-
-Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
-    return {c[0], c[1], c[2]};
-}
-
-Material grey_material() {
-    Material material = diffuse_material({0.5f, 0.5f, 0.5f});
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
-}
-
-Material make_material(Scene& scene, const MaterialLibrary& library, const tinyobj::material_t& source,
-                       TextureLoader& textures, NoteSink& notes) {
-    const int line = find_line(library.text, "newmtl", source.name);
-    const auto clamped = [](Vec3 c) { return min(max(c, {0, 0, 0}), {1, 1, 1}); };
-    Material material = diffuse_material(clamped(to_vec3(source.diffuse)));
-    if (source.illum == 5 || source.illum == 3) {
-        notes.approximation(library.file, line,
-                            "a reflecting material (illum 3 or 5) is rendered as a perfect mirror");
-        material = conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.specular)), 0.0f);
-    } else if (source.illum == 7 || source.illum == 4 || source.illum == 6 || source.dissolve < 0.5f) {
-        notes.approximation(library.file, line, "a transparent material is rendered as a thin pane of glass");
-        material = glass_material(source.ior > 1.0f ? source.ior : 1.5f, true);
-    } else if (!source.diffuse_texname.empty()) {
-        const int image =
-            textures.load(resolve_path(library.file, source.diffuse_texname), false, library.file,
-                          find_line(library.text, "map_Kd", source.diffuse_texname));
-        // Many exporters leave Kd black beside a texture, which then alone gives the colour.
-        const Vec3 tint = is_zero(material.base) ? Vec3{1, 1, 1} : material.base;
-        material.base = image < 0 ? Vec3{0.5f, 0.5f, 0.5f} : tint;
-        if (image >= 0) {
-            material.base_texture = static_cast<int>(scene.textures.size());
-            scene.textures.push_back(plain_texture(image));
-        }
-    }
-    material.emission = max(to_vec3(source.emission), {0, 0, 0});
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
-}
-
-std::vector<uint> make_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
-    const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
-    TextureLoader textures(scene, notes);
-    std::vector<uint> indices;
-    for (const std::string& name : obj.materials) {
-        Material material = grey_material();
-        bool found = false;
-        for (const MaterialLibrary& library : libraries) {
-            if (const auto entry = library.names.find(name); entry != library.names.end() && !found) {
-                material =
-                    make_material(scene, library, library.materials[static_cast<std::size_t>(entry->second)],
-                                  textures, notes);
-                found = true;
-            }
-        }
-        if (!found && !name.empty()) {
-            notes.approximation(obj.mesh.source, find_line(obj.text, "usemtl", name),
-                                "material '" + name + "' is not defined; it is grey");
-        }
-        indices.push_back(static_cast<uint>(scene.materials.size()));
-        scene.materials.push_back(material);
-    }
-    return indices;
-}
-
 }  // namespace
 
 ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text) {
@@ -347,7 +182,7 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
     NoteSink notes(scene.notes, options.strict);
     {
         const ObjFile obj = read_obj(file, notes, true);
-        const std::vector<uint> materials = make_materials(scene, obj, notes);
+        const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
         append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
     }
     add_default_view(scene, notes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ (through tinyobjloader, which only obj_loader.cpp knows).
+// Wavefront OBJ (through tinyobjloader, which only obj_loader.cpp and obj_materials.cpp know).
 #pragma once
 
 #include <filesystem>

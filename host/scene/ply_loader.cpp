@@ -187,11 +187,12 @@ void skip_property(PlyReader& reader, const PlyProperty& property) {
     }
 }
 
-// The slot of a property, in the order x y z nx ny nz u v; −1 if it is skipped.
+// The slot of a property, in the order x y z nx ny nz u v r g b; −1 if it is skipped.
 int vertex_slot(std::string_view name) {
     constexpr std::pair<std::string_view, int> kSlots[] = {
-        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
-        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
+        {"x", 0}, {"y", 1}, {"z", 2},  {"nx", 3},  {"ny", 4},        {"nz", 5},
+        {"u", 6}, {"v", 7}, {"s", 6},  {"t", 7},   {"texture_u", 6}, {"texture_v", 7},
+        {"r", 8}, {"g", 9}, {"b", 10}, {"red", 8}, {"green", 9},     {"blue", 10}};
     for (const auto& [known, slot] : kSlots) {
         if (known == name) {
             return slot;
@@ -202,7 +203,7 @@ int vertex_slot(std::string_view name) {
 
 void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
     std::vector<int> slots;
-    std::array<bool, 8> present{};
+    std::array<bool, 11> present{};
     for (const PlyProperty& property : element.properties) {
         slots.push_back(property.is_list ? -1 : vertex_slot(property.name));
         if (slots.back() >= 0) {
@@ -214,11 +215,13 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
     }
     const bool has_normals = present[3] && present[4] && present[5];
     const bool has_uvs = present[6] && present[7];
+    const bool has_colors = present[8] && present[9] && present[10];
     mesh.positions.reserve(element.count);
     mesh.normals.reserve(has_normals ? element.count : 0);
     mesh.uvs.reserve(has_uvs ? element.count : 0);
+    mesh.colors.reserve(has_colors ? element.count : 0);
     for (std::size_t i = 0; i < element.count; ++i) {
-        std::array<float, 8> values{};
+        std::array<float, 11> values{};
         for (std::size_t p = 0; p < slots.size(); ++p) {
             if (slots[p] < 0) {
                 skip_property(reader, element.properties[p]);
@@ -233,6 +236,9 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
         }
         if (has_uvs) {
             mesh.uvs.push_back({values[6], values[7]});
+        }
+        if (has_colors) {
+            mesh.colors.push_back({values[8], values[9], values[10]});
         }
     }
 }

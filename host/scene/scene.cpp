@@ -1,28 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
-#include "host/scene/texture.h"
-
 namespace nearlight::core {
-namespace {
-
-/// The reflectance t in the comment at Material.
-Vec3 reflectance(const Scene& scene, const Material& material, float u, float v) {
-    if (material.base_texture < 0) {
-        return material.base;
-    }
-    return material.base *
-           texture_color(scene, scene.textures[static_cast<std::size_t>(material.base_texture)], u, v);
-}
-
-/// Returns t·scale / (1 − saturation·t): the light that an inner boundary reflects back into the base any
-/// number of times.
-Vec3 saturated(Vec3 t, float scale, float saturation) {
-    const auto channel = [&](float x) { return x * scale / (1.0f - saturation * x); };
-    return {channel(t.x), channel(t.y), channel(t.z)};
-}
-
-}  // namespace
 
 std::string to_string(const Note& note) {
     std::string text = note.file.string();
@@ -55,19 +34,6 @@ float triangle_area(const Scene& scene, const Triangle& triangle) {
     const double y = minor(a.z, a.x, b.z, b.x);
     const double z = minor(a.x, a.y, b.x, b.y);
     return static_cast<float>(0.5 * std::sqrt(x * x + y * y + z * z));
-}
-
-bool is_glass(const Material& material) {
-    return material.lobe == NEARLIGHT_LOBE_DIELECTRIC || material.lobe == NEARLIGHT_LOBE_THIN_DIELECTRIC;
-}
-
-Vec3 light_albedo(const Scene& scene, const Material& material, float u, float v) {
-    return saturated(reflectance(scene, material, u, v), material.light_scale, material.base_saturation) +
-           material.light_offset;
-}
-
-Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float v) {
-    return saturated(reflectance(scene, material, u, v), material.base_scale, material.base_saturation);
 }
 
 }  // namespace nearlight::core

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "host/base/math.h"
+#include "host/scene/pixel_filter.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -22,18 +24,18 @@ struct Note {
 /// The note as "file:line: text".
 std::string to_string(const Note& note);
 
-/// RGBA texels of 8 bits a channel, sRGB-encoded, top row first. Data that is linear in its file is encoded
-/// by the loader, so that kernels know one encoding only.
+/// The texels of a bitmap, top row first, in one of the NEARLIGHT_TEXELS_ formats.
 struct TextureImage {
     std::string name;
     int width = 0;
     int height = 0;
-    std::vector<std::uint32_t> texels;  ///< width·height; red in the lowest byte
+    uint format = NEARLIGHT_TEXELS_SRGB8;
+    std::vector<std::uint32_t> words;  ///< width·height, or twice as many half floats
 };
 
-/// A texture as materials refer to it: a placement of a bitmap, or a checkerboard.
+/// A texture as materials refer to it: a placement of a bitmap, a checkerboard, or the vertices' colours.
 struct SceneTexture {
-    Texture parameters{};  ///< first_texel, width and height are filled in when images are pooled
+    Texture parameters{};  ///< first_word, width, height and format are filled in when images are pooled
     int image = -1;        ///< index into Scene::images, for NEARLIGHT_TEXTURE_BITMAP
 };
 
@@ -45,24 +47,50 @@ struct EnvironmentLight {
     int height = 0;
     std::vector<Vec3> radiance;  ///< width·height, top row (+Y) first
     Mat4 to_world;               ///< rotation only
+    /// Whether radiance is interpolated between pixels, as in Mitsuba's `envmap`: columns have their centres
+    /// at (i + 0.5)/width, and rows lie at θ = π·j/(height − 1). Otherwise it is constant over a pixel.
+    bool is_interpolated = false;
+    /// A sun in front of the map: a disc of even radiance. The angle is 0 if there is none.
+    Vec3 sun_direction{0, 0, 1};  ///< in the world, towards the sun
+    float sun_half_angle = 0.0f;  ///< radians
+    Vec3 sun_radiance{0, 0, 0};
 };
 
+enum class CameraKind { perspective, orthographic };
+
+/// The camera, with what its film and the integrator say about what it shows.
 struct SceneCamera {
     Mat4 to_world;  ///< looks along +Z, +Y up, +X to the left of the picture (Mitsuba's convention)
-    double fov_x_degrees = 40.0;
-    int width = 640;
+    CameraKind kind = CameraKind::perspective;
+    double fov_x_degrees = 40.0;  ///< of the whole film; an orthographic film is 2 wide in local units
+    int width = 640;              ///< pixels of the picture, which may be a part of the film
     int height = 480;
+    double center_x = 0.0;   ///< the picture's middle on the film, from the axis to the right, in film widths
+    double center_y = 0.0;   ///< downwards, in film widths as well
+    double film_part = 1.0;  ///< width of the picture / width of the film
+    double aperture_radius = 0.0;  ///< of a thin lens; 0: a pinhole
+    double focus_distance = 1.0;   ///< along +Z, for a thin lens
+    double near_clip = 0.0;        ///< surfaces are seen between these distances along +Z
+    double far_clip = std::numeric_limits<double>::infinity();
+    PixelFilter filter{};
+    bool sample_border =
+        false;  ///< pixels at the border take light from beyond it, as far as the filter goes
+    bool hide_emitters = false;  ///< emitters and the environment are not seen directly
+    bool is_monochrome = false;  ///< the picture has the luminance of its light in all channels
 };
 
 struct Scene {
     std::string name;              ///< name of the folder or file
     std::filesystem::path source;  ///< the file that was asked for
     std::vector<Vertex> vertices;
+    std::vector<Vec3> vertex_colors;  ///< linear sRGB, one a vertex; empty if no texture asks for them
     std::vector<Triangle> triangles;  ///< no NaN, no index out of range; zero area is allowed
-    std::vector<Material> materials;
+    std::vector<Material> materials;  ///< children may stand before or after those that name them
+    /// Rows of NEARLIGHT_CURVE_SIZE values, see Material::curve; row 0 is all ones.
+    std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;  ///< point and spot lights; probabilities are filled in later
+    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say
@@ -77,13 +105,5 @@ float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian
 /// machines.
 std::uint64_t scene_hash(const Scene& scene);
-
-/// Whether the material is glass, which only camera paths see.
-bool is_glass(const Material& material);
-/// The reflectance that light transport sees at texture coordinates (u, v); see Material.
-Vec3 light_albedo(const Scene& scene, const Material& material, float u, float v);
-/// The Lambertian reflectance that the camera sees at (u, v), without the coat's Fresnel factor; see
-/// Material.
-Vec3 camera_albedo(const Scene& scene, const Material& material, float u, float v);
 
 }  // namespace nearlight::core

@@ -12,14 +12,15 @@ static_assert(std::endian::native == std::endian::little, "scene hashes assume l
 
 /// The texture without padding and what is filled in later.
 Texture essence(Texture texture) {
-    texture.first_texel = texture.width = texture.height = 0;
-    texture.pad0 = texture.pad1 = texture.pad2 = texture.pad3 = 0;
+    texture.first_word = texture.width = texture.height = texture.format = 0;
+    texture.pad0 = texture.pad1 = 0;
     return texture;
 }
 
 Emitter essence(Emitter emitter) {
     emitter.triangle = 0;
-    emitter.area = emitter.probability = emitter.cdf = 0;
+    emitter.tree_way = 0;
+    emitter.probability = emitter.cdf = 0;
     return emitter;
 }
 
@@ -33,7 +34,8 @@ void add_textures(Hasher& hasher, const Scene& scene) {
     for (const TextureImage& image : scene.images) {
         hasher.add(image.width);
         hasher.add(image.height);
-        hasher.add_array(image.texels);
+        hasher.add(image.format);
+        hasher.add_array(image.words);
     }
 }
 
@@ -46,6 +48,31 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.environment.height);
     hasher.add_array(scene.environment.radiance);
     hasher.add(scene.environment.to_world.m);
+    if (scene.environment.is_interpolated) {
+        hasher.add(true);
+    }
+    if (scene.environment.sun_half_angle > 0.0f) {
+        hasher.add(scene.environment.sun_direction);
+        hasher.add(scene.environment.sun_half_angle);
+        hasher.add(scene.environment.sun_radiance);
+    }
+}
+
+void add_camera(Hasher& hasher, const SceneCamera& camera) {
+    hasher.add(camera.to_world.m);
+    hasher.add(camera.fov_x_degrees);
+    hasher.add(camera.width);
+    hasher.add(camera.height);
+    hasher.add(static_cast<int>(camera.kind));
+    for (const double number :
+         {camera.center_x, camera.center_y, camera.film_part, camera.aperture_radius, camera.focus_distance,
+          camera.near_clip, camera.far_clip, camera.filter.radius, camera.filter.b, camera.filter.c}) {
+        hasher.add(number);
+    }
+    hasher.add(static_cast<int>(camera.filter.kind));
+    for (const bool choice : {camera.sample_border, camera.hide_emitters, camera.is_monochrome}) {
+        hasher.add(static_cast<int>(choice));
+    }
 }
 
 }  // namespace
@@ -53,14 +80,13 @@ void add_lights(Hasher& hasher, const Scene& scene) {
 std::uint64_t scene_hash(const Scene& scene) {
     Hasher hasher;
     hasher.add_array(scene.vertices);
+    hasher.add_array(scene.vertex_colors);
     hasher.add_array(scene.triangles);
     hasher.add_array(scene.materials);
+    hasher.add_array(scene.transmission_curves);
     add_textures(hasher, scene);
     add_lights(hasher, scene);
-    hasher.add(scene.camera.to_world.m);
-    hasher.add(scene.camera.fov_x_degrees);
-    hasher.add(scene.camera.width);
-    hasher.add(scene.camera.height);
+    add_camera(hasher, scene.camera);
     hasher.add(scene.max_depth);
     hasher.add(scene.samples_per_pixel);
     return hasher.hash64();

@@ -8,6 +8,7 @@
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj_loader.h"
+#include "host/scene/vertex_colors.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -33,7 +34,7 @@ constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene},
 bool has_light(const Scene& scene) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
            std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
-               return !is_zero(scene.materials[triangle.material].emission);
+               return !is_zero(scene.materials[triangle.material].emission.value);
            });
 }
 
@@ -65,6 +66,8 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
                                          "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
     }
     Scene scene = loader->load(file, options);
+    NoteSink notes(scene.notes, options.strict);
+    finish_vertex_colors(scene, notes);
     remark_emptiness(scene);
     return scene;
 }

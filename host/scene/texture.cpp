@@ -1,45 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/texture.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "host/base/half.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The part of x above its floor, in [0, 1]; rounding gives 1 for a tiny negative x. 0 if x is not finite.
-float fraction(float x) {
-    return std::isfinite(x) ? x - std::floor(x) : 0.0f;
+/// The index of the texel that stands at place i of a row or column of n texels.
+int wrap_texel(int i, int n, uint wrap) {
+    if (wrap == NEARLIGHT_WRAP_CLAMP) {
+        return std::clamp(i, 0, n - 1);
+    }
+    const int period = wrap == NEARLIGHT_WRAP_MIRROR ? 2 * n : n;
+    i %= period;
+    i += i < 0 ? period : 0;
+    return i < n ? i : period - 1 - i;
 }
 
-/// Wraps i, which is from −1 to n, into 0 to n − 1.
-int wrap(int i, int n) {
-    return i < 0 ? i + n : (i >= n ? i - n : i);
+/// A coordinate near 0 where the texture looks the same, so that large coordinates lose no precision.
+float reduce_coordinate(float s, uint wrap) {
+    if (!std::isfinite(s)) {
+        return 0.0f;
+    }
+    return wrap == NEARLIGHT_WRAP_CLAMP ? std::clamp(s, -1.0f, 2.0f) : s - 2.0f * std::floor(0.5f * s);
 }
 
-Vec3 checkerboard(const Texture& texture, float s, float t) {
-    return (s < 0.5f) == (t < 0.5f) ? texture.color0 : texture.color1;
-}
-
-Vec3 mix(Vec3 a, Vec3 b, float weight) {
-    return a * (1.0f - weight) + b * weight;
-}
-
-Vec3 bilinear(const TextureImage& image, float s, float t) {
-    const float x = s * static_cast<float>(image.width) - 0.5f;
-    const float y = (1.0f - t) * static_cast<float>(image.height) - 0.5f;
-    const float left = std::floor(x);
-    const float top = std::floor(y);
-    const int x0 = wrap(static_cast<int>(left), image.width);
-    const int x1 = wrap(static_cast<int>(left) + 1, image.width);
-    const int y0 = wrap(static_cast<int>(top), image.height);
-    const int y1 = wrap(static_cast<int>(top) + 1, image.height);
+Vec3 bitmap_color(const TextureImage& image, const Texture& texture, float s, float t) {
     const auto texel = [&](int column, int row) {
-        return decode_texel(
-            image.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(column)]);
+        const int x = wrap_texel(column, image.width, texture.wrap_s);
+        const int y = wrap_texel(row, image.height, texture.wrap_t);
+        return texel_color(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                      static_cast<std::size_t>(x));
     };
-    return mix(mix(texel(x0, y0), texel(x1, y0), x - left), mix(texel(x0, y1), texel(x1, y1), x - left),
-               y - top);
+    const float centre = texture.filter == NEARLIGHT_FILTER_NEAREST ? 0.0f : 0.5f;
+    const float x = reduce_coordinate(s, texture.wrap_s) * static_cast<float>(image.width) - centre;
+    const float y = (1.0f - reduce_coordinate(t, texture.wrap_t)) * static_cast<float>(image.height) - centre;
+    const int x0 = static_cast<int>(std::floor(x));
+    const int y0 = static_cast<int>(std::floor(y));
+    if (texture.filter == NEARLIGHT_FILTER_NEAREST) {
+        return texel(x0, y0);
+    }
+    const float fx = x - static_cast<float>(x0);
+    const float fy = y - static_cast<float>(y0);
+    Vec3 color{0, 0, 0};
+    for (int i = 0; i < 4; ++i) {
+        const float wx = (i & 1) != 0 ? fx : 1.0f - fx;
+        const float wy = (i & 2) != 0 ? fy : 1.0f - fy;
+        color += texel(x0 + (i & 1), y0 + (i >> 1)) * (wx * wy);
+    }
+    return color;
+}
+
+/// The parameter that a checkerboard has at (s, t).
+const Parameter& field_at(const Texture& texture, float s, float t) {
+    return (s - std::floor(s) > 0.5f) == (t - std::floor(t) > 0.5f) ? texture.color0 : texture.color1;
+}
+
+Vec3 mean_color(const TextureImage& image) {
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::array<double, 3> sum{};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 color = texel_color(image, i);
+        sum[0] += static_cast<double>(color.x);
+        sum[1] += static_cast<double>(color.y);
+        sum[2] += static_cast<double>(color.z);
+    }
+    const double scale = 1.0 / std::max<double>(1.0, static_cast<double>(count));
+    return {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+            static_cast<float>(sum[2] * scale)};
 }
 
 }  // namespace
@@ -62,14 +93,55 @@ Vec3 decode_texel(std::uint32_t texel) {
     return {linear[texel & 255u], linear[(texel >> 8u) & 255u], linear[(texel >> 16u) & 255u]};
 }
 
-Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v) {
-    const Texture& p = texture.parameters;
-    const float s = fraction(p.u_scale * u + p.u_shear * v + p.u_offset);
-    const float t = fraction(p.v_shear * u + p.v_scale * v + p.v_offset);
-    if (p.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
-        return checkerboard(p, s, t);
+Vec3 texel_color(const TextureImage& image, std::size_t texel) {
+    if (image.format == NEARLIGHT_TEXELS_HALF) {
+        const std::uint32_t low = image.words[2 * texel];
+        const std::uint32_t high = image.words[2 * texel + 1];
+        return {half_to_float(static_cast<std::uint16_t>(low & 0xffffu)),
+                half_to_float(static_cast<std::uint16_t>(low >> 16u)),
+                half_to_float(static_cast<std::uint16_t>(high & 0xffffu))};
     }
-    return bilinear(scene.images[static_cast<std::size_t>(texture.image)], s, t);
+    const std::uint32_t word = image.words[texel];
+    if (image.format == NEARLIGHT_TEXELS_LINEAR8) {
+        return Vec3{static_cast<float>(word & 255u), static_cast<float>((word >> 8u) & 255u),
+                    static_cast<float>((word >> 16u) & 255u)} /
+               255.0f;
+    }
+    return decode_texel(word);
+}
+
+Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v, Vec3 vertex_color) {
+    const Texture& p = texture.parameters;
+    const float s = p.u_scale * u + p.u_shear * v + p.u_offset;
+    const float t = p.v_shear * u + p.v_scale * v + p.v_offset;
+    if (p.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
+        return parameter_value(scene, field_at(p, s, t), u, v, vertex_color);
+    }
+    return p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR
+               ? vertex_color
+               : bitmap_color(scene.images[static_cast<std::size_t>(texture.image)], p, s, t);
+}
+
+Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v, Vec3 vertex_color) {
+    return parameter.texture < 0
+               ? parameter.value
+               : parameter.value * texture_color(scene,
+                                                 scene.textures[static_cast<std::size_t>(parameter.texture)],
+                                                 u, v, vertex_color);
+}
+
+Vec3 mean_value(const Scene& scene, const Parameter& parameter) {
+    if (parameter.texture < 0) {
+        return parameter.value;
+    }
+    const SceneTexture& texture = scene.textures[static_cast<std::size_t>(parameter.texture)];
+    const Texture& p = texture.parameters;
+    if (p.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
+        return parameter.value * ((mean_value(scene, p.color0) + mean_value(scene, p.color1)) * 0.5f);
+    }
+    return p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR
+               ? parameter.value
+               : parameter.value * mean_color(scene.images[static_cast<std::size_t>(texture.image)]);
 }
 
 }  // namespace nearlight::core

@@ -14,24 +14,41 @@
 
 namespace nearlight::core {
 
-/// Reads each file once, however many materials use it.
+/// What the numbers of an image file stand for.
+struct TexelRule {
+    /// 0: sRGB-encoded, except in files of floats; otherwise linear = number to the power of gamma.
+    float gamma = 0.0f;
+    bool is_number = false;  ///< one number, the luminance of the colour
+    bool is_signed = false;  ///< numbers below 0 mean something
+    int channel = -1;        ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
+    /// Numbers below it become 0 and all others 1; 0: they stay what they are.
+    float cutoff = 0.0f;
+
+    auto operator<=>(const TexelRule&) const = default;
+};
+
+/// Reads each file once for each rule, however many materials use it. Images of 8 bits a channel stay what
+/// they are, others become half floats. Numbers that are not finite count as 0, and negative colours too;
+/// halves end at ±65504. A note says so once for each file.
 class TextureLoader {
   public:
     TextureLoader(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes) {}
 
-    /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read. `linear`
-    /// says that the file's numbers are reflectances rather than sRGB-encoded; those of float files always
-    /// are.
-    int load(const std::filesystem::path& image, bool linear, const std::filesystem::path& file, int line);
+    /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read.
+    int load(const std::filesystem::path& image, const TexelRule& rule, const std::filesystem::path& file,
+             int line);
 
-    /// Adds an image that has no file of its own, and returns its index. `linear` means what it does in
-    /// load().
-    int add(const Image& image, const std::string& name, bool linear);
+    /// Adds an image that has no file of its own, and returns its index.
+    int add(const Image& image, const std::string& name, const TexelRule& rule,
+            const std::filesystem::path& file, int line);
 
   private:
+    int add_texels(const Image& image, const std::string& name, const TexelRule& rule, bool holds_floats,
+                   const Note& place);
+
     Scene& scene_;
     NoteSink& notes_;
-    std::map<std::pair<std::filesystem::path, bool>, int> loaded_;
+    std::map<std::pair<std::filesystem::path, TexelRule>, int> loaded_;
 };
 
 /// Throws the error on unless it is that of a broken file, which a note reports. Any other cause (a missing
@@ -39,10 +56,10 @@ class TextureLoader {
 void throw_unless_file(const Error& error);
 /// A bitmap texture of an image in Scene::images, without a placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
-/// The mean of an image's linear colours.
-Vec3 mean_color(const TextureImage& image);
-/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Throws
-/// Error(ErrorKind::file).
-EnvironmentLight load_environment(const std::filesystem::path& image, float scale);
+/// Adds a texture to the scene and returns its index.
+int add_texture(Scene& scene, const SceneTexture& texture);
+/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Pixels that are negative or
+/// not finite are black in that channel, and `bad_pixels` counts them. Throws Error(ErrorKind::file).
+EnvironmentLight load_environment(const std::filesystem::path& image, float scale, std::size_t& bad_pixels);
 
 }  // namespace nearlight::core

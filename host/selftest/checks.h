@@ -87,7 +87,7 @@ void check_camera_pass(Device& device, CheckResult& result);
 
 /// A case is a receiver on the inside of a sphere, where the indirect light of each depth is known, and the
 /// part of it that a clamp radius takes away.
-void check_bounce_tracer(Device& device, CheckResult& result);
+void check_receiver_paths(Device& device, CheckResult& result);
 /// A case is a local light, whose power and receivers must be those of Embree's rays, or the irradiance of a
 /// receiver from all lights of its packet.
 void check_local_lights(Device& device, CheckResult& result);

@@ -19,12 +19,14 @@ void check_film(Device& device, CheckResult& result) {
     const Buffer<ReceiverPacket> receivers(device, samples.receivers);
     const Buffer<CameraVertex> vertices(device, samples.vertices);
     const Buffer<IrradiancePacket> direct(device, samples.direct);
+    const Buffer<IrradiancePacket> gathered(device, samples.gathered);
     const Buffer<IrradiancePacket> indirect(device, samples.indirect);
     Buffer<float> sums(device, pixels * NEARLIGHT_FILM_CHANNELS);
     Buffer<float> layers(device, pixels * NEARLIGHT_LAYER_CHANNELS);
     sums.fill_zero();
     Film film(device);
-    film.add(receivers, vertices, direct, indirect, band, layout.width, layout.height, sums);
+    film.add(receivers, vertices, {.direct = direct, .gathered = gathered, .indirect = indirect}, band,
+             layout.width, layout.height, sums);
     film.resolve(sums, pixels, layout.samples, layers);
     const std::vector<float> found = layers.download();
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {

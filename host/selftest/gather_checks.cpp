@@ -18,7 +18,7 @@ constexpr float kGatherRadius = 0.05f;
 
 void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const Scene scene = make_sphere_room(3000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 64, 48);
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
     EdgeExcuse edges(bvh.triangles, max_component(bounds(scene).size()));

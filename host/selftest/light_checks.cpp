@@ -15,12 +15,12 @@
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
 #include "host/reference/test_rooms.h"
+#include "host/scene/camera.h"
 #include "host/scene/emitters.h"
-#include "host/scene/pinhole_camera.h"
 #include "host/stages/close_range.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/metropolis_chains.h"
+#include "host/stages/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -37,17 +37,18 @@ bool is_excused(EdgeExcuse& edges, const Scene& scene, Vec3 x) {
 
 void check_direct_light(Device& device, CheckResult& result) {
     const Scene scene = make_delta_lit_room();
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 128, 96);
+    const Bvh bvh = build_scene_bvh(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 128, 96);
     std::vector<IrradiancePacket> expected(receivers.size());
-    direct_reference(EmbreeScene(scene), scene.delta_emitters, receivers, expected);
+    direct_reference(EmbreeScene(scene), scene, receivers, expected);
 
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const Buffer<ReceiverPacket> input(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
-    DirectLight(device).run(on_device, input, receivers.size(), 1, 1, irradiance);
+    Buffer<IrradiancePacket> indirect(device, receivers.size());
+    ReceiverPaths(device).run(on_device, input, receivers.size(), {.seed = 1}, irradiance, indirect);
     const std::vector<IrradiancePacket> found = irradiance.download();
-    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
         const float want = irradiance_at(expected, r).y;
         const float have = irradiance_at(found, r).y;
@@ -63,7 +64,7 @@ void check_light_tracing(Device& device, CheckResult& result) {
     for (const Emitter& emitter : build_emitter_table(scene).emitters) {
         flux += static_cast<double>(kPi) * emitter.area * emitter.radiance.x;
     }
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const CloseRange nothing{};
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&nothing, 1));
@@ -92,7 +93,7 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
     constexpr uint kSteps = 20;
     constexpr float kAlbedo = 0.5f;
     const Scene scene = make_even_room({kAlbedo, kAlbedo, kAlbedo});
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     PilotView blind;
     blind.importons.importons = Buffer<Importon>(device, 0);
     Gatherer gatherer(device);
@@ -125,14 +126,14 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
 
 void check_camera_pass(Device& device, CheckResult& result) {
     const Scene scene = make_sphere_room(kLightTriangles);
-    const PinholeCamera camera = make_pinhole_camera(scene.camera, 150, 101);
+    const Camera camera = make_camera(scene.camera, 150, 101);
     const CloseRange region = make_close_range(camera, 4.0f);
     const CameraBand band{.tile_row_count = tiles_across(camera.height)};
     const std::size_t packets = packet_count(band, camera.width);
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
-    CameraPass(device).run(on_device, Buffer<PinholeCamera>(device, std::span(&camera, 1)), camera.width,
+    CameraPass(device).run(on_device, Buffer<Camera>(device, std::span(&camera, 1)), camera.width,
                            Buffer<CloseRange>(device, std::span(&region, 1)), band, 1, receivers, vertices);
     const CameraComparison comparison =
         compare_with_embree(scene, camera, region, receivers.download(), vertices.download());

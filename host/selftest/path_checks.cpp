@@ -14,8 +14,9 @@
 #include "host/reference/surface.h"
 #include "host/reference/test_rooms.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/stages/bounce_tracer.h"
+#include "host/scene/reflectance.h"
 #include "host/stages/local_lights.h"
+#include "host/stages/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -68,7 +69,7 @@ double pair_geometry(const EmbreeScene& embree, const ReceiverPoint& x, const Vp
 Vec3 light_at(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
     Vec3 irradiance{0, 0, 0};
     for (const Emitter& emitter : scene.delta_emitters) {
-        irradiance += delta_light_irradiance(embree, emitter, light.position, light.normal);
+        irradiance += delta_light_irradiance(scene, embree, emitter, light.position, light.normal);
     }
     return irradiance;
 }
@@ -82,7 +83,7 @@ Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
         return {0, 0, 0};
     }
     const Surface surface = surface_at(scene, hit, -light.normal);
-    return light_at(scene, embree, light) * light_albedo(scene, *surface.material, surface.u, surface.v);
+    return light_at(scene, embree, light) * diffuse_albedo(scene, *surface.material, surface.u, surface.v);
 }
 
 /// Whether `radius` is the first halving of the widest radius that is small enough for the irradiance there,
@@ -172,29 +173,29 @@ double sum_of_lights(const LocalCase& data, std::size_t receiver) {
 
 // In a sphere of radius r a cosine-distributed ray meets the wall at a distance t with t²/4r² uniform in [0,
 // 1], so that a clamp radius R ≤ 2r takes away R²/8r² of the light. The wall is equally bright everywhere.
-void check_bounce_tracer(Device& device, CheckResult& result) {
+void check_receiver_paths(Device& device, CheckResult& result) {
     constexpr float kRadius = 2.0f;
     constexpr float kAlbedo = 0.8f;
     constexpr uint kSamples = 1024;
     const Scene scene = make_lit_sphere(kRadius, kAlbedo);
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const Buffer<ReceiverPacket> receivers(device, receivers_on(scene));
-    BounceTracer tracer(device);
+    ReceiverPaths stage(device);
     for (const uint bounces : {1u, 2u, 4u}) {
         const double light = (1 - std::pow(kAlbedo, bounces)) / (1 - kAlbedo) * kAlbedo / (kRadius * kRadius);
         for (const float clamp_radius : {0.5f * kRadius, kRadius, 2 * kRadius, kInfinity}) {
             const double share =
                 clamp_radius < kInfinity ? std::pow(double{clamp_radius} / kRadius, 2) / 8 : 1.0;
-            Buffer<IrradiancePacket> irradiance(device, 1);
-            irradiance.fill_zero();
-            tracer.run(
+            Buffer<IrradiancePacket> direct(device, 1);
+            Buffer<IrradiancePacket> indirect(device, 1);
+            stage.run(
                 on_device, receivers, 1,
-                {.sample_count = kSamples, .bounce_count = bounces, .clamp_radius = clamp_radius, .seed = 4},
-                irradiance);
+                {.path_count = kSamples, .max_edges = bounces + 1, .clamp_radius = clamp_radius, .seed = 4},
+                direct, indirect);
             // Single receivers are compared up to two bounces only: directions are well spread, but from the
             // third bounce on weak paths end by chance, which adds noise.
             double mean = 0;
-            for (const Vec3 found : lanes_of(irradiance.download_one(0))) {
+            for (const Vec3 found : lanes_of(indirect.download_one(0))) {
                 mean += found.y / NEARLIGHT_PACKET_SIZE;
                 if (bounces < 3) {
                     result.expect(std::abs(found.y - share * light) <= 0.03 * share * light);
@@ -207,9 +208,9 @@ void check_bounce_tracer(Device& device, CheckResult& result) {
 
 void check_local_lights(Device& device, CheckResult& result) {
     const Scene scene = make_delta_lit_room();
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 48, 48);
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const Bvh bvh = build_scene_bvh(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 48, 48);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const EmbreeScene embree(scene);
     const Buffer<ReceiverPacket> input(device, receivers);
     const LocalVpls no_vpls(device);
@@ -226,7 +227,7 @@ void check_local_lights(Device& device, CheckResult& result) {
                          slots.radii.download(),
                          slots.flags.download(),
                          slots.seen_by.download()};
-    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t slot = 0; slot < data.lights.size(); ++slot) {
         if (data.flags[slot] != 0) {
             result.expect(light_fits(data, slot) || is_excused(edges, data, slot));

@@ -7,9 +7,12 @@
 #include "host/reference/light_sampler.h"
 #include "host/reference/test_rays.h"
 #include "host/reference/test_rooms.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/material_model.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/scene/reflectance.h"
 #include "host/stages/close_range.h"
+#include "host/stages/device_scene.h"
 #include "host/stages/light_visibility.h"
 #include "host/stages/triangle_classifier.h"
 #include "host/stages/vpl_placement.h"
@@ -39,7 +42,7 @@ float distance_outside(const TriangleCorners& t, Vec3 p) {
 Scene make_room_of_two_lights() {
     Scene scene = make_delta_lit_room();
     scene.delta_emitters = {scene.delta_emitters.front(), scene.delta_emitters.back()};
-    scene.materials[1].flags = 0;
+    scene.materials[1] = diffuse_material({0.5f, 0.5f, 0.5f});
     return scene;
 }
 
@@ -47,12 +50,12 @@ Scene make_room_of_two_lights() {
 bool is_lit(const Scene& scene, const EmbreeScene& embree, uint id, Vec3 point, float extent) {
     const TriangleCorners t = corners_of(scene, id);
     const Vec3 front = normalize(cross(t.b - t.a, t.c - t.a));
-    const uint flags = scene.materials[scene.triangles[id].material].flags;
-    const bool two_sided = (flags & NEARLIGHT_MATERIAL_TWO_SIDED) != 0;
+    const bool two_sided = reflects_back(scene, scene.materials[scene.triangles[id].material]);
     for (const Emitter& light : scene.delta_emitters) {
         for (const Vec3 side : {front, -front}) {
             if ((side == front || two_sided) &&
-                !is_zero(delta_light_irradiance(embree, light, stand_off(point, side, extent), side))) {
+                !is_zero(
+                    delta_light_irradiance(scene, embree, light, stand_off(point, side, extent), side))) {
                 return true;
             }
         }
@@ -86,13 +89,13 @@ void check_classifier(Device& device, CheckResult& result) {
     SceneCamera camera;
     camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 55;
-    const CloseRange region = make_close_range(make_pinhole_camera(camera, 320, 200), kRange);
+    const CloseRange region = make_close_range(make_camera(camera, 320, 200), kRange);
     Buffer<uint> flags(device, kPlacementTriangles);
     Buffer<float> areas(device, kPlacementTriangles);
     TriangleClassifier(device).classify(
         Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
-        Buffer<Material>(device, scene.materials), Buffer<CloseRange>(device, std::span(&region, 1)),
-        kPlacementTriangles, flags, areas);
+        upload_scene(device, scene, build_scene_bvh(scene)).materials,
+        Buffer<CloseRange>(device, std::span(&region, 1)), kPlacementTriangles, flags, areas);
     const std::vector<uint> found = flags.download();
     for (uint i = 0; i < kPlacementTriangles; ++i) {
         if (triangle_area(scene, scene.triangles[i]) < 1e-6f) {
@@ -109,7 +112,7 @@ void check_classifier(Device& device, CheckResult& result) {
 void check_light_visibility(Device& device, CheckResult& result) {
     constexpr uint kUntouched = 7;
     const Scene scene = make_room_of_two_lights();
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const EmbreeScene embree(scene);
     std::vector<uint> ids;
     std::vector<uint> flags(scene.triangles.size(), kUntouched);

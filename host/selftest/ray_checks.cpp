@@ -15,7 +15,7 @@ constexpr std::size_t kRays = 2000;
 
 struct RayBench {
     Scene scene = make_triangle_soup(kRayTriangles, 31);
-    Bvh bvh = build_scene_bvhs(scene).opaque;
+    Bvh bvh = build_scene_bvh(scene);
     std::vector<RayFamily> families = make_ray_families(scene, kRays, 32);
 };
 

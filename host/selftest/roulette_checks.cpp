@@ -49,7 +49,7 @@ struct RouletteCase {
 
 RouletteCase make_case(Device& device) {
     const Scene scene = make_sphere_room(3000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     RouletteCase data;
     data.vpls = make_traced_vpls(scene, bvh, 150);
     for (std::size_t i = 0; i < data.vpls.size(); ++i) {

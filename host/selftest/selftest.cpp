@@ -28,7 +28,7 @@ std::vector<NamedCheck> all_checks() {
             {"gather rays", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::rays, r); }},
             {"roulette", check_roulette},
             {"direct light", check_direct_light},
-            {"bounce tracing", check_bounce_tracer},
+            {"paths of receivers", check_receiver_paths},
             {"light tracing", check_light_tracing},
             {"VPL contribution", check_vpl_contribution},
             {"reverse VPLs", check_reverse_vpls},

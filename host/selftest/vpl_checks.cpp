@@ -2,6 +2,7 @@
 #include "host/selftest/checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,9 +16,10 @@
 #include "host/reference/surface.h"
 #include "host/reference/test_rays.h"
 #include "host/reference/test_rooms.h"
+#include "host/scene/camera.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/scene/reflectance.h"
 #include "host/stages/close_range.h"
 #include "host/stages/patch_vpls.h"
 #include "host/stages/pilot_view.h"
@@ -76,6 +78,8 @@ std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count)
         const float u = random.uniform();
         const float v = (1 - u) * random.uniform();
         SurfaceSample& sample = samples.emplace_back();
+        sample.u = u;
+        sample.v = v;
         sample.position = a + b * u + c * v;
         sample.triangle = id;
         sample.normal = normal;
@@ -158,7 +162,7 @@ bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, c
     const float slack = 2e-5f * extent / std::max(-dot(surface.geometric_normal, direction), 1e-3f);
     return length(surface.position - on_surface) <= slack &&
            length(surface.geometric_normal - vpl.normal) <= 1e-4f &&
-           length(light_albedo(scene, *surface.material, surface.u, surface.v) - vpl.power) <= 1e-5f &&
+           length(diffuse_albedo(scene, *surface.material, surface.u, surface.v) - vpl.power) <= 1e-5f &&
            vpl.depth == 0;
 }
 
@@ -173,7 +177,7 @@ void check_vpl_light(Device& device, CheckResult& result) {
     Buffer<Vpl> lit(device, vpls);
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<IrradiancePacket> sum(device, ramp(packets));
-    stage.make_receivers(lit, kCount, receivers);
+    stage.make_receivers(lit, kCount, VplSide::emits, receivers);
     stage.apply(light, kCount, lit);
     stage.add(light, packets, sum);
     const std::vector<Vpl> found = lit.download();
@@ -195,14 +199,15 @@ void check_patch_vpls(Device& device, CheckResult& result) {
     constexpr std::size_t kSamples = 4000;
     constexpr float kArea = 0.25f;  // m² per sample
     Scene scene = make_triangle_soup(1000, 23);
-    scene.materials = {diffuse_material({0.5f, 0.25f, 0.125f}), diffuse_material({0.2f, 0.4f, 0.8f})};
-    scene.materials[1].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    scene.materials = {diffuse_material({0.5f, 0.25f, 0.125f})};
+    add_two_sided(scene, diffuse_material({0.2f, 0.4f, 0.8f}));
+    const std::array<Vec3, 2> albedos{Vec3{0.5f, 0.25f, 0.125f}, Vec3{0.2f, 0.4f, 0.8f}};
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        scene.triangles[i].material = i % 2;
+        scene.triangles[i].material = i % 2 == 0 ? 0 : static_cast<uint>(scene.materials.size()) - 1;
     }
     scene.camera.to_world = look_at({0.3, -0.2, -1.5}, {-0.1, 0.1, 1.0}, {0.3, 1, 0.2});
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 320, 200), 1.5f);
-    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvhs(scene));
+    const CloseRange range = make_close_range(make_camera(scene.camera, 320, 200), 1.5f);
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     const float extent = on_device.host_info.extent;
     const std::vector<SurfaceSample> samples = random_samples(scene, kSamples);
     CloseRegion region;
@@ -215,14 +220,14 @@ void check_patch_vpls(Device& device, CheckResult& result) {
     const std::vector<uint> present = flags.download();
     for (std::size_t i = 0; i < found.size(); ++i) {
         const SurfaceSample& sample = samples[i / 2];
-        const Material& material = scene.materials[scene.triangles[sample.triangle].material];
-        const bool reflects = i % 2 == 0 || material.flags != 0;
+        const bool two_sided = scene.triangles[sample.triangle].material != 0;
+        const bool reflects = i % 2 == 0 || two_sided;
         const bool right_flag =
             reflects ? close_flag_fits(range, sample.position, present[i] != 0, 1e-5f) : present[i] == 0;
         const Vec3 side = i % 2 == 0 ? sample.normal : -sample.normal;
         result.expect(right_flag &&
                       (present[i] == 0 ||
-                       (found[i].normal == side && found[i].power == material.base * kArea &&
+                       (found[i].normal == side && found[i].power == albedos[two_sided ? 1 : 0] * kArea &&
                         found[i].flags == NEARLIGHT_VPL_CLOSE &&
                         length(found[i].position - stand_off(sample.position, side, extent)) < 1e-6f)));
     }
@@ -230,9 +235,9 @@ void check_patch_vpls(Device& device, CheckResult& result) {
 
 void check_vpl_contribution(Device& device, CheckResult& result) {
     const Scene scene = make_even_room({0.5f, 0.5f, 0.5f});
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvhs.opaque, 16, 16);
-    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvhs.opaque, 150);
+    const Bvh bvh = build_scene_bvh(scene);
+    const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 16, 16);
+    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 150);
     Pcg32 random(1);
     std::vector<CameraVertex> response(receivers.size() * NEARLIGHT_PACKET_SIZE);
     for (CameraVertex& vertex : response) {
@@ -241,9 +246,9 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
     }
     PilotView view;
     set_importons(device, view, make_importons(receivers, response));
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const EmbreeScene embree(scene);
-    EdgeExcuse edges(bvhs.opaque.triangles, on_device.host_info.extent);
+    EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     Gatherer gatherer(device);
     VplContribution contribution(device, gatherer);
     const Buffer<Vpl> on_device_vpls(device, vpls);
@@ -268,11 +273,11 @@ void check_vpl_contribution(Device& device, CheckResult& result) {
 void check_reverse_vpls(Device& device, CheckResult& result) {
     constexpr uint kRaysPerPoint = 40;
     const Scene scene = make_even_room({0.8f, 0.5f, 0.3f});
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    const DeviceScene on_device = upload_scene(device, scene, bvhs);
+    const Bvh bvh = build_scene_bvh(scene);
+    const DeviceScene on_device = upload_scene(device, scene, bvh);
     const float extent = on_device.host_info.extent;
     std::vector<Importon> importons;
-    for (const ReceiverPacket& packet : make_camera_receivers(scene, bvhs.opaque, 64, 64)) {
+    for (const ReceiverPacket& packet : make_camera_receivers(scene, bvh, 64, 64)) {
         const ReceiverPoint x = receiver_at(std::span(&packet, 1), 0);  // one per tile
         Importon& importon = importons.emplace_back();
         importon.position = x.position;
@@ -288,7 +293,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
         return;
     }
     const EmbreeScene embree(scene);
-    EdgeExcuse edges(bvhs.opaque.triangles, extent);
+    EdgeExcuse edges(bvh.triangles, extent);
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Importon& point = importons[i / kRaysPerPoint];
         result.expect(landed_right(scene, embree, extent, point, found[i]) ||
@@ -297,7 +302,7 @@ void check_reverse_vpls(Device& device, CheckResult& result) {
     const std::size_t packets = receiver_packet_count(found.size());
     Buffer<ReceiverPacket> receivers(device, packets);
     GatherSums<Importon> density(device, packets);
-    VplLight(device).make_receivers(Buffer<Vpl>(device, found), found.size(), receivers);
+    VplLight(device).make_receivers(Buffer<Vpl>(device, found), found.size(), VplSide::emits, receivers);
     stage.measure_density(on_device, points, receivers, packets, density);
     std::vector<IrradiancePacket> expected(packets);
     const std::vector<ReceiverPacket> places = receivers.download();

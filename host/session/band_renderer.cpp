@@ -6,9 +6,22 @@
 namespace nearlight::core {
 namespace {
 
-uint direct_samples_per_sample(const GatherSettings& settings) {
-    return std::max(1u, (settings.direct_samples_per_pixel + settings.samples_per_pixel - 1) /
-                            settings.samples_per_pixel);
+/// Reflections that weigh less than this get no receiver. A receiver asks all VPLs, and reflections lie
+/// scattered, so that theirs cost most; the noise of a traced path weighs as little as the reflection does.
+constexpr float kMinReceiverWeight = 0.2f;
+
+/// The part of `per_pixel` that each camera sample takes, at least 1.
+uint per_sample(uint per_pixel, const GatherSettings& settings) {
+    return std::max(1u, (per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
+}
+
+ReceiverPathSettings path_settings(const Picture& picture) {
+    const GatherSettings& settings = picture.settings;
+    return {.light_samples = per_sample(settings.direct_samples_per_pixel, settings),
+            .path_count = settings.compensate ? per_sample(settings.rays_per_pixel, settings) : 0,
+            .max_edges = std::max(picture.view.max_depth, 1u) - 1,
+            .clamp_radius = picture.view.clamp_radius,
+            .seed = picture.seed};
 }
 
 std::size_t pixels_per_band(const Picture& picture) {
@@ -23,6 +36,7 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       vertices(device, packets * NEARLIGHT_PACKET_SIZE),
       direct(device, packets),
       indirect(device, packets),
+      gathered(device, packets),
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
 
@@ -67,13 +81,13 @@ std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
          .seed = picture_.seed});
 }
 
-/// Gathers the indirect light of a batch's receivers. Returns false if cancelled.
-bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress& progress) {
+/// Gathers the light of VPLs for a batch's receivers. Returns false if cancelled.
+bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& progress) {
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
     if (picture_.vpls.local) {
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
-                                         buffers_.indirect, progress);
+                                         buffers_.gathered, progress);
     }
     const std::optional<VplSelection> selection = select_vpls(batch);
     return stages_.gatherer.gather({.tree = scene_.tree,
@@ -82,34 +96,45 @@ bool BandRenderer::gather_indirect(const CameraBand& batch, const GatherProgress
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
                                     .clamp_radius = picture_.view.clamp_radius,
-                                    .selection = selection ? &*selection : nullptr},
-                                   buffers_.indirect, progress);
+                                    .selection = selection ? &*selection : nullptr,
+                                    .curves = scene_.curves_in_use()},
+                                   buffers_.gathered, progress);
+}
+
+/// Direct light of a batch's receivers, and what their rays find.
+void BandRenderer::trace_receivers(std::size_t packets) {
+    if (picture_.settings.indirect_only && !picture_.settings.compensate) {
+        buffers_.direct.fill_zero();
+        buffers_.indirect.fill_zero();
+        return;
+    }
+    stages_.receiver_paths.run(scene_, buffers_.receivers, packets, path_settings(picture_), buffers_.direct,
+                               buffers_.indirect);
+    if (picture_.settings.indirect_only) {
+        buffers_.direct.fill_zero();
+    }
 }
 
 /// Renders one batch: receivers, direct light, indirect light, film. Returns false if cancelled.
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
-    const GatherSettings& settings = picture_.settings;
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
                             buffers_.vertices);
-    if (settings.indirect_only) {
-        buffers_.direct.fill_zero();
-    } else {
-        stages_.direct_light.run(scene_, buffers_.receivers, packets, direct_samples_per_sample(settings),
-                                 picture_.seed, buffers_.direct);
-    }
-    const bool finished = gather_indirect(batch, progress);
+    trace_receivers(packets);
+    const bool finished = gather_vpls(batch, progress);
     if (finished) {
-        stages_.film.add(buffers_.receivers, buffers_.vertices, buffers_.direct, buffers_.indirect.light,
-                         batch, width, row_count, buffers_.sums);
+        stages_.film.add(
+            buffers_.receivers, buffers_.vertices,
+            {.direct = buffers_.direct, .gathered = buffers_.gathered.light, .indirect = buffers_.indirect},
+            batch, width, row_count, buffers_.sums);
     }
     return finished;
 }
 
 std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
     const uint width = picture_.view.camera.width;
-    const auto batches = picture_.plan.batches(index);
+    auto batches = picture_.plan.batches(index);
     const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE;
     const uint row_count = std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE,
                                     picture_.view.camera.height - first_row);
@@ -121,6 +146,9 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
             return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
         };
+        batches[i].max_depth = picture_.view.max_depth;
+        batches[i].min_weight = picture_.settings.compensate ? kMinReceiverWeight : 0.0f;
+        batches[i].light_samples = per_sample(picture_.settings.direct_samples_per_pixel, picture_.settings);
         if (!add_batch(batches[i], row_count, batch_progress)) {
             return std::nullopt;
         }

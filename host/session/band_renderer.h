@@ -11,9 +11,9 @@
 #include "host/session/plan.h"
 #include "host/session/view.h"
 #include "host/stages/camera_pass.h"
-#include "host/stages/direct_light.h"
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
+#include "host/stages/receiver_paths.h"
 #include "host/stages/roulette.h"
 
 namespace nearlight::core {
@@ -23,13 +23,13 @@ struct BandStages {
     BandStages(Device& on_device, GatherKernel gather_kernel)
         : device(on_device),
           camera_pass(device),
-          direct_light(device),
+          receiver_paths(device),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
 
     Device& device;
     CameraPass camera_pass;
-    DirectLight direct_light;
+    ReceiverPaths receiver_paths;
     Gatherer gatherer;
     Film film;
     // These stages are made when they are first needed.
@@ -62,20 +62,22 @@ class BandRenderer {
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
         Buffer<IrradiancePacket> direct;
-        GatherSums<Vpl> indirect;
+        Buffer<IrradiancePacket> indirect;
+        GatherSums<Vpl> gathered;
         Buffer<float> sums;
         Buffer<float> layers;
     };
 
+    void trace_receivers(std::size_t packets);
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
-    bool gather_indirect(const CameraBand& batch, const GatherProgress& progress);
+    bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(const CameraBand& batch);
     [[nodiscard]] const VplBuffer& vpls() const;
 
     BandStages& stages_;
     const DeviceScene& scene_;
     const Picture& picture_;
-    Buffer<PinholeCamera> camera_;
+    Buffer<Camera> camera_;
     Buffer<CloseRange> close_range_;
     VplBuffer own_vpls_;  ///< empty if picture.vpls is on this device
     BatchBuffers buffers_;

@@ -29,10 +29,10 @@ TreeShapes DevicePool::tree_shapes() const {
     return all;
 }
 
-void DevicePool::upload(const Scene& scene, const SceneTrees& trees) {
+void DevicePool::upload(const Scene& scene, const ShapedBvh& tree) {
     for (std::size_t i = devices_.size(); i-- > 0;) {
         try {
-            devices_[i]->scene = upload_scene(devices_[i]->device(), scene, trees, kernel_);
+            devices_[i]->scene = upload_scene(devices_[i]->device(), scene, tree, kernel_);
         } catch (const Error& error) {
             lose(i, error);
         }

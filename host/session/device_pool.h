@@ -44,7 +44,7 @@ class DevicePool {
     /// The shapes of trees that the devices need, all devices together.
     [[nodiscard]] TreeShapes tree_shapes() const;
     /// Uploads the scene to every device. The trees must have the shapes of tree_shapes().
-    void upload(const Scene& scene, const SceneTrees& trees);
+    void upload(const Scene& scene, const ShapedBvh& tree);
 
     /// Calls work(leader), and again with the next leader if it throws an Error.
     template <typename Work>

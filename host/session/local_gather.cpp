@@ -21,7 +21,8 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
                                                .vpl_count = group.count,
                                                .receivers = receivers,
                                                .packet_count = packet_count,
-                                               .clamp_radius = group.radius},
+                                               .clamp_radius = group.radius,
+                                               .curves = scene.curves_in_use()},
                                               part, [&](std::uint64_t done, std::uint64_t) {
                                                   return !progress || progress(pairs_before + done,
                                                                                vpls_.count * receiver_count);

@@ -38,7 +38,7 @@ struct RenderPlan {
 
 /// The bytes that one receiver takes in all buffers of a batch.
 inline constexpr std::size_t kBytesPerReceiver =
-    (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
+    (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
 
 /// Makes one plan for all devices. Its batches fit each device, and there are enough bands for faster devices
 /// to take more.

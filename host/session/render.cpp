@@ -39,6 +39,7 @@ void note_pass(const Prepared& pass, RenderReport& report) {
         report.range = pass.view.close_range.range;
         report.clamp_radius = pass.view.clamp_radius;
         report.max_depth = pass.view.max_depth;
+        report.filter = pass.view.scene_camera.filter.kind;
         report.close_fraction = pass.vpls.close_fraction;
     }
     report.close_vpls += pass.vpls.close_count;

@@ -30,7 +30,8 @@ struct RenderReport {
     float range = 0;         ///< distance at which the close range ends, m
     float clamp_radius = 0;  ///< m
     uint max_depth = 0;      ///< maximum path length, as Mitsuba counts it
-    uint passes = 0;         ///< number of passes that were begun
+    FilterKind filter = FilterKind::box;
+    uint passes = 0;  ///< number of passes that were begun
     // The next five count all passes together.
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;

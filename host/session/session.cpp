@@ -10,6 +10,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 namespace {
@@ -47,6 +48,17 @@ std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<
     return packets;
 }
 
+/// Replaces the colours of all layers of light by their luminance.
+void make_monochrome(std::span<float> rows) {
+    for (std::size_t pixel = 0; pixel < rows.size(); pixel += NEARLIGHT_LAYER_CHANNELS) {
+        for (const std::size_t layer :
+             {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT, NEARLIGHT_LAYER_INDIRECT}) {
+            float* const rgb = rows.data() + pixel + layer;
+            std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
+        }
+    }
+}
+
 SamplingTask sampling_task(const DeviceScene& scene, const View& view, const PilotView& pilot,
                            const SamplingSettings& settings, uint seed) {
     return {.scene = scene,
@@ -68,11 +80,11 @@ Session::Session(std::span<Device* const> devices, const Scene& scene, const Ses
     : scene_(scene), pool_(devices, options.gather_kernel) {
     const Stopwatch total;
     Stopwatch watch;
-    const SceneTrees trees =
-        find_or_build_scene_trees(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
-                                  {.folder = pool_.leader().device().options().cache_dir});
+    const ShapedBvh tree =
+        find_or_build_scene_tree(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),
+                                 {.folder = pool_.leader().device().options().cache_dir});
     seconds_.build_bvh = watch.lap();
-    pool_.upload(scene, trees);
+    pool_.upload(scene, tree);
     seconds_.upload = watch.lap();
     seconds_.total = total.seconds();
 }
@@ -104,13 +116,16 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
                               const RowSink& sink, const GatherFraction& progress) {
-    const PinholeCamera& camera = view.camera;
+    const Camera& camera = view.camera;
     const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
-                                      settings.samples_per_pixel, pool_.leader().scene.has_lobes ? 2 : 1);
+                                      settings.samples_per_pixel, pool_.leader().scene.divides_paths ? 2 : 1);
     const Picture picture{.view = view, .settings = settings, .seed = seed, .plan = plan, .vpls = vpls};
     GatherOutcome outcome;
-    const auto take_band = [&](const FinishedBand& band) {
+    const auto take_band = [&](FinishedBand& band) {
         outcome.local_lights += band.local_lights;
+        if (view.scene_camera.is_monochrome) {
+            make_monochrome(band.rows);
+        }
         sink(band.rows);
     };
     BandOutcome shared = share_bands(plan.band_count(), band_window(plan, camera.width, pool_.size()),

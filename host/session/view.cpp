@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/base/message.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/close_range.h"
 
 namespace nearlight::core {
@@ -33,7 +33,7 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
     view.scene_camera = scene.camera;
     view.scene_camera.width = settings.width.value_or(scene.camera.width);
     view.scene_camera.height = settings.height.value_or(scene.camera.height);
-    view.camera = make_pinhole_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
+    view.camera = make_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
     view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
                                                                      : kDefaultMaxDepth);
     view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, seed);

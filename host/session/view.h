@@ -10,7 +10,7 @@ namespace nearlight::core {
 
 struct View {
     SceneCamera scene_camera;  ///< at the size to render
-    PinholeCamera camera{};
+    Camera camera{};
     CloseRange close_range{};
     PilotView pilot;            ///< in the memory of the device that led when the view was chosen
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m

@@ -13,13 +13,14 @@ std::size_t packet_count(const CameraBand& band, uint image_width) {
 CameraPass::CameraPass(Device& device)
     : program_(device, "camera_pass.cl", kViewProgram), camera_pass_(program_, "camera_pass") {}
 
-void CameraPass::run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
+void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
     const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
                               band.first_tile_row, band.tile_row_count, band.first_sample, band.sample_count,
-                              band.samples_per_pixel, band.branch_count, seed, receivers, vertices);
+                              band.samples_per_pixel, band.branch_count, band.max_depth, band.light_samples,
+                              band.min_weight, seed, receivers, vertices);
 }
 
 }  // namespace nearlight::core

@@ -15,6 +15,12 @@ struct CameraBand {
     uint sample_count = 1;
     uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
     uint branch_count = 1;       ///< 2 if camera paths may divide, else 1
+    uint max_depth = 8;          ///< maximum number of edges of a path from the camera to a light
+    /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
+    /// part; at least 1.
+    uint light_samples = 1;
+    /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
+    float min_weight = 0.0f;
 };
 
 /// The number of receiver packets in a band: tiles × samples × branches.
@@ -26,7 +32,7 @@ class CameraPass {
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
     /// kernels/camera_pass.cl states.
-    void run(const DeviceScene& scene, const Buffer<PinholeCamera>& camera, uint image_width,
+    void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);
 

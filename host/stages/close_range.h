@@ -7,9 +7,10 @@
 
 namespace nearlight::core {
 
-/// Makes the close range from the four sides of the view frustum and the plane through the camera that faces
-/// forward. `range` is in metres and may be infinite.
-CloseRange make_close_range(const PinholeCamera& camera, float range);
+/// Makes the close range from the four sides of the view frustum and the plane at the near clip that faces
+/// forward. It holds all that is seen nearer than `range`, through any part of a lens. `range` is in metres
+/// and may be infinite.
+CloseRange make_close_range(const Camera& camera, float range);
 
 /// Whether a point, however far away, is in the view frustum or at most `margin` metres beyond each of its
 /// planes. Points that something hides count too.

@@ -4,38 +4,40 @@
 #include <algorithm>
 
 #include "host/scene/emitters.h"
+#include "host/scene/reflectance.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The texels of all images one after the other, and the textures that say where each image begins.
+/// The words of all images one after the other, and the textures that say where each image begins.
 struct TexturePool {
     std::vector<Texture> textures;
-    std::vector<uint> texels;
+    std::vector<uint> words;
 };
 
 TexturePool pool_textures(const Scene& scene) {
     TexturePool pool;
-    std::vector<uint> first_texels;
+    std::vector<uint> first_words;
     for (const TextureImage& image : scene.images) {
-        first_texels.push_back(static_cast<uint>(pool.texels.size()));
-        pool.texels.insert(pool.texels.end(), image.texels.begin(), image.texels.end());
+        first_words.push_back(static_cast<uint>(pool.words.size()));
+        pool.words.insert(pool.words.end(), image.words.begin(), image.words.end());
     }
     for (const SceneTexture& texture : scene.textures) {
         Texture pooled = texture.parameters;
         if (pooled.kind == NEARLIGHT_TEXTURE_BITMAP) {
             const auto image = static_cast<std::size_t>(texture.image);
-            pooled.first_texel = first_texels[image];
+            pooled.first_word = first_words[image];
             pooled.width = static_cast<uint>(scene.images[image].width);
             pooled.height = static_cast<uint>(scene.images[image].height);
+            pooled.format = scene.images[image].format;
         }
         pool.textures.push_back(pooled);
     }
     return pool;
 }
 
-/// Averages the albedo over the centroids of a sample of triangles. That is good enough for the length of
-/// light walks, which is all that it steers.
+/// Averages what surfaces reflect or let through over the centroids of a sample of triangles. That is good
+/// enough for the length of light walks, which is all that it steers.
 float estimate_mean_albedo(const Scene& scene) {
     const std::size_t stride = std::max<std::size_t>(1, scene.triangles.size() / 65536);
     double weighted = 0;
@@ -43,42 +45,77 @@ float estimate_mean_albedo(const Scene& scene) {
     for (std::size_t i = 0; i < scene.triangles.size(); i += stride) {
         const Triangle& triangle = scene.triangles[i];
         const Material& material = scene.materials[triangle.material];
-        if (is_glass(material)) {
-            continue;
-        }
         const Vertex& a = scene.vertices[triangle.v0];
         const Vertex& b = scene.vertices[triangle.v1];
         const Vertex& c = scene.vertices[triangle.v2];
         const double area = triangle_area(scene, triangle);
         weighted +=
-            area * luminance(light_albedo(scene, material, (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
+            area * luminance(mean_reflectance(scene, material, (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
         total += area;
     }
     return total > 0 ? static_cast<float>(weighted / total) : 0.5f;
 }
 
-bool divides_camera_paths(const Material& material) {
-    return material.lobe == NEARLIGHT_LOBE_COAT || material.lobe == NEARLIGHT_LOBE_DIELECTRIC ||
-           material.lobe == NEARLIGHT_LOBE_THIN_DIELECTRIC;
+/// The flags that say which sides of a material have a Lambertian part.
+uint diffuse_sides(const Scene& scene, const Material& material) {
+    const auto of_child = [&](uint i) { return diffuse_sides(scene, scene.materials[material.child[i]]); };
+    switch (material.model) {
+        case NEARLIGHT_BSDF_TWO_SIDED: {
+            const uint back = of_child(1) & NEARLIGHT_MATERIAL_DIFFUSE_FRONT;
+            return (of_child(0) & NEARLIGHT_MATERIAL_DIFFUSE_FRONT) |
+                   (back != 0 ? NEARLIGHT_MATERIAL_DIFFUSE_BACK : 0u);
+        }
+        case NEARLIGHT_BSDF_BLEND:
+            return of_child(0) | of_child(1);
+        case NEARLIGHT_BSDF_MASK:
+        case NEARLIGHT_BSDF_NORMAL_MAP:
+        case NEARLIGHT_BSDF_BUMP_MAP:
+            return of_child(0);
+        default:
+            break;
+    }
+    if (!has_diffuse(scene, material)) {
+        return 0;
+    }
+    const bool both = (material.flags & NEARLIGHT_MATERIAL_THIN) != 0;
+    return NEARLIGHT_MATERIAL_DIFFUSE_FRONT | (both ? NEARLIGHT_MATERIAL_DIFFUSE_BACK : 0u);
 }
 
-/// Uploads everything but the trees.
-DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool has_glass) {
+std::vector<Material> materials_with_sides(const Scene& scene) {
+    std::vector<Material> materials = scene.materials;
+    for (Material& material : materials) {
+        material.flags |= diffuse_sides(scene, material);
+    }
+    return materials;
+}
+
+/// Whether camera paths have two ways on from some surface: D and S, or reflection and what is let through.
+bool has_two_ways(const Scene& scene, const Material& material) {
+    return has_specular(scene, material) && (has_diffuse(scene, material) || lets_through(scene, material));
+}
+
+SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
+    return {.triangle_count = static_cast<uint>(scene.triangles.size()),
+            .emitter_count = static_cast<uint>(emitters.emitters.size()),
+            .delta_emitter_count = emitters.delta_emitter_count,
+            .extent = max_component(bounds(scene).size()),
+            .has_specular = std::ranges::any_of(
+                scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
+            .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
+            .light_node_count = static_cast<uint>(emitters.light_tree.size()),
+            .pad0 = 0};
+}
+
+/// Uploads everything but the tree.
+DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     const EmitterTable emitters = build_emitter_table(scene);
     const EnvironmentTable environment = build_environment_table(scene);
     const TexturePool pool = pool_textures(scene);
-    const Vec3 size = bounds(scene).size();
 
     DeviceScene on_device;
-    on_device.host_info = {.triangle_count = static_cast<uint>(scene.triangles.size()),
-                           .emitter_count = static_cast<uint>(emitters.emitters.size()),
-                           .delta_emitter_count = emitters.delta_emitter_count,
-                           .has_glass = has_glass ? 1u : 0u,
-                           .extent = max_component(size),
-                           .pad0 = 0,
-                           .pad1 = 0,
-                           .pad2 = 0};
-    on_device.has_lobes = std::any_of(scene.materials.begin(), scene.materials.end(), divides_camera_paths);
+    on_device.host_info = describe(scene, emitters);
+    on_device.divides_paths = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return has_two_ways(scene, material); });
     on_device.mean_albedo = estimate_mean_albedo(scene);
     on_device.total_power = emitters.total_power;
     for (const Triangle& triangle : scene.triangles) {
@@ -90,31 +127,32 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene, bool 
     };
     on_device.vertices = put(scene.vertices);
     on_device.triangles = put(scene.triangles);
-    on_device.materials = put(scene.materials);
+    on_device.materials = put(materials_with_sides(scene));
     on_device.textures = put(pool.textures);
-    on_device.texels = put(pool.texels);
+    on_device.texels = put(pool.words);
+    on_device.vertex_colors = put(scene.vertex_colors);
+    on_device.curves = put(scene.transmission_curves);
     on_device.emitters = put(emitters.emitters);
     on_device.environment = put(std::vector{environment.parameters});
     on_device.environment_pixels = put(environment.pixels);
     on_device.row_cdf = put(environment.row_cdf);
     on_device.column_cdf = put(environment.column_cdf);
+    on_device.light_nodes = put(emitters.light_tree);
     on_device.info = put(std::vector{on_device.host_info});
     return on_device;
 }
 
 }  // namespace
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees, GatherKernel kernel) {
-    DeviceScene on_device = upload_surfaces_and_lights(device, scene, trees.has_glass);
-    on_device.tree = upload(device, trees.opaque, tree_shapes(device, kernel));
-    on_device.glass = upload(device, trees.glass, ray_tree_shapes(device));
+DeviceScene upload_scene(Device& device, const Scene& scene, const ShapedBvh& tree, GatherKernel kernel) {
+    DeviceScene on_device = upload_surfaces_and_lights(device, scene);
+    on_device.tree = upload(device, tree, tree_shapes(device, kernel));
     return on_device;
 }
 
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs, GatherKernel kernel) {
-    DeviceScene on_device = upload_surfaces_and_lights(device, scene, bvhs.has_glass);
-    on_device.tree = upload_tree(device, bvhs.opaque, kernel);
-    on_device.glass = upload_ray_tree(device, bvhs.glass);
+DeviceScene upload_scene(Device& device, const Scene& scene, const Bvh& bvh, GatherKernel kernel) {
+    DeviceScene on_device = upload_surfaces_and_lights(device, scene);
+    on_device.tree = upload_tree(device, bvh, kernel);
     return on_device;
 }
 

@@ -8,42 +8,50 @@
 namespace nearlight::core {
 
 struct DeviceScene {
-    DeviceTree tree;   ///< tree of opaque surfaces
-    DeviceTree glass;  ///< tree of glass, which only the camera sees
+    DeviceTree tree;
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
     Buffer<Texture> textures;
-    Buffer<uint> texels;
+    Buffer<uint> texels;  ///< words of all bitmaps
+    Buffer<Vec3> vertex_colors;
+    Buffer<float> curves;  ///< transmission curves
     Buffer<Emitter> emitters;
     Buffer<Environment> environment;
     Buffer<float> environment_pixels;  ///< RGBA
     Buffer<float> row_cdf;
     Buffer<float> column_cdf;
+    Buffer<LightNode> light_nodes;
     Buffer<SceneInfo> info;
 
     // The host needs these without asking the device.
     SceneInfo host_info{};
-    bool has_lobes = false;    ///< some material (a coat or glass) divides camera paths in two
-    float mean_albedo = 0.5f;  ///< luminance of light_albedo(), averaged over area
-    float total_power = 0.0f;  ///< luminance of the emitted flux of all lights, W
-    double total_area = 0.0;   ///< area of all triangles, m²
+    bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
+    float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;     ///< area of all triangles, m²
+
+    /// The transmission curves for a gather; null where all of them are 1.
+    [[nodiscard]] const Buffer<float>* curves_in_use() const {
+        return host_info.has_curves != 0 ? &curves : nullptr;
+    }
 
     /// Calls visit(buffer) for every buffer, in the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
-        visit(tree), visit(tree.triangle_ids), visit(glass), visit(glass.triangle_ids);
+        visit(tree), visit(tree.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
+        visit(vertex_colors), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
-        visit(info);
+        visit(light_nodes), visit(info);
     }
 };
 
-/// Uploads a scene for gathers with `kernel`. The trees must have the shapes that tree_shapes() asks for.
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneTrees& trees,
+/// Uploads a scene for gathers with `kernel`. The tree must have the shapes that tree_shapes() asks for.
+DeviceScene upload_scene(Device& device, const Scene& scene, const ShapedBvh& tree,
                          GatherKernel kernel = GatherKernel::automatic);
-/// Uploads a scene for gathers with `kernel`, and widens the trees first where the device needs wide ones.
-DeviceScene upload_scene(Device& device, const Scene& scene, const SceneBvhs& bvhs,
+/// Uploads a scene for gathers with `kernel`, and widens the tree first where the device needs a wide one.
+DeviceScene upload_scene(Device& device, const Scene& scene, const Bvh& bvh,
                          GatherKernel kernel = GatherKernel::automatic);
 
 }  // namespace nearlight::core

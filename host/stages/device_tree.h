@@ -2,7 +2,7 @@
 // A tree in device memory, in the shapes that kernels traverse.
 #pragma once
 
-#include "host/bvh/scene_trees.h"
+#include "host/bvh/shaped_bvh.h"
 #include "host/cl/buffer.h"
 #include "nearlight/settings.h"
 

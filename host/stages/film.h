@@ -8,6 +8,13 @@
 
 namespace nearlight::core {
 
+/// The light of a batch's receivers.
+struct ReceivedIrradiance {
+    const Buffer<IrradiancePacket>& direct;    ///< straight from lights
+    const Buffer<IrradiancePacket>& gathered;  ///< indirect, from VPLs
+    const Buffer<IrradiancePacket>& indirect;  ///< indirect, by rays of the receivers
+};
+
 class Film {
   public:
     explicit Film(Device& device);
@@ -15,8 +22,8 @@ class Film {
     /// Adds one batch of samples to `sums`, which holds NEARLIGHT_FILM_CHANNELS floats for each of width ×
     /// row_count pixels.
     void add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
-             const Buffer<IrradiancePacket>& direct, const Buffer<IrradiancePacket>& indirect,
-             const CameraBand& band, uint width, uint row_count, Buffer<float>& sums);
+             const ReceivedIrradiance& irradiance, const CameraBand& band, uint width, uint row_count,
+             Buffer<float>& sums);
     /// Turns the sums of pixels into `layers`: NEARLIGHT_LAYER_CHANNELS floats per pixel, in the order of
     /// layer_channels().
     void resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,

@@ -72,7 +72,7 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
       launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMaxLaunchPairs)),
       params_(device, 1),
       next_beam_(device, 1),
-      no_thresholds_(device, 0) {
+      no_numbers_(device, 0) {
     kernel_of(false, false);
 }
 
@@ -137,7 +137,11 @@ void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Pa
                               .has_thresholds = input.thresholds != nullptr ? 1u : 0u,
                               .first_listed_bundle = lists != nullptr ? lists->first_bundle : 0,
                               .list_stride = lists != nullptr ? lists->stride : 0,
-                              .recorded_vpls = static_cast<uint>(input.vpl_count)};
+                              .recorded_vpls = static_cast<uint>(input.vpl_count),
+                              .has_curves = input.curves != nullptr ? 1u : 0u,
+                              .pad0 = 0,
+                              .pad1 = 0,
+                              .pad2 = 0};
     params_.upload(std::span(&params, 1));
     if (lists != nullptr) {
         launch_with(kernel, input, part, sums, lists->vpls, lists->weights, lists->lengths, more...);
@@ -153,7 +157,8 @@ void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, con
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, input.receivers, params_,
-                      input.thresholds != nullptr ? *input.thresholds : no_thresholds_,
+                      input.thresholds != nullptr ? *input.thresholds : no_numbers_,
+                      input.curves != nullptr ? *input.curves : no_numbers_,
                       input.group_size == 0 ? sums.light : sums.squares, sums.groups, rest...);
     };
     if (config_.kernel == GatherKernel::rays) {

@@ -58,6 +58,8 @@ struct GatherInput {
     /// if the squares of its unoccluded R, G and B add up to less than the receiver's threshold. Null means
     /// that every pair contributes.
     const Buffer<float>* thresholds = nullptr;
+    /// The transmission curves of the surfaces, which weigh light at both ends; null means that they are 1.
+    const Buffer<float>* curves = nullptr;
 
     [[nodiscard]] std::size_t group_count() const {
         return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
@@ -104,11 +106,12 @@ class Gatherer {
     /// Error(ErrorKind::invalid_argument) for a width that the kernel does not have.
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
-    /// light[p] = Σ_i power_i/π · max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0, vpl_count),
-    /// for each packet p of [0, packet_count). Sums are formed in a fixed order, so their bits depend neither
-    /// on the division into launches nor on the number of threads. Pairs that contain NaN or infinity
-    /// contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums then cover
-    /// only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with a selection.
+    /// light[p] = Σ_i power_i/π · T·T·max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
+    /// vpl_count), for each packet p of [0, packet_count). Sums are formed in a fixed order, so their bits
+    /// depend neither on the division into launches nor on the number of threads. Pairs that contain NaN or
+    /// infinity contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums
+    /// then cover only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with a
+    /// selection.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});
@@ -146,7 +149,7 @@ class Gatherer {
     double launch_pairs_;          ///< pairs in the first launch of the next gather
     Buffer<GatherParams> params_;  ///< parameters of a launch
     Buffer<uint> next_beam_;       ///< the queue of one launch of gather_packets: a single counter
-    Buffer<float> no_thresholds_;
+    Buffer<float> no_numbers_;     ///< in place of thresholds or curves
     // All kernels but the plain one are made when they are first needed. Their order is: plain, recording,
     // with lists, recording with lists.
     std::array<std::optional<Kernel>, 4> kernels_;

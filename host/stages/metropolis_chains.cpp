@@ -6,10 +6,18 @@
 #include <vector>
 
 namespace nearlight::core {
-/// The pairs of numbers choose depth and light, position, direction, and each bounce but the last.
+namespace {
+
+// Pairs of random numbers: three for depth, light, position and direction, then these for each surface
+// (WALK_PAIRS_PER_STEP in kernels/lib/light_walk.cl).
+constexpr uint kPairsOnLight = 3;
+constexpr uint kPairsPerSurface = 2;
+
+}  // namespace
+
 PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_count)
     : count(static_cast<uint>(state_count)),
-      pair_count(bounce_count + 2),
+      pair_count(kPairsOnLight + kPairsPerSurface * bounce_count),
       numbers(device, state_count * pair_count * 2),
       vpls(device, state_count),
       targets(device, state_count) {}

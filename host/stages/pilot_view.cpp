@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/receivers.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/importon_groups.h"
 
 namespace nearlight::core {
@@ -113,21 +113,24 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const double aspect = static_cast<double>(camera.width) / camera.height;
     const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
     const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
-    const PinholeCamera pinhole = make_pinhole_camera(camera, width, height);
-    const CameraBand band{.tile_row_count = tiles_across(pinhole.height), .samples_per_pixel = 2};
+    // A filter only decides how pixels share light, which does not matter to the receivers.
+    SceneCamera unfiltered = camera;
+    unfiltered.filter = {};
+    const Camera small = make_camera(unfiltered, width, height);
+    const CameraBand band{.tile_row_count = tiles_across(small.height), .samples_per_pixel = 2};
 
     PilotView view;
     view.device = &device;
-    view.packet_count = static_cast<uint>(packet_count(band, pinhole.width));
+    view.packet_count = static_cast<uint>(packet_count(band, small.width));
     view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
     view.vertices = Buffer<CameraVertex>(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
-    const Buffer<PinholeCamera> camera_buffer(device, std::span(&pinhole, 1));
+    const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run(scene, camera_buffer, pinhole.width, close_range, band, seed, view.receivers,
+    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, view.receivers,
                     view.vertices);
     const std::vector<ReceiverPacket> packets = view.receivers.download();
-    view.distances = receiver_distances(packets, pinhole.origin);
+    view.distances = receiver_distances(packets, small.origin);
     set_importons(device, view, make_importons(packets, view.vertices.download()));
     return view;
 }

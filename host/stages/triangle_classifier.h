@@ -13,8 +13,8 @@ class TriangleClassifier {
     explicit TriangleClassifier(Device& device);
 
     /// Writes a flag and the whole area (m²) of each triangle. The flag is 1 if some point of the triangle is
-    /// in the close range; it is 0 for glass and for triangles without area. `range` holds one element, and
-    /// the outputs hold one element per triangle.
+    /// in the close range; it is 0 for triangles without a Lambertian part and for those without area.
+    /// `range` holds one element, and the outputs hold one element per triangle.
     void classify(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
                   const Buffer<Material>& materials, const Buffer<CloseRange>& range,
                   std::size_t triangle_count, Buffer<uint>& flags, Buffer<float>& areas);

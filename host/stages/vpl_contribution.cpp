@@ -25,13 +25,14 @@ void VplContribution::run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std
     const std::size_t packets = receiver_packet_count(vpl_count);
     Buffer<ReceiverPacket> receivers(*device_, packets);
     GatherSums<Importon> importance(*device_, packets);
-    vpl_light_.make_receivers(vpls, vpl_count, receivers);
+    vpl_light_.make_receivers(vpls, vpl_count, VplSide::emits, receivers);
     gatherer_->gather({.tree = scene.tree,
                        .vpls = importons.importons,
                        .vpl_count = importons.count,
                        .receivers = receivers,
                        .packet_count = packets,
-                       .clamp_radius = clamp_radius},
+                       .clamp_radius = clamp_radius,
+                       .curves = scene.curves_in_use()},
                       importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.light,
                                    squared ? 1u : 0u, contribution);
@@ -50,7 +51,7 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
     Buffer<float> errors(*device_, vpl_count);
     Buffer<float> rows(*device_, 3 * groups.group_count * vpl_count);
     Buffer<float> thresholds(*device_, packets * NEARLIGHT_PACKET_SIZE);
-    vpl_light_.make_receivers(vpls, vpl_count, receivers);
+    vpl_light_.make_receivers(vpls, vpl_count, VplSide::emits, receivers);
     const std::size_t importon_slots = std::size_t{groups.group_count} * groups.group_size;
     importance_thresholds_.launch_items(
         packets * (NEARLIGHT_PACKET_SIZE / 16), groups.importons, static_cast<uint>(importon_slots),
@@ -62,7 +63,8 @@ GroupContribution VplContribution::by_group(const DeviceScene& scene, const Buff
                        .packet_count = packets,
                        .clamp_radius = clamp_radius,
                        .group_size = groups.group_size,
-                       .thresholds = &thresholds},
+                       .thresholds = &thresholds,
+                       .curves = scene.curves_in_use()},
                       importance);
     vpl_contribution_.launch_items(vpl_count, vpls, static_cast<uint>(vpl_count), importance.squares, 1u,
                                    errors);

@@ -11,11 +11,11 @@ VplLight::VplLight(Device& device)
       vpl_light_(program_, "vpl_light"),
       add_irradiance_(program_, "add_irradiance") {}
 
-void VplLight::make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count,
+void VplLight::make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, VplSide side,
                               Buffer<ReceiverPacket>& receivers) {
     const std::size_t lane_count = receiver_packet_count(vpl_count) * NEARLIGHT_PACKET_SIZE;
     vpl_receivers_.launch_items(lane_count, vpls, static_cast<uint>(vpl_count), static_cast<uint>(lane_count),
-                                receivers);
+                                side == VplSide::emits ? 1u : 0u, receivers);
 }
 
 void VplLight::apply(const Buffer<IrradiancePacket>& irradiance, std::size_t vpl_count, Buffer<Vpl>& vpls) {

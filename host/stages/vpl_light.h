@@ -8,13 +8,18 @@
 
 namespace nearlight::core {
 
+/// Whether VPLs are wanted as receivers of light, with the shading normals of their surfaces, or as places
+/// that send light out, with geometric normals. The two differ where a mesh has shading normals.
+enum class VplSide { receives, emits };
+
 class VplLight {
   public:
     explicit VplLight(Device& device);
 
     /// Writes VPL i as the receiver in lane i % 64 of packet i / 64. There are
     /// receiver_packet_count(vpl_count) packets.
-    void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, Buffer<ReceiverPacket>& receivers);
+    void make_receivers(const Buffer<Vpl>& vpls, std::size_t vpl_count, VplSide side,
+                        Buffer<ReceiverPacket>& receivers);
     /// Multiplies the power of each VPL by the irradiance of its lane.
     void apply(const Buffer<IrradiancePacket>& irradiance, std::size_t vpl_count, Buffer<Vpl>& vpls);
     /// Adds `more` to `irradiance`, receiver by receiver.

@@ -62,7 +62,11 @@ struct SamplingSettings {
 struct GatherSettings {
     std::uint32_t samples_per_pixel = 4;
     std::uint32_t direct_samples_per_pixel = 64;  ///< samples towards area lights and the environment
-    bool indirect_only = false;                   ///< the layer of direct light has emission only
+    /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
+    /// other ways than Lambertian. Without them, the picture lacks that light.
+    bool compensate = true;
+    std::uint32_t rays_per_pixel = 16;  ///< rays of receivers, if `compensate` is set
+    bool indirect_only = false;         ///< the layer of direct light has emission only
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;

@@ -5,6 +5,7 @@
 
 #include "lib/bundle.cl"
 #include "lib/lanes.cl"
+#include "lib/vpl.cl"
 
 // GATHER_BEAM_WIDTH receivers go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They
 // form 16 clusters, each of neighbouring lanes of one row.
@@ -20,8 +21,10 @@
 typedef struct Receivers {
     float16 x[GATHER_ROWS], y[GATHER_ROWS], z[GATHER_ROWS];
     float16 nx[GATHER_ROWS], ny[GATHER_ROWS], nz[GATHER_ROWS];
-    float16 threshold[GATHER_ROWS];  // for squared light, which is left out below it; see load_thresholds()
-    uchar order[GATHER_BEAM_WIDTH];  // receiver of each lane, counted from the first of the beam
+    float16 threshold[GATHER_ROWS];   // for squared light, which is left out below it; see load_thresholds()
+    ushort curve[GATHER_BEAM_WIDTH];  // rows of transmission curves; see load_curves()
+    uint curved_rows;                 // one bit for each row of 16 lanes that has a curve
+    uchar order[GATHER_BEAM_WIDTH];   // receiver of each lane, counted from the first of the beam
 } Receivers;
 
 /// The box around all receivers that are present, and the box around each cluster in a lane of its own (x, y,
@@ -176,6 +179,20 @@ inline void load_thresholds(Receivers* receivers, const global float* thresholds
     }
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         receivers->threshold[row] = vload16(row, lanes);
+    }
+}
+
+/// Loads the transmission curves of receivers that gather_receivers() has put in order.
+inline void load_curves(Receivers* receivers, const global ReceiverPacket* packets, const Bundle* bundle,
+                        uint first) {
+    receivers->curved_rows = 0;
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
+        const uint lane = first + receivers->order[i];
+        const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
+        const global ReceiverPacket* packet =
+            packets + bundle->first + (there ? lane / NEARLIGHT_PACKET_SIZE : 0);
+        receivers->curve[i] = there ? (ushort)receiver_curve(packet, lane % NEARLIGHT_PACKET_SIZE) : 0;
+        receivers->curved_rows |= (receivers->curve[i] != 0 ? 1u : 0u) << i / 16;
     }
 }
 

@@ -7,13 +7,13 @@
 #include "lib/math.cl"
 
 inline bool in_close_range(const global CloseRange* region, float3 p) {
+    const float3 q = p - load3(region->origin);
     bool inside = true;
     for (int i = 0; i < 5; ++i) {
         const global float* plane = region->planes[i];
-        inside = inside && plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] >= 0.0f;
+        inside = inside && plane[0] * q.x + plane[1] * q.y + plane[2] * q.z + plane[3] >= 0.0f;
     }
-    const float3 from_camera = p - load3(region->origin);
-    return inside && dot(from_camera, from_camera) < region->range * region->range;
+    return inside && dot(q, q) < region->range * region->range;
 }
 
 #endif

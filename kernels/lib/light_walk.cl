@@ -1,38 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a walk, for stages that bring their own random numbers.
+// The steps of a walk from a light, for stages that bring their own random numbers.
+//
+// A walk follows the true BSDFs: it goes through glass and off mirrors. Where a surface has a Lambertian
+// part, it may leave a VPL, which stands for what that part reflects of the light that arrives. With shading
+// normals a surface receives light by the shading normal's cosine, but particles arrive by the geometric one,
+// so the quotient of the two weighs them [Veach, Robust Monte Carlo Methods for Light Transport Simulation,
+// 1997, §5.3].
 #ifndef NEARLIGHT_LIB_LIGHT_WALK
 #define NEARLIGHT_LIB_LIGHT_WALK
 
-#include "lib/emitter.cl"
-#include "lib/material.cl"
+#include "lib/bsdf/bsdf.cl"
+#include "lib/light/emission.cl"
 #include "lib/vpl.cl"
 
-/// Follows the particle to where it lands. `hit` gets what it met, its flux becomes what is reflected there,
-/// and its origin stands off the surface. Returns false, with both undefined, if the particle meets nothing
-/// or a side that reflects nothing.
-inline bool land(const SceneView* scene, EmittedParticle* particle, SurfaceHit* hit) {
-    *hit = trace_opaque(scene, particle->origin, particle->direction, INFINITY);
-    if (hit->t < 0.0f) {
+/// How many pairs of random numbers a step of a walk takes.
+#define WALK_PAIRS_PER_STEP 2
+
+/// Where a particle landed.
+typedef struct Landing {
+    SurfaceHit hit;
+    SurfaceBsdf surface;
+} Landing;
+
+/// Follows the particle to the surface that it meets, of whose BSDFs `u` chooses where there are several.
+/// Returns false, with `at` undefined, if there is none.
+inline bool land(const SceneView* scene, const EmittedParticle* particle, float u, Landing* at) {
+    at->hit = trace_surface(scene, particle->origin, particle->direction, INFINITY);
+    if (at->hit.t < 0.0f) {
         return false;
     }
-    const global Material* material = scene->materials + hit->material;
-    if (!reflects(material, hit->front)) {
-        return false;
-    }
-    particle->flux *= light_albedo(scene, material, hit->uv);
-    particle->origin = offset_point(scene, hit->position, hit->geometric);
+    at->surface = surface_bsdf(scene, &at->hit, particle->direction, BSDF_FLUX, u);
     return true;
 }
 
-/// The deposit of a particle: the VPL that it leaves where it landed.
-inline Vpl make_deposit(const EmittedParticle* particle, const SurfaceHit* hit, uint depth, uint flags,
-                        float3 power) {
-    return make_vpl(particle->origin, hit->geometric, depth, flags, power);
+/// What the Lambertian part reflects of the particle's flux, before the transmission on the way out; 0 where
+/// there is no such part.
+inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* particle, const Landing* at) {
+    const Bsdf* bsdf = &at->surface.bsdf;
+    const float geometric = -dot(at->hit.geometric, particle->direction);
+    const float shading = -dot(at->surface.frame.n, particle->direction);
+    if (is_black(bsdf->diffuse) || !(shading > 0.0f) || !(geometric > 0.0f)) {
+        return (float3)(0.0f);
+    }
+    return particle->flux * bsdf->diffuse *
+           (diffuse_transmission(scene, bsdf->curve, shading) * (shading / geometric));
 }
 
-/// Sends the particle on from where it landed, in a cosine-distributed direction.
-inline void scatter(EmittedParticle* particle, const SurfaceHit* hit, float2 u) {
-    particle->direction = to_world_frame(square_to_cosine_hemisphere(u), hit->geometric);
+/// The deposit of a particle: the VPL that it leaves where it landed.
+inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, uint flags, float3 power) {
+    const float3 normal = at->hit.geometric;
+    return make_vpl(offset_point(scene, at->hit.position, normal), normal, at->surface.frame.n,
+                    at->surface.bsdf.curve, depth, flags, power);
+}
+
+/// Sends the particle on from where it landed. Light of a point or a direction that mirrors and glass send on
+/// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
+/// through them, and nearlight converges to the same picture.
+inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u, float2 v) {
+    const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
+    const bool is_unseen = sample.is_delta && particle->from_delta;
+    particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
+    particle->direction = sample.wi;
+    particle->origin =
+        offset_point(scene, at->hit.position,
+                     dot(at->hit.geometric, sample.wi) > 0.0f ? at->hit.geometric : -at->hit.geometric);
+    particle->from_delta = 0;
 }
 
 #endif

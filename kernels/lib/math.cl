@@ -58,4 +58,22 @@ inline float3 to_world_frame(float3 v, float3 n) {
     return frame_to_world(&frame, v);
 }
 
+/// A unit vector in two numbers of 16 bits, by the octahedral map [Cigolle et al., A Survey of Efficient
+/// Representations for Independent Unit Vectors, JCGT 2014]. Its error is below 1e-4.
+inline uint pack_direction(float3 d) {
+    const float2 plane = d.xy / fmax(fabs(d.x) + fabs(d.y) + fabs(d.z), 1e-20f);
+    const float2 sign = (float2)(plane.x < 0.0f ? -1.0f : 1.0f, plane.y < 0.0f ? -1.0f : 1.0f);
+    const float2 folded = d.z < 0.0f ? (1.0f - fabs(plane.yx)) * sign : plane;
+    const float2 scaled = round(clamp(folded * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f);
+    return (uint)scaled.x | (uint)scaled.y << 16;
+}
+inline float3 unpack_direction(uint packed) {
+    const float2 folded =
+        (float2)((float)(packed & 0xffffu), (float)(packed >> 16)) * (2.0f / 65535.0f) - 1.0f;
+    const float z = 1.0f - fabs(folded.x) - fabs(folded.y);
+    const float2 sign = (float2)(folded.x < 0.0f ? -1.0f : 1.0f, folded.y < 0.0f ? -1.0f : 1.0f);
+    const float2 plane = z < 0.0f ? (1.0f - fabs(folded.yx)) * sign : folded;
+    return normalize((float3)(plane.x, plane.y, z));
+}
+
 #endif

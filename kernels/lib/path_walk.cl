@@ -4,8 +4,8 @@
 #ifndef NEARLIGHT_LIB_PATH_WALK
 #define NEARLIGHT_LIB_PATH_WALK
 
-#include "lib/emitter.cl"
-#include "lib/material.cl"
+#include "lib/receiver_path.cl"
+#include "lib/vpl.cl"
 
 /// The law of the radius at which the geometry term is bounded for light from a place y: max_radius /
 /// 2^level, but not below min_radius. The level is the first (of GATHER_LEVELS) for which the radius is at
@@ -44,9 +44,9 @@ typedef struct Connections {
     GatherRadius law;
 } Connections;
 
-/// Irradiance at x from VPLs of depth up to `max_depth`, estimated from VPLs at equal distances in the set,
-/// of which `u` chooses the first.
-inline float3 connected_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n,
+/// Irradiance of a receiver from VPLs of depth up to `max_depth`, estimated from VPLs at equal distances in
+/// the set, of which `u` chooses the first.
+inline float3 connected_irradiance(const SceneView* scene, const Connections* to, const ReceiverPoint* at,
                                    uint max_depth, float u) {
     const uint count = min(to->count, to->vpl_count);
     const float step = (float)to->vpl_count / (float)count;
@@ -55,51 +55,46 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
         const uint index = min((uint)(((float)i + u) * step), to->vpl_count - 1);
         const global Vpl* vpl = to->vpls + index;
         const float3 origin = load3(vpl->position);
-        const float3 between = x - origin;
+        const float3 between = at->x - origin;
         const float squared = dot(between, between);
-        const float cosines =
-            -dot(n, between) * dot(load3(vpl->normal), between);  // times the distance squared
-        if (vpl->depth <= max_depth && dot(n, between) < 0.0f && cosines > 0.0f &&
-            is_visible(scene, origin, x)) {
-            sum += load3(vpl->power) *
-                   (cosines / (squared * fmax(squared, to->radii[index] * to->radii[index])));
+        const float cos_vpl = dot(load3(vpl->normal), between);  // both cosines still carry a factor r
+        const float cos_receiver = -dot(at->n, between);
+        if (vpl->depth <= max_depth && cos_vpl > 0.0f && cos_receiver > 0.0f &&
+            is_visible(scene, origin, at->x)) {
+            const float inverse = rsqrt(squared);
+            const float transmission = diffuse_transmission(scene, vpl_curve(vpl), cos_vpl * inverse) *
+                                       diffuse_transmission(scene, at->curve, cos_receiver * inverse);
+            sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission /
+                                        (squared * fmax(squared, to->radii[index] * to->radii[index])));
         }
     }
     return count > 0 ? sum * (M_1_PI_F * step) : sum;
 }
 
-/// One-path estimate of the irradiance at x (unit normal n, off its surface) from light that took at most
-/// `bounce_count` steps from its source, including the step to x. It adds up the direct light at x, VPLs for
-/// farther surfaces, and short rays for near ones. As everywhere beyond the receiver, surfaces are
-/// Lambertian. The VPLs supply what a geometry term bounded at their radius lets through. The remainder is (1
-/// − t²/radius²) of what a cosine-distributed ray meets nearer than the radius there. It is the light of the
-/// next vertex of the path and is estimated in the same way. Few paths are longer than one step.
-inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to, float3 x, float3 n,
-                                    uint bounce_count, uint direct_samples, uint seed) {
-    float3 irradiance = (float3)(0.0f);
-    float3 weight = (float3)(1.0f);
-    for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        const uint4 keys = random_uint4((uint4)(bounce, seed, 0x3a1du, 0x9a7bu));
-        irradiance += weight * direct_irradiance(scene, x, n, bounce == 0 ? direct_samples : 1, keys.x);
-        if (bounce + 1 == bounce_count) {
-            break;
-        }
-        irradiance +=
-            weight * connected_irradiance(scene, to, x, n, bounce_count - 1 - bounce, to_unit_float(keys.w));
-        const float2 u = (float2)(to_unit_float(keys.y), to_unit_float(keys.z));
-        const float3 direction = to_world_frame(square_to_cosine_hemisphere(u), n);
-        const SurfaceHit hit = trace_opaque(scene, x, direction, to->law.max_radius);
-        if (hit.t < 0.0f || !reflects(scene->materials + hit.material, hit.front)) {
-            break;
-        }
-        x = offset_point(scene, hit.position, hit.geometric);
-        n = hit.geometric;
-        const float ratio = hit.t / gather_radius(scene, &to->law, x, n);
-        weight *=
-            light_albedo(scene, scene->materials + hit.material, hit.uv) * fmax(0.0f, 1.0f - ratio * ratio);
-        if (is_black(weight)) {
-            break;
-        }
+/// One-path estimate of the irradiance of a receiver over paths of at most `max_edges` edges. It adds up
+/// direct light, VPLs under a geometry term that is bounded at their radius, and what one ray of the receiver
+/// brings of all other light (lib/receiver_path.cl).
+inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to, const ReceiverPoint* at,
+                                    uint max_edges, uint direct_samples, uint seed) {
+    const uint4 keys = random_uint4((uint4)(0x3a1du, seed, 0u, 0x9a7bu));
+    float3 irradiance = sampled_direct_light(scene, at, direct_samples, 1, keys.x);
+    if (max_edges > 1) {
+        irradiance += connected_irradiance(scene, to, at, max_edges - 1, to_unit_float(keys.w));
+    }
+    const PathRay ray = receiver_ray(scene, at, 1.0f / (float)direct_samples,
+                                     (float2)(to_unit_float(keys.y), to_unit_float(keys.z)));
+    const SurfaceHit hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
+    irradiance += ray.throughput * met_light(scene, &ray, &hit);
+    if (hit.t < 0.0f || max_edges < 2) {
+        return irradiance;
+    }
+    float weight = 0.0f;
+    if (hit.t < to->law.max_radius) {
+        const float3 y = offset_point(scene, hit.position, hit.geometric);
+        weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
+    }
+    if (weight > 0.0f || scene->info->has_specular) {
+        irradiance += continued_light(scene, ray, hit, weight, max_edges, random_uint4(keys));
     }
     return irradiance;
 }

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps from the unit square to directions and triangles.
+// Maps from random numbers to table entries, directions and triangles.
 #ifndef NEARLIGHT_LIB_SAMPLING
 #define NEARLIGHT_LIB_SAMPLING
 
 #include "lib/math.cl"
+
+/// The smallest index with u < cdf[index], or the last one if rounding leaves u above all entries.
+inline uint search_cdf(const global float* cdf, uint count, float u) {
+    uint low = 0;
+    uint high = count - 1;
+    while (low < high) {
+        const uint middle = (low + high) / 2;
+        if (u < cdf[middle]) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
 
 /// A direction about +Z with the density cosθ/π.
 inline float3 square_to_cosine_hemisphere(float2 u) {

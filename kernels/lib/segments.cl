@@ -3,6 +3,7 @@
 #ifndef NEARLIGHT_LIB_SEGMENTS
 #define NEARLIGHT_LIB_SEGMENTS
 
+#include "lib/curve.cl"
 #include "lib/shaft.cl"
 
 /// The segments from one VPL to the receivers of a beam. The points on them are origin + t·(dx, dy, dz).
@@ -88,6 +89,31 @@ inline void leave_out_small(Segments* s, const Receivers* receivers, float squar
         const uint row = first_row(open);
         const float16 square = s->weight[row] * s->weight[row] * square_scale;
         end_lanes(s, row, lane_bits16(square < receivers->threshold[row]));
+    }
+}
+
+/// Multiplies the geometry terms of open segments by the transmission curves of both ends.
+inline void weigh_by_curves(Segments* s, const global Vpl* vpl, const Receivers* receivers,
+                            const global float* curves) {
+    const float3 vpl_normal = load3(vpl->normal);
+    const uint row_of_vpl = vpl_curve(vpl);
+    for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
+        const uint row = first_row(open);
+        if (row_of_vpl == 0 && (receivers->curved_rows >> row & 1) == 0) {
+            continue;
+        }
+        const float16 dx = s->dx[row], dy = s->dy[row], dz = s->dz[row];
+        const float16 inverse = rsqrt(dx * dx + dy * dy + dz * dz);
+        float cos_vpl[16], cos_receiver[16];
+        vstore16((vpl_normal.x * dx + vpl_normal.y * dy + vpl_normal.z * dz) * inverse, 0, cos_vpl);
+        vstore16(-(receivers->nx[row] * dx + receivers->ny[row] * dy + receivers->nz[row] * dz) * inverse, 0,
+                 cos_receiver);
+        float* weight = (float*)(s->weight + row);
+        for (uint lanes = s->lanes[row]; lanes != 0; lanes &= lanes - 1) {
+            const uint lane = lowest_bit(lanes);
+            weight[lane] *= curve_value(curves, row_of_vpl, cos_vpl[lane]) *
+                            curve_value(curves, receivers->curve[16 * row + lane], cos_receiver[lane]);
+        }
     }
 }
 

@@ -6,16 +6,22 @@
 #include "lib/math.cl"
 
 /// A VPL with the given members; shared/types.h explains `depth` and `flags`. `position` must stand off its
-/// surface.
-inline Vpl make_vpl(float3 position, float3 normal, uint depth, uint flags, float3 power) {
+/// surface, `shading` is the normal by which the surface receives light, and `curve` the row of its
+/// transmission curve.
+inline Vpl make_vpl(float3 position, float3 normal, float3 shading, uint curve, uint depth, uint flags,
+                    float3 power) {
     Vpl vpl;
     vpl.position = store3(position);
     vpl.depth = depth;
     vpl.normal = store3(normal);
-    vpl.flags = flags;
+    vpl.flags = flags | curve << NEARLIGHT_VPL_CURVE_SHIFT;
     vpl.power = store3(power);
-    vpl.pad0 = 0.0f;
+    vpl.shading = pack_direction(shading);
     return vpl;
+}
+
+inline uint vpl_curve(const global Vpl* vpl) {
+    return vpl->flags >> NEARLIGHT_VPL_CURVE_SHIFT;
 }
 
 inline float3 receiver_position(const global ReceiverPacket* packet, uint lane) {
@@ -24,6 +30,15 @@ inline float3 receiver_position(const global ReceiverPacket* packet, uint lane) 
 /// The normal of a receiver; zero where the receiver is absent.
 inline float3 receiver_normal(const global ReceiverPacket* packet, uint lane) {
     return (float3)(packet->nx[lane], packet->ny[lane], packet->nz[lane]);
+}
+
+/// The row of the curve that weighs the light that arrives at a receiver.
+inline uint receiver_curve(const global ReceiverPacket* packet, uint lane) {
+    return packet->surface[lane] & NEARLIGHT_RECEIVER_CURVE_MASK;
+}
+/// The number of surfaces between the camera and a receiver.
+inline uint receiver_surfaces(const global ReceiverPacket* packet, uint lane) {
+    return packet->surface[lane] >> NEARLIGHT_RECEIVER_SURFACES_SHIFT;
 }
 
 #endif

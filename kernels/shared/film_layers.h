@@ -9,8 +9,9 @@
 //   samples    says how the samples of a pixel become the layer:
 //     mean       their mean;
 //     direction  the unit vector along their sum;
-//     first      the value of the first sample that met something, because positions and depths cannot be
-//                averaged across an edge;
+//     first      the value of the first sample that met something on the pixel's own square, or, if there is
+//                none, anywhere, because positions and depths cannot be averaged across an edge;
+//     depth      the same, for the sum whose sign tells the two apart;
 //     light      the sum of the layers direct and indirect, for which nothing is added up separately.
 //   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first.
 // The order of the rows is the order of the channels in a picture and in its files.
@@ -24,7 +25,7 @@
     LAYER(ALBEDO, "albedo", RGB, mean, first)    \
     LAYER(NORMAL, "N", XYZ, direction, first)    \
     LAYER(POSITION, "P", XYZ, first, first)      \
-    LAYER(DEPTH, "depth", Z, first, first)       \
+    LAYER(DEPTH, "depth", Z, depth, first)       \
     LAYER(CLOSE_RANGE, "closerange", Y, mean, first)
 
 // How many channels each word of the column `channels` stands for.
@@ -37,6 +38,7 @@
 #define NEARLIGHT_SUMS_mean(count) count
 #define NEARLIGHT_SUMS_direction(count) count
 #define NEARLIGHT_SUMS_first(count) count
+#define NEARLIGHT_SUMS_depth(count) count
 #define NEARLIGHT_SUMS_light(count) 0
 
 #define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes) +NEARLIGHT_CHANNELS_##channels

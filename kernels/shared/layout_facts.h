@@ -7,7 +7,7 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include types.h and film_layers.h.
+/// place where it expands must include bsdf_query.h, types.h and film_layers.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -27,20 +27,31 @@
     OFFSET(Vertex, v)                               \
     SIZE(Triangle)                                  \
     OFFSET(Triangle, material)                      \
+    SIZE(Parameter)                                 \
+    OFFSET(Parameter, texture)                      \
     SIZE(Material)                                  \
+    OFFSET(Material, emission)                      \
     OFFSET(Material, eta)                           \
-    OFFSET(Material, transmission)                  \
-    OFFSET(Material, base_saturation)               \
+    OFFSET(Material, internal_reflectance)          \
     SIZE(Texture)                                   \
+    OFFSET(Texture, format)                         \
     OFFSET(Texture, v_offset)                       \
     OFFSET(Texture, color1)                         \
     SIZE(Emitter)                                   \
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
+    OFFSET(Emitter, image)                          \
+    SIZE(LightNode)                                 \
+    OFFSET(LightNode, cos_spread)                   \
+    OFFSET(LightNode, emitter)                      \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
-    SIZE(PinholeCamera)                             \
-    OFFSET(PinholeCamera, step_y)                   \
+    OFFSET(Environment, sun_radiance)               \
+    SIZE(Camera)                                    \
+    OFFSET(Camera, step_y)                          \
+    OFFSET(Camera, focus_distance)                  \
+    OFFSET(Camera, filter_radius)                   \
+    OFFSET(Camera, filter_signed)                   \
     SIZE(Vpl)                                       \
     OFFSET(Vpl, power)                              \
     SIZE(Importon)                                  \
@@ -48,20 +59,25 @@
     SIZE(SurfaceSample)                             \
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \
-    OFFSET(ReceiverPacket, nz)                      \
+    OFFSET(ReceiverPacket, surface)                 \
     SIZE(IrradiancePacket)                          \
     OFFSET(IrradiancePacket, b)                     \
     SIZE(ImportancePacket)                          \
     OFFSET(ImportancePacket, b)                     \
     SIZE(GatherParams)                              \
     OFFSET(GatherParams, group_size)                \
-    OFFSET(GatherParams, recorded_vpls)             \
+    OFFSET(GatherParams, has_curves)                \
     SIZE(CameraVertex)                              \
-    OFFSET(CameraVertex, emitted)                   \
+    OFFSET(CameraVertex, filter_weight)             \
+    OFFSET(CameraVertex, traced)                    \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
+    SIZE(BsdfQuery)                                 \
+    OFFSET(BsdfQuery, choice)                       \
+    SIZE(BsdfAnswer)                                \
+    OFFSET(BsdfAnswer, weight)                      \
     VALUE(NEARLIGHT_TILE_SIZE)                      \
     VALUE(tiles_across(0))                          \
     VALUE(tiles_across(1))                          \

@@ -6,21 +6,14 @@
 #ifndef NEARLIGHT_SHARED_TYPES_H
 #define NEARLIGHT_SHARED_TYPES_H
 
+#include "shared/material.h"
+#include "shared/vec3.h"
+
 #ifdef __cplusplus
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 namespace nearlight::core {
-using uint = std::uint32_t;
-#define NEARLIGHT_SHARED_FUNCTION constexpr
-#else
-#define NEARLIGHT_SHARED_FUNCTION inline
 #endif
-
-/// Three packed floats: a point or a vector in world space, in metres, or a linear sRGB colour.
-typedef struct Vec3 {
-    float x, y, z;
-} Vec3;
 
 /// A child reference of a BvhNode. If bit 31 is clear, it is the index of an inner node. If bit 31 is set, it
 /// is a leaf, with the triangle count − 1 in bits 27 to 30 and the first index into the BvhTriangle array in
@@ -107,109 +100,121 @@ typedef struct Triangle {
     uint material;
 } Triangle;
 
-// What the camera sees at a surface besides its Lambertian base (Material.lobe). Light transport beyond the
-// first diffuse surface sees every opaque surface as Lambertian and no glass at all; see docs/method.md.
-#define NEARLIGHT_LOBE_NONE 0u             // Lambertian only
-#define NEARLIGHT_LOBE_COAT 1u             // dielectric coat over the base (plastic, roughplastic)
-#define NEARLIGHT_LOBE_CONDUCTOR 2u        // metal, no base (conductor, roughconductor, mirror)
-#define NEARLIGHT_LOBE_DIELECTRIC 3u       // solid glass, no base
-#define NEARLIGHT_LOBE_THIN_DIELECTRIC 4u  // a pane of glass, no base
-
-#define NEARLIGHT_MATERIAL_TWO_SIDED 1u  // without this flag the back reflects nothing
-
-/// A material with the reflectance t = base × texture. The camera sees the Lambertian albedo t·base_scale /
-/// (1 − base_saturation·t), times 1 − Fresnel under a coat. Light transport sees t·light_scale / (1 −
-/// base_saturation·t) + light_offset.
-typedef struct Material {
-    Vec3 base;
-    int base_texture;  // index of the texture, or −1
-    Vec3 specular;     // tint of the lobe's reflection
-    float roughness;   // GGX alpha of the lobe; 0 is smooth
-    Vec3 eta;          // conductor: real index; otherwise x is interior ÷ exterior index
-    uint lobe;
-    Vec3 k;  // conductor: imaginary index
-    uint flags;
-    Vec3 emission;  // radiance of an area light (front side only), W/(m² sr)
-    float base_scale;
-    Vec3 light_offset;
-    float light_scale;
-    Vec3 transmission;  // tint of the lobe's transmission
-    float base_saturation;
-} Material;
-
-#define NEARLIGHT_TEXTURE_BITMAP 0u
-#define NEARLIGHT_TEXTURE_CHECKERBOARD 1u
-
-/// A texture, looked up at the point (s, t) that its members give for (u, v). Bitmaps are sRGB-encoded RGBA8
-/// in one shared pool, top row first, repeated and filtered bilinearly.
-typedef struct Texture {
-    uint kind;
-    uint first_texel;  // index into the pool
-    uint width, height;
-    float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
-    float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
-    Vec3 color0;                             // checkerboard: where s and t are in the same half of their cell
-    float pad2;
-    Vec3 color1;
-    float pad3;
-} Texture;
-
 #define NEARLIGHT_EMITTER_POINT 0u
 #define NEARLIGHT_EMITTER_SPOT 1u
 #define NEARLIGHT_EMITTER_TRIANGLE 2u
 #define NEARLIGHT_EMITTER_ENVIRONMENT 3u
+#define NEARLIGHT_EMITTER_DIRECTIONAL 4u
+#define NEARLIGHT_EMITTER_PROJECTOR 5u
+#define NEARLIGHT_EMITTER_SUN 6u
 
-/// One entry of the table of lights, which lists point and spot lights first, then each emissive triangle,
-/// then the environment. An entry is chosen with `probability`, in proportion to its emitted power.
+/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
+/// then each emissive triangle, then the sun and the environment. An entry is chosen with `probability`, in
+/// proportion to its emitted power.
+///
+/// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
+/// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
+/// image, inside the image only, so that an even image lights a plane across its axis evenly.
 typedef struct Emitter {
-    Vec3 position;  // point and spot
+    Vec3 position;  // point, spot and projector
     uint type;
-    Vec3 direction;  // spot: unit vector along the axis
+    Vec3 direction;  // spot and projector: unit vector along the axis; directional: that of the light
     uint triangle;   // index into the triangle array
-    Vec3 radiance;   // point and spot: intensity, W/sr; triangle: radiance; environment: mean radiance
-    float area;      // triangle, m²
+    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
+                     // direction, W/m²; triangle, sun: radiance; environment: mean radiance
+    float area;      // triangle: m²; projector: of its image at the distance 1; sun: steradians
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
     float cutoff_angle;  // spot: no light beyond this angle, radians; linear between the two
+    Vec3 x_axis;
+    uint image;  // index of the texture plus 1; 0: none
+    Vec3 y_axis;
+    uint tree_way;  // triangle: the way to it through the tree of lights, the lowest bit first; 1: second
+                    // child
 } Emitter;
+
+/// A node of the tree of emissive triangles: the bounds of all lights below it. The first child stands behind
+/// its parent.
+typedef struct LightNode {
+    Vec3 low;
+    float power;  // luminance of the emitted flux, W
+    Vec3 high;
+    float cos_spread;  // all fronts face within this angle of the axis
+    Vec3 axis;
+    uint second_child;  // 0: a leaf
+    uint emitter;       // leaf: index into the table of lights
+    uint pad0, pad1, pad2;
+} LightNode;
+#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 32  // bits of Emitter.tree_way
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
-/// sampled through tables of the row and column distributions.
+/// sampled through tables of the row and column distributions. A sun, a disc of even radiance, may stand
+/// before the map.
 typedef struct Environment {
     float world_to_local[9];  // rotation matrix, row by row
     uint width, height;       // 0 × 0: no environment
     float scene_radius;       // radius of the sphere around the scene, m
     Vec3 scene_center;
-    float pad0;
+    float sun_height;      // 1 − cosine of the sun's half angle; 0: no sun
+    Vec3 sun_direction;    // unit vector to the sun, in the world
+    float sun_half_chord;  // length of the vector from that one to the rim
+    Vec3 sun_radiance;
+    uint interpolated;  // 1: radiance is interpolated between pixels; 0: it is constant over a pixel
 } Environment;
 
-/// A pinhole camera. The ray through the film position (x, y), in pixels from the top left corner, starts at
-/// `origin` in the direction corner + x·step_x + y·step_y (not normalised).
-typedef struct PinholeCamera {
+/// Cells of a reconstruction filter's table, from the middle of the pixel to the filter's radius.
+#define NEARLIGHT_FILTER_CELLS 120
+#define NEARLIGHT_FILTER_ENTRIES (NEARLIGHT_FILTER_CELLS + 4)  // one more than cells, and padding
+
+/// A camera with its film. The film position (x, y), in pixels from the top left corner, stands for the
+/// vector d = corner + x·step_x + y·step_y. A pinhole's ray starts at `origin` in the direction d. The rays
+/// of a lens start at origin + a·lens_x + b·lens_y, where (a, b) lies on the unit disc, and meet at origin +
+/// focus_distance·d. An orthographic camera's ray starts at origin + d in the direction `forward`. Surfaces
+/// are seen from near_clip to far_clip, metres along `forward`; what lies beyond is as if it were not there.
+///
+/// The samples of a pixel are placed with a density in proportion to the filter's absolute value, separately
+/// in x and y. Entry i of the tables is the integral from 0 to i · radius / cells of the filter's absolute
+/// value and of the filter itself.
+typedef struct Camera {
     Vec3 origin;
     uint width;
     Vec3 corner;
     uint height;
     Vec3 step_x;
-    float pad0;
+    uint is_orthographic;
     Vec3 step_y;
-    float pad1;
-} PinholeCamera;
+    uint hides_emitters;  // 1: emitters and the environment are not seen directly
+    Vec3 forward;         // unit vector
+    float near_clip;
+    Vec3 lens_x;  // half-axes of the lens; zero for a pinhole
+    float far_clip;
+    Vec3 lens_y;
+    float focus_distance;          // in lengths of `forward`
+    float film_min_x, film_min_y;  // samples lie within these film positions
+    float film_max_x, film_max_y;
+    float filter_radius;  // pixels; 0: a box over the pixel's own square, which needs no tables
+    float pad0, pad1, pad2;
+    float filter_absolute[NEARLIGHT_FILTER_ENTRIES];
+    float filter_signed[NEARLIGHT_FILTER_ENTRIES];
+} Camera;
 
-/// A virtual point light. It sends the reflected flux `power` (W, albedo applied) into the hemisphere of
-/// `normal`, with the radiant intensity power/π · cosθ. The position stands off its surface by the ray
-/// epsilon.
+/// A virtual point light, which stands for the Lambertian part of what its surface reflects. It sends the
+/// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
+/// cosθ · T(cosθ), where T is the surface's transmission curve. The position stands off its surface by the
+/// ray epsilon.
 typedef struct Vpl {
     Vec3 position;
     uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;
-    float pad0;
+    uint shading;  // shading normal, by which the surface receives light, as pack_direction() packs it
 } Vpl;
 #define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+// Bits 8 to 31 of Vpl.flags hold the row of the transmission curve.
+#define NEARLIGHT_VPL_CURVE_SHIFT 8
 
 /// A receiver of the camera that sends importance into the hemisphere of `normal`, as a VPL sends light:
 /// `response` is the camera's response to what the receiver reflects (albedo times the weight of the camera
@@ -230,7 +235,7 @@ typedef struct SurfaceSample {
     Vec3 position;
     uint triangle;  // index into the scene's triangle array
     Vec3 normal;    // unit vector on the front
-    float u;        // texture coordinates
+    float u;        // weights of the triangle's v1 and v2
     float v;
     float pad0, pad1, pad2;
 } SurfaceSample;
@@ -243,7 +248,12 @@ typedef struct SurfaceSample {
 typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
+    uint surface[NEARLIGHT_PACKET_SIZE];
 } ReceiverPacket;
+// ReceiverPacket.surface: the row of the transmission curve that weighs arriving light in bits 0 to 15, and
+// above them the number of surfaces between the camera and the receiver.
+#define NEARLIGHT_RECEIVER_CURVE_MASK 0xffffu
+#define NEARLIGHT_RECEIVER_SURFACES_SHIFT 16
 
 /// A tile is a square of pixels, this many on each side, that fills a packet row by row. Tiles cover the
 /// picture from its top left corner; those at the right and the bottom may reach beyond it.
@@ -278,6 +288,8 @@ typedef struct GatherParams {
     uint first_listed_bundle;       // first bundle with a list, where bundles have lists of VPLs
     uint list_stride;               // entries from one bundle's list to the next
     uint recorded_vpls;             // VPLs for each packet of the record, where there is one
+    uint has_curves;                // 1: some surface has a transmission curve
+    uint pad0, pad1, pad2;
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
@@ -292,13 +304,16 @@ typedef struct CameraVertex {
     float depth;      // distance from the camera to the first surface seen, m; 0: no surface
     Vec3 albedo;      // Lambertian albedo of the first diffuse surface
     uint flags;
-    Vec3 emitted;  // radiance of lights and environment seen on the way
+    Vec3 emitted;         // radiance of lights and environment seen on the way
+    float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
+    Vec3 traced;          // indirect radiance of a receiver of little weight, which is absent
     float pad0;
 } CameraVertex;
-#define NEARLIGHT_VERTEX_CLOSE 1u  // the diffuse surface lies in the close range
+#define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
+#define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel
 
 /// The close range: the points inside the view frustum and nearer to the camera than `range`. A point p is
-/// inside where dot(plane.xyz, p) + w ≥ 0 for each of the five planes, which go through or lie at the camera.
+/// inside where dot(plane.xyz, p − origin) + w ≥ 0 for each of the five planes.
 typedef struct CloseRange {
     float planes[5][4];
     Vec3 origin;
@@ -309,10 +324,12 @@ typedef struct CloseRange {
 typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
-    uint delta_emitter_count;  // point and spot lights: the first entries of the table
-    uint has_glass;            // 1: a second tree holds the glass, which only camera paths see
+    uint delta_emitter_count;  // delta lights: the first entries of the table
     float extent;              // largest side of the scene's bounds, m
-    uint pad0, pad1, pad2;
+    uint has_specular;         // 1: some surface reflects other than by a Lambertian part
+    uint has_curves;           // 1: some surface has a transmission curve
+    uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint pad0;
 } SceneInfo;
 
 #ifdef __cplusplus
@@ -329,11 +346,13 @@ NEARLIGHT_CHECK_SHARED(RayQuery, 32);
 NEARLIGHT_CHECK_SHARED(RayHit, 16);
 NEARLIGHT_CHECK_SHARED(Vertex, 32);
 NEARLIGHT_CHECK_SHARED(Triangle, 16);
-NEARLIGHT_CHECK_SHARED(Material, 112);
-NEARLIGHT_CHECK_SHARED(Texture, 80);
-NEARLIGHT_CHECK_SHARED(Emitter, 64);
-NEARLIGHT_CHECK_SHARED(Environment, 64);
-NEARLIGHT_CHECK_SHARED(PinholeCamera, 64);
+NEARLIGHT_CHECK_SHARED(Parameter, 16);
+NEARLIGHT_CHECK_SHARED(Material, 272);
+NEARLIGHT_CHECK_SHARED(Texture, 96);
+NEARLIGHT_CHECK_SHARED(Emitter, 96);
+NEARLIGHT_CHECK_SHARED(LightNode, 64);
+NEARLIGHT_CHECK_SHARED(Environment, 96);
+NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);
 static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
@@ -341,11 +360,11 @@ static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
                   offsetof(Importon, response) == offsetof(Vpl, power),
               "a gather reads an Importon as a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
-NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1536);
+NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1792);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
-NEARLIGHT_CHECK_SHARED(GatherParams, 48);
-NEARLIGHT_CHECK_SHARED(CameraVertex, 48);
+NEARLIGHT_CHECK_SHARED(GatherParams, 64);
+NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 32);
 }  // namespace nearlight::core

@@ -18,7 +18,7 @@ constexpr int kSide = 64;
 constexpr std::size_t kVpls = 8;
 
 std::vector<uint> all_triangles(const Scene& scene) {
-    return distinct_triangles(build_scene_bvhs(scene).opaque);
+    return distinct_triangles(build_scene_bvh(scene));
 }
 
 TEST(EmbreeTrees, AreSoundInOurLayout) {

@@ -13,6 +13,7 @@
 #include "host/reference/gather_workload.h"
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
+#include "host/scene/material_model.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core::test {
@@ -29,7 +30,7 @@ struct Workload {
 Workload make_workload(std::size_t triangles, int side, std::size_t vpls) {
     Workload work;
     work.scene = make_sphere_room(triangles);
-    work.bvh = build_scene_bvhs(work.scene).opaque;
+    work.bvh = build_scene_bvh(work.scene);
     work.receivers = make_camera_receivers(work.scene, work.bvh, side, side);
     work.vpls = make_traced_vpls(work.scene, work.bvh, vpls);
     return work;
@@ -80,8 +81,8 @@ TEST_F(GatherBenchTest, IrradianceAgreesWithTheReferenceGather) {
 
 TEST_F(GatherBenchTest, EveryTracerAgreesButForEdges) {
     const Scene scene = make_sphere_room(25'000);
-    const GatherSegments segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 64, 96, 96);
-    const Bvh bvh = build_scene_bvhs(segments.geometry).opaque;
+    const GatherSegments segments = make_camera_segments(scene, build_scene_bvh(scene), 64, 96, 96);
+    const Bvh bvh = build_scene_bvh(segments.geometry);
     on_each_device([&](Device& device) {
         const GatherBenchResult result = bench_gather(device, segments, bvh, {.repeats = 1});
         EXPECT_TRUE(result.agrees);
@@ -100,8 +101,8 @@ TEST_F(GatherBenchTest, EveryTracerAgreesButForEdges) {
 
 TEST_F(GatherBenchTest, CountsAndRatiosFitTogether) {
     const Scene scene = make_sphere_room(3'000);
-    const GatherSegments segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 20, 40, 24);
-    const Bvh bvh = build_scene_bvhs(segments.geometry).opaque;
+    const GatherSegments segments = make_camera_segments(scene, build_scene_bvh(scene), 20, 40, 24);
+    const Bvh bvh = build_scene_bvh(segments.geometry);
     on_each_device([&](Device& device) {
         const GatherBenchResult result =
             bench_gather(device, segments, bvh, {.repeats = 3, .kernel = GatherKernel::rays});
@@ -129,8 +130,8 @@ TEST_F(GatherBenchTest, CountsAndRatiosFitTogether) {
 struct Answered {
     Answered() {
         const Scene scene = make_sphere_room(3'000);
-        segments = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 40, 64, 64);
-        bvh = build_scene_bvhs(segments.geometry).opaque;
+        segments = make_camera_segments(scene, build_scene_bvh(scene), 40, 64, 64);
+        bvh = build_scene_bvh(segments.geometry);
         truth.rays = segments.rays;
         truth.occluded =
             EmbreeOcclusion(segments.geometry).trace(segments, {1, false, false}, 2, true).occluded;
@@ -235,9 +236,9 @@ TEST(FastestTracer, IsNoneThatIsWrongIfAnotherIsRight) {
 TEST(GatherWorkload, VplsOfASceneWithoutLampsLieOnItsSurfaces) {
     Scene scene = make_sphere_room(3'000);
     for (Material& material : scene.materials) {
-        material.emission = {0, 0, 0};
+        material.emission = parameter_of(0.0f);
     }
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 200);
     ASSERT_EQ(vpls.size(), 200u);
     for (const Vpl& vpl : vpls) {

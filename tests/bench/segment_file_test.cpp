@@ -27,7 +27,7 @@ class SegmentFile : public testing::Test {
   protected:
     SegmentFile() {
         const Scene scene = make_sphere_room(2'000);
-        segments_ = make_camera_segments(scene, build_scene_bvhs(scene).opaque, 5, 20, 12);
+        segments_ = make_camera_segments(scene, build_scene_bvh(scene), 5, 20, 12);
         segments_.vpls[3].power = {1.0f, 0.5f, 0.25f};
         write_segments(file_, segments_);
         bytes_ = read_bytes(file_);
@@ -48,8 +48,9 @@ class SegmentFile : public testing::Test {
         return triangles_at() + segments_.geometry.triangles.size() * 12;
     }
     [[nodiscard]] std::size_t receivers_at() const { return vpls_at() + segments_.vpls.size() * 36; }
+    /// Of a packet, only the places of its receivers are stored.
     [[nodiscard]] std::size_t rays_at() const {
-        return receivers_at() + segments_.receivers.size() * sizeof(ReceiverPacket);
+        return receivers_at() + segments_.receivers.size() * offsetof(ReceiverPacket, surface);
     }
 
     TemporaryFolder folder_;
@@ -118,7 +119,7 @@ TEST_F(SegmentFile, RefusesWrongContents) {
     const float infinity = std::numeric_limits<float>::infinity();
     const auto vertices = static_cast<uint>(segments_.geometry.vertices.size());
     const std::size_t last_receiver =
-        receivers_at() + segments_.receivers.size() * sizeof(ReceiverPacket) - 4;
+        receivers_at() + segments_.receivers.size() * offsetof(ReceiverPacket, surface) - 4;
     expect_refusal("vertex", [&] { read_with(kHeaderBytes + 4, infinity); });
     expect_refusal("vertex", [&] { read_with(triangles_at() + 8, vertices); });
     expect_refusal("VPL", [&] { read_with(vpls_at() + 32, infinity); });

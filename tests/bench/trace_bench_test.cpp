@@ -15,12 +15,12 @@ namespace nearlight::core::test {
 namespace {
 
 std::vector<uint> all_triangles(const Scene& scene) {
-    return distinct_triangles(build_scene_bvhs(scene).opaque);
+    return distinct_triangles(build_scene_bvh(scene));
 }
 
 TEST(TraceBench, CameraRaysFindTheReceivers) {
     const Scene scene = make_sphere_room(2000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const std::vector<RayQuery> rays = make_camera_rays(scene, 20, 12);
     ASSERT_EQ(rays.size(), 20u * 12u);
     std::size_t hits = 0;
@@ -39,7 +39,7 @@ TEST(TraceBench, CameraRaysFindTheReceivers) {
 
 TEST(TraceBench, WalkRaysGoOnFromWhereTheLastOneEnded) {
     const Scene scene = make_sphere_room(2000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const std::vector<RayQuery> rays = make_walk_rays(scene, bvh, 1000);
     ASSERT_EQ(rays.size(), 1000u);
     std::size_t continued = 0;
@@ -55,7 +55,7 @@ TEST(TraceBench, WalkRaysGoOnFromWhereTheLastOneEnded) {
 
 TEST(TraceBench, AllOfEmbreesModesFindTheSameHits) {
     const Scene scene = make_sphere_room(3000);
-    const Bvh bvh = build_scene_bvhs(scene).opaque;
+    const Bvh bvh = build_scene_bvh(scene);
     const EmbreeRays embree(scene, all_triangles(scene));
     const std::vector<RayQuery> rays = make_walk_rays(scene, bvh, 1001);  // the last packet is not full
     std::vector<float> distances;

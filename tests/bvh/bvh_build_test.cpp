@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "host/bvh/flatten.h"
+#include "host/scene/material_model.h"
 #include "tests/bvh/soup.h"
 
 namespace nearlight::core {
@@ -169,22 +171,21 @@ TEST(BvhBuild, CostAgreesWithAWalkOfTheTreeAndIsLow) {
     EXPECT_LT(bvh.sah_cost, 40.0);  // a ray that meets 5000 scattered specks tests a few dozen boxes
 }
 
-TEST(BvhBuild, GlassGoesToATreeOfItsOwn) {
+TEST(BvhBuild, OneTreeHasTheSurfacesOfAllModels) {
     Scene scene = random_soup(60, 0.5f, 10);
-    scene.materials.push_back({});
-    scene.materials[1].lobe = NEARLIGHT_LOBE_DIELECTRIC;
-    std::vector<uint> opaque;
-    std::vector<uint> glass;
-    for (uint i = 0; i < 60; ++i) {
-        scene.triangles[i].material = i % 4 == 1 ? 1 : 0;
-        (i % 4 == 1 ? glass : opaque).push_back(i);
+    const Bvh diffuse = build_scene_bvh(scene);
+    std::vector<uint> all(60);
+    std::iota(all.begin(), all.end(), 0u);
+    for (const uint model : {NEARLIGHT_BSDF_DIELECTRIC, NEARLIGHT_BSDF_THIN_DIELECTRIC,
+                             NEARLIGHT_BSDF_CONDUCTOR, NEARLIGHT_BSDF_NULL, NEARLIGHT_BSDF_MASK}) {
+        scene.materials.push_back(plain_material(model));
     }
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
-    EXPECT_TRUE(bvhs.has_glass);
-    EXPECT_THAT(check_bvh(bvhs.opaque, scene, opaque), IsEmpty());
-    EXPECT_THAT(check_bvh(bvhs.glass, scene, glass), IsEmpty());
-    scene.materials[1].lobe = NEARLIGHT_LOBE_COAT;
-    EXPECT_FALSE(build_scene_bvhs(scene).has_glass);
+    for (uint i = 0; i < 60; ++i) {
+        scene.triangles[i].material = i % static_cast<uint>(scene.materials.size());
+    }
+    const Bvh bvh = build_scene_bvh(scene);
+    EXPECT_THAT(check_bvh(bvh, scene, all), IsEmpty());
+    EXPECT_EQ(bvh.triangle_ids, diffuse.triangle_ids) << "materials do not count";
 }
 
 }  // namespace

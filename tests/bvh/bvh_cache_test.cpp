@@ -16,23 +16,17 @@ namespace {
 class BvhCache : public testing::Test {
   protected:
     BvhCache() {
-        scene_.materials.push_back(scene_.materials.front());
-        scene_.materials.back().lobe = NEARLIGHT_LOBE_DIELECTRIC;
+        scene_.materials.push_back(dielectric_material(1.5));
         for (std::size_t i = 0; i < scene_.triangles.size(); i += 5) {
             scene_.triangles[i].material = 1;
         }
     }
-    SceneTrees get(const BvhConfig& config = {}) const {
-        return find_or_build_scene_trees(
+    ShapedBvh get(const BvhConfig& config = {}) const {
+        return find_or_build_scene_tree(
             scene_, config, shapes_, {.folder = folder_.path(), .min_triangles = 1, .max_bytes = max_bytes_});
     }
-    void expect_right(const SceneTrees& trees, const BvhConfig& config = {}) const {
-        const SceneBvhs built = build_scene_bvhs(scene_, config);
-        EXPECT_EQ(trees.has_glass, built.has_glass);
-        expect_right(trees.opaque, built.opaque);
-        expect_right(trees.glass, built.glass);
-    }
-    void expect_right(const ShapedBvh& tree, const Bvh& built) const {
+    void expect_right(const ShapedBvh& tree, const BvhConfig& config = {}) const {
+        const Bvh built = build_scene_bvh(scene_, config);
         const Bvh binary = shapes_.binary ? built : Bvh{};
         EXPECT_TRUE(test::same_bits(tree.binary.nodes, binary.nodes));
         EXPECT_TRUE(test::same_bits(tree.binary.triangles, binary.triangles));
@@ -129,9 +123,9 @@ TEST_F(BvhCache, ForgetsWhatWasNotUsedForLongest) {
 
 TEST_F(BvhCache, KeepsNothingWhereThereIsNoFolderOrLittleToBuild) {
     for (const char* folder : {"", "none"}) {
-        expect_right(find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder, .min_triangles = 1}));
+        expect_right(find_or_build_scene_tree(scene_, {}, shapes_, {.folder = folder, .min_triangles = 1}));
     }
-    expect_right(find_or_build_scene_trees(scene_, {}, shapes_, {.folder = folder_.path()}));
+    expect_right(find_or_build_scene_tree(scene_, {}, shapes_, {.folder = folder_.path()}));
     EXPECT_EQ(folder_.file_count(), 0u);
     EXPECT_FALSE(std::filesystem::exists("none"));
 }

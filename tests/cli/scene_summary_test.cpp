@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/scene/material_model.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -14,9 +16,9 @@ Scene one_lamp() {
     scene.vertices[1].position = {2, 0, 0};
     scene.vertices[2].position = {0, 3, 0};
     scene.vertices[3].position = {0, 0, 100};  // used by no triangle
-    scene.materials.resize(3);
-    scene.materials[1].lobe = NEARLIGHT_LOBE_THIN_DIELECTRIC;
-    scene.materials[2].emission = {1, 1, 1};
+    scene.materials = {diffuse_material({0, 0, 0}), thin_dielectric_material(1.5),
+                       diffuse_material({0, 0, 0})};
+    scene.materials[2].emission = parameter_of(1.0f);
     scene.triangles = {{0, 1, 2, 0}, {0, 1, 2, 2}};
     scene.camera.width = 100;
     scene.camera.height = 50;
@@ -44,7 +46,7 @@ TEST(SceneSummary, JsonTellsWhatIsThere) {
 
 TEST(SceneSummary, MemoryOfAllParts) {
     Scene scene = one_lamp();
-    scene.images.push_back({"wood", 10, 10, std::vector<std::uint32_t>(100)});
+    scene.images.push_back({"wood", 10, 10, NEARLIGHT_TEXELS_SRGB8, std::vector<std::uint32_t>(100)});
     const nlohmann::ordered_json memory = scene_summary_json(scene)["memory_bytes"];
     EXPECT_EQ(memory["host"]["geometry"], 4 * 32 + 2 * 16);
     EXPECT_EQ(memory["host"]["trees"], 2 * 52 + 64);

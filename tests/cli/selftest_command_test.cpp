@@ -30,7 +30,7 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
         EXPECT_EQ(names,
                   "layout, scan, compaction, sort, morton, classify, light visibility, placement, "
                   "patch VPLs, VPL light, closest hit, any hit, gather packets, gather rays, roulette, "
-                  "direct light, bounce tracing, light tracing, VPL contribution, reverse VPLs, "
+                  "direct light, paths of receivers, light tracing, VPL contribution, reverse VPLs, "
                   "metropolis chains, local lights, camera pass, film");
     }
 }
@@ -42,11 +42,11 @@ TEST(Selftest, ABrokenKernelFailsItsCheckAndNoOther) {
     const std::filesystem::path kernels = folder / "kernels";
     std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
                           std::filesystem::copy_options::recursive);
-    std::string text = file_text(kernels / "direct_light.cl");
-    const std::string right = "irradiance[packet].g[lane] = e.y;";
+    std::string text = file_text(kernels / "receiver_paths.cl");
+    const std::string right = "store_light(direct + packet, lane, light.direct);";
     ASSERT_NE(text.find(right), std::string::npos);
-    text.replace(text.find(right), right.size(), "irradiance[packet].g[lane] = 1.05f * e.y;");
-    std::ofstream(kernels / "direct_light.cl") << text;
+    text.replace(text.find(right), right.size(), "store_light(direct + packet, lane, 1.05f * light.direct);");
+    std::ofstream(kernels / "receiver_paths.cl") << text;
     std::ofstream(kernels / "ray_caster.cl") << "this is no kernel";
 
     const ProgramResult result =

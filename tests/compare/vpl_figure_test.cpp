@@ -7,7 +7,7 @@
 
 #include "host/base/math.h"
 #include "host/compare/pictures.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 
 namespace nearlight::core {
 namespace {
@@ -20,7 +20,7 @@ SceneCamera camera() {
 }
 
 TEST(VplFigure, ProjectsToWhereTheCameraRayComesFrom) {
-    const PinholeCamera pinhole = make_pinhole_camera(camera(), 32, 20);
+    const Camera pinhole = make_camera(camera(), 32, 20);
     for (const auto& [x, y] : {std::pair{16.0f, 10.0f}, {0.5f, 0.5f}, {31.0f, 3.0f}, {5.0f, 19.5f}}) {
         const Vec3 direction = pinhole.corner + x * pinhole.step_x + y * pinhole.step_y;
         const auto point = project(camera(), pinhole.origin + 3.0f * direction);
@@ -32,7 +32,7 @@ TEST(VplFigure, ProjectsToWhereTheCameraRayComesFrom) {
 }
 
 TEST(VplFigure, WhatIsBehindOrBesideTheCameraIsNotThere) {
-    const PinholeCamera pinhole = make_pinhole_camera(camera(), 32, 20);
+    const Camera pinhole = make_camera(camera(), 32, 20);
     const auto toward = [&](float x, float y) {
         return pinhole.corner + x * pinhole.step_x + y * pinhole.step_y;
     };
@@ -43,7 +43,7 @@ TEST(VplFigure, WhatIsBehindOrBesideTheCameraIsNotThere) {
 }
 
 TEST(VplFigure, CountsAndDrawsWhatIsInThePicture) {
-    const PinholeCamera pinhole = make_pinhole_camera(camera(), 32, 20);
+    const Camera pinhole = make_camera(camera(), 32, 20);
     const auto vpl_at = [&](float x, float y, float distance, uint flags) {
         const Vec3 direction = normalize(pinhole.corner + x * pinhole.step_x + y * pinhole.step_y);
         return Vpl{pinhole.origin + distance * direction, 1, {0, 0, 1}, flags, {1, 1, 1}, 0};

@@ -88,7 +88,7 @@ TEST(PathTracer, AreaLightLightsAsLambertsFormulaSays) {
     // The irradiance of a surface parallel to a rectangle a × b, at height h below its corner.
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {2, 2, 2};
+    lamp.emission = parameter_of(2.0f);
     add_quad(scene, {0, 0.5f, 0}, {1, 0, 0}, {0, 0, 0.7f}, add_material(scene, lamp));
     add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
     set_camera(scene, {-1, 0.4, -1}, {0, 0, 0}, 0.02);
@@ -139,12 +139,11 @@ TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
     // The camera looks along +Z, so +X is on the left. At 90° the film is 2 wide at z = 1.
     Scene scene;
     Material red = lambertian({0, 0, 0});
-    red.emission = {1, 0, 0};
-    red.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    red.emission = parameter_of(Vec3{1, 0, 0});
     add_quad(scene, {0.5f, -1, 1}, {0, 2, 0}, {0.5f, 0, 0},
              add_material(scene, red));  // front faces the camera
     Material blue = red;
-    blue.emission = {0, 0, 1};
+    blue.emission = parameter_of(Vec3{0, 0, 1});
     add_quad(scene, {-1, 0.25f, 1}, {0, 0.25f, 0}, {1, 0, 0}, add_material(scene, blue));
     scene.camera.fov_x_degrees = 90;
     const Image image = trace_paths(scene, {.width = 8, .height = 4, .spp = 4});
@@ -160,7 +159,7 @@ TEST(PathTracer, PictureHasMitsubasHandednessAndHorizontalFov) {
 Scene glowing_edge() {
     Scene scene;
     Material glow = lambertian({0, 0, 0});
-    glow.emission = {1, 1, 1};
+    glow.emission = parameter_of(1.0f);
     add_quad(scene, {0.1f, -2, 1}, {0, 4, 0}, {2, 0, 0}, add_material(scene, glow));
     scene.camera.fov_x_degrees = 90;
     return scene;
@@ -212,38 +211,41 @@ Scene lit_floor() {
     return scene;
 }
 
-TEST(PathTracer, APaneDimsTheViewAndNotTheLight) {
+TEST(PathTracer, APaneDimsTheViewAndBlocksPointLights) {
     Scene scene = lit_floor();
-    Material pane = lambertian({0, 0, 0});
-    pane.lobe = NEARLIGHT_LOBE_THIN_DIELECTRIC;
-    pane.transmission = {1, 0.5f, 0.25f};
+    Material pane = thin_dielectric_material(1.5);
+    pane.transmission = parameter_of(Vec3{1, 0.5f, 0.25f});
     const uint material = add_material(scene, pane);
-    add_quad(scene, {-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, material);     // before the camera
-    add_quad(scene, {-1, 0.5f, -1}, {0, 0, 2}, {2, 0, 0}, material);  // between light and floor
+    add_quad(scene, {-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, material);  // before the camera
     const double face = 0.04;
-    const double passed = std::pow(1 - 2 * face / (1 + face), 2);
-    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 1024, .max_depth = 2});
+    const double passed = 1 - 2 * face / (1 + face);
+    PathTracerSettings settings{.width = 4, .height = 4, .spp = 1024, .max_depth = 3};
+    const Image image = trace_paths(scene, settings);
     EXPECT_NEAR(channel_mean(image, "R"), 0.5 / kPi * passed, 4.5 * standard_error(image));
-    EXPECT_NEAR(channel_mean(image, "B") / channel_mean(image, "R"), 1 / 16.0, 1e-4);
+    EXPECT_NEAR(channel_mean(image, "B") / channel_mean(image, "R"), 1 / 4.0, 1e-4);
+    EXPECT_NEAR(channel_mean(image, "direct.R"), channel_mean(image, "R"), 1e-6);
     EXPECT_NEAR(channel_mean(image, "depth.Z"), 1, 1e-4);
     EXPECT_NEAR(channel_mean(image, "P.Y"), 0, 1e-3);
+    settings.max_depth = 2;
+    EXPECT_EQ(channel_mean(trace_paths(scene, settings), "R"), 0) << "panes count for the depth";
+    settings.max_depth = 4;
+    add_quad(scene, {-1, 0.5f, -1}, {0, 0, 2}, {2, 0, 0}, material);  // between light and floor
+    EXPECT_EQ(channel_mean(trace_paths(scene, settings), "R"), 0);
 }
 
 TEST(PathTracer, AMirrorShowsTheReceiver) {
     Scene scene = lit_floor();
-    Material mirror = lambertian({0, 0, 0});
-    mirror.lobe = NEARLIGHT_LOBE_CONDUCTOR;
-    mirror.eta = {0, 0, 0};
-    mirror.k = {1, 1, 1};
-    mirror.specular = {0.9f, 0.9f, 0.9f};
+    // An index of i reflects everything.
+    const Material mirror = conductor_material({0, 0, 0}, {1, 1, 1}, {0.9f, 0.9f, 0.9f});
     add_quad(scene, {1, 2, -1}, {1, -1, 0}, {0, 0, 2}, add_material(scene, mirror));
     set_camera(scene, {0, 1.5, 0}, {1.5, 1.5, 0}, 0.05);
     // The mirror at 45° sends the view down to (1.5, 0, 0) on the floor.
     const double distance2 = 1.5 * 1.5 + 1;
-    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 16, .max_depth = 2});
+    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 16, .max_depth = 3});
     EXPECT_NEAR(channel_mean(image, "N.Y"), 1, 1e-5);
     EXPECT_NEAR(channel_mean(image, "P.X"), 1.5, 0.01);
     EXPECT_NEAR(channel_mean(image, "R"), 0.9 * 0.5 / kPi * std::pow(distance2, -1.5), 2e-4);
+    EXPECT_NEAR(channel_mean(image, "albedo.R"), 0.45, 1e-5);
 }
 
 TEST(PathTracer, TheBackOfAOneSidedSurfaceIsBlack) {
@@ -251,12 +253,16 @@ TEST(PathTracer, TheBackOfAOneSidedSurfaceIsBlack) {
     set_camera(scene, {0, -3, 0}, {0, 0, 0}, 10, {0, 0, 1});
     add_point_light(scene, {0, -1, 0}, {1, 1, 1});
     EXPECT_EQ(channel_mean(trace_paths(scene, {.width = 4, .height = 4, .spp = 4}), "R"), 0.0);
-    scene.materials[0].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    const uint both = add_material(scene, two_sided_material(0, 0));
+    for (Triangle& triangle : scene.triangles) {
+        triangle.material = both;
+    }
     EXPECT_GT(channel_mean(trace_paths(scene, {.width = 4, .height = 4, .spp = 4}), "R"), 0.1);
 }
 
 TEST(PathTracer, SenselessSettingsAreRefused) {
     EXPECT_THROW(trace_paths(lit_floor(), {.spp = 0}), Error);
+    EXPECT_THROW(trace_paths(lit_floor(), {.max_depth = -2}), Error);
     EXPECT_THROW(trace_paths(lit_floor(), {.clamp_radius = -1}), Error);
 }
 

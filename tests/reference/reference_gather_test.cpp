@@ -67,14 +67,15 @@ TEST(ReferenceGather, DirectLightIsIntensityOverDistanceSquared) {
     add_point_light(lights, {-1, 0, -1}, {4, 4, 4});
     Emitter spot = lights.delta_emitters[0];
     spot.type = NEARLIGHT_EMITTER_SPOT;
-    spot.direction = normalize({2, 0, 2});  // lane 0 is 45° off the axis
+    spot.direction = normalize(Vec3{2, 0, 2});  // lane 0 is 45° off the axis
     spot.beam_angle = degrees_to_radians(30);
     spot.cutoff_angle = degrees_to_radians(60);
     const std::vector<ReceiverPacket> receivers{two_receivers()};
     std::vector<IrradiancePacket> irradiance(1);
-    direct_reference(embree, lights.delta_emitters, receivers, irradiance);
+    direct_reference(embree, lights, receivers, irradiance);
     EXPECT_NEAR(irradiance[0].r[0], 1.0f, 1e-5);
-    direct_reference(embree, std::vector<Emitter>{spot}, receivers, irradiance);
+    lights.delta_emitters = {spot};
+    direct_reference(embree, lights, receivers, irradiance);
     EXPECT_NEAR(irradiance[0].r[0], 0.5f, 1e-4);
 }
 
@@ -100,8 +101,7 @@ TEST(ReferenceGather, ThreadsDoNotMatter) {
 /// Two squares of side 2 facing each other at distance 1, a blocker between, and a light beside the blocker.
 Scene facing_squares() {
     Scene scene;
-    const uint material = add_material(scene, lambertian({0.8f, 0.8f, 0.8f}));
-    scene.materials[material].flags = NEARLIGHT_MATERIAL_TWO_SIDED;
+    const uint material = add_two_sided(scene, lambertian({0.8f, 0.8f, 0.8f}));
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, material);
     add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, material);
     const uint black = add_material(scene, lambertian({0, 0, 0}));

@@ -10,7 +10,7 @@ namespace nearlight::core::small_scenes {
 inline Scene furnace(float albedo) {
     Scene scene;
     Material wall = lambertian({albedo, albedo, albedo});
-    wall.emission = {1, 1, 1};
+    wall.emission = parameter_of(1.0f);
     add_inward_sphere(scene, 2.0f, 1, add_material(scene, wall));
     set_camera(scene, {0.3, 0.2, 0}, {0, 0, 1}, 60);
     return scene;

@@ -21,9 +21,7 @@ inline constexpr float kBenchClampRadius = 0.1f;
 inline Scene divided_room() {
     using namespace small_scenes;
     Scene scene;
-    Material grey = lambertian({kRoomAlbedo, kRoomAlbedo, kRoomAlbedo});
-    grey.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    const uint wall = add_material(scene, grey);
+    const uint wall = add_two_sided(scene, lambertian({kRoomAlbedo, kRoomAlbedo, kRoomAlbedo}));
     add_quad(scene, {-1, -1, -2}, {0, 0, 4}, {2, 0, 0}, wall);
     add_quad(scene, {-1, 1, -2}, {2, 0, 0}, {0, 0, 4}, wall);
     add_quad(scene, {-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, wall);

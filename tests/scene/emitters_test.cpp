@@ -19,7 +19,7 @@ Scene area_light_scene(Vec3 radiance) {
         scene.vertices.push_back({p, 0, {0, 0, 0}, 0});
     }
     scene.materials.resize(2, Material{});
-    scene.materials[1].emission = radiance;
+    scene.materials[1].emission.value = radiance;
     scene.triangles = {{0, 1, 2, 1}, {0, 1, 1, 1}, {0, 1, 3, 0}};
     return scene;
 }
@@ -65,9 +65,32 @@ TEST(EmitterTable, PowersAreThoseOfTheFormulae) {
     Scene scene = area_light_scene({3, 2, 1});
     const float area_luminance = luminance({3, 2, 1});
     EXPECT_NEAR(build_emitter_table(scene).total_power, kPiD * 2 * area_luminance, 1e-4);
-    scene.materials[1].emission = {0, 0, 0};
+    scene.materials[1].emission.value = {0, 0, 0};
     scene.delta_emitters = {point_light({1, 1, 1})};
     EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD, 1e-5);
+}
+
+TEST(EmitterTable, PowersOfProjectorsAndDirectionalLights) {
+    Scene scene = area_light_scene({0, 0, 0});
+    scene.images.push_back({"one bright texel",
+                            2,
+                            2,
+                            NEARLIGHT_TEXELS_SRGB8,
+                            {0xff000000u, 0xff000000u, 0xff000000u, 0xffffffffu}});
+    scene.textures.resize(1);
+    scene.textures[0].image = 0;
+    Emitter projector = point_light({3, 3, 3});
+    projector.type = NEARLIGHT_EMITTER_PROJECTOR;
+    projector.area = 0.5f;
+    scene.delta_emitters = {projector};
+    EXPECT_NEAR(build_emitter_table(scene).total_power, 1.5, 1e-6);
+    scene.delta_emitters[0].image = 1;
+    EXPECT_NEAR(build_emitter_table(scene).total_power, 1.5 / 4, 1e-6);
+    Emitter sun = point_light({5, 5, 5});
+    sun.type = NEARLIGHT_EMITTER_DIRECTIONAL;
+    scene.delta_emitters = {sun};
+    EXPECT_NEAR(build_emitter_table(scene).total_power, kPiD * 2 * 5, 1e-4);  // a sphere of radius √2
+    EXPECT_EQ(build_emitter_table(scene).delta_emitter_count, 1u);
 }
 
 TEST(EmitterTable, OrderProbabilitiesAndContents) {

@@ -13,6 +13,7 @@ namespace nearlight::core {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using namespace test;
 
 Vec3 corner(const Scene& scene, std::size_t triangle, int k) {
@@ -110,14 +111,27 @@ TEST_F(GltfLoader, Lights) {
     expect_close(scene.delta_emitters[1].radiance, {2, 2, 2});
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].beam_angle, 0.2f);
     EXPECT_FLOAT_EQ(scene.delta_emitters[1].cutoff_angle, 0.4f);
-    // Irradiance at the middle of the scene, W/m².
     const Emitter& sun = scene.delta_emitters[2];
-    const Vec3 to_middle = Vec3{0.5f, 0.5f, 0} - sun.position;
-    EXPECT_NEAR(sun.radiance.x / dot(to_middle, to_middle), 10, 0.01);
-    for (const Vertex& vertex : scene.vertices) {
-        EXPECT_GT(dot(normalize(vertex.position - sun.position), sun.direction), std::cos(sun.beam_angle));
+    EXPECT_EQ(sun.type, NEARLIGHT_EMITTER_DIRECTIONAL);
+    EXPECT_NEAR(sun.radiance.x, 10, 0.01);  // W/m²
+    expect_close(sun.direction, {0, 0, -1});
+    for (const Note& note : scene.notes) {
+        EXPECT_THAT(note.text, Not(HasSubstr("directional")));
     }
-    EXPECT_THAT(scene.notes.at(0).text, HasSubstr("directional"));
+}
+
+TEST_F(GltfLoader, OrthographicCamerasHaveTheirSize) {
+    const json size = {{"xmag", 3}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}};
+    gltf_.root["cameras"] = {{{"type", "orthographic"}, {"orthographic", size}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"camera", 0}, {"translation", {0, 0, 3}}}};
+    const SceneCamera camera = load().camera;
+    EXPECT_EQ(camera.kind, CameraKind::orthographic);
+    EXPECT_EQ(camera.width, 720);
+    EXPECT_EQ(camera.height, 480);
+    expect_close(transform_vector(camera.to_world, {1, 0, 0}), {-3, 0, 0});
+    expect_close(transform_vector(camera.to_world, {0, 0, 1}), {0, 0, -1});
+    gltf_.root["cameras"][0]["orthographic"]["xmag"] = 0;
+    EXPECT_TRUE(mentions(file_error([&] { load(); }), "has no size above 0"));
 }
 
 TEST_F(GltfLoader, CamerasLookAlongMinusZ) {

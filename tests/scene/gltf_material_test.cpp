@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 
 #include "host/image/image_io.h"
+#include "host/scene/texture.h"
 #include "tests/scene/gltf_text.h"
 
 namespace nearlight::core {
@@ -15,35 +17,67 @@ namespace {
 using testing::HasSubstr;
 using namespace test;
 
+/// The material of the only triangle, without the wrapper that gives it two sides.
+Material side_of(const Scene& scene) {
+    const Material& material = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(material.model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_EQ(material.child[0], material.child[1]);
+    return scene.materials.at(material.child[0]);
+}
+
+Material top_of(const Scene& scene) {
+    return scene.materials.at(scene.triangles.at(0).material);
+}
+
 TEST_F(GltfLoader, Materials) {
     json& pbr = gltf_.material()["pbrMetallicRoughness"];
-    pbr = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}};
-    EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_NONE);
-    expect_close(only_material().base, {0.2f, 0.4f, 0.6f});
-    EXPECT_NE(only_material().flags & NEARLIGHT_MATERIAL_TWO_SIDED, 0u);
+    pbr = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+    EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_DIFFUSE);
+    expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
 
     pbr["roughnessFactor"] = 0.3;
-    EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_COAT);
-    EXPECT_FLOAT_EQ(only_material().roughness, 0.09f);
-    EXPECT_FLOAT_EQ(only_material().eta.x, 1.5f);
+    EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_FLOAT_EQ(side_of(load()).roughness.value.x, 0.3f);
+    EXPECT_FLOAT_EQ(side_of(load()).eta.x, 1.5f);
     gltf_.material()["extensions"] = {{"KHR_materials_ior", {{"ior", 1.33}}}};
-    EXPECT_FLOAT_EQ(only_material().eta.x, 1.33f);
+    EXPECT_FLOAT_EQ(side_of(load()).eta.x, 1.33f);
 
     pbr["metallicFactor"] = 1;
-    EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_CONDUCTOR);
-    expect_close(only_material().specular, {0.2f, 0.4f, 0.6f});
+    EXPECT_EQ(side_of(load()).metallic.value.x, 1.0f);
+    expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
+    EXPECT_NE(side_of(load()).curve, 0u);
+}
 
-    gltf_.material()["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
-    EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_THIN_DIELECTRIC);
+TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
+                        {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.25}}}}}};
+    const double eta = static_cast<double>(side_of(load()).eta.x);
+    EXPECT_NEAR(std::pow((eta - 1) / (eta + 1), 2), 0.25 * 0.04, 1e-6);
+    gltf_.material()["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
+    EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_DIFFUSE);
+}
+
+TEST_F(GltfLoader, TransmissionIsGlass) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.5}, {"metallicFactor", 0}}},
+                        {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
     gltf_.material()["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0.1}};
-    EXPECT_EQ(only_material().lobe, NEARLIGHT_LOBE_DIELECTRIC);
+    EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_DIELECTRIC);
+    EXPECT_FLOAT_EQ(top_of(load()).roughness.value.x, 0.25f);
+    gltf_.material()["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.3;
+    const Scene scene = load();
+    const Material blend = top_of(scene);
+    EXPECT_EQ(blend.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_FLOAT_EQ(blend.reflectance.value.x, 0.3f);
+    EXPECT_EQ(scene.materials.at(blend.child[0]).model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_EQ(scene.materials.at(blend.child[1]).model, NEARLIGHT_BSDF_DIELECTRIC);
 }
 
 TEST_F(GltfLoader, EmissionIsARadiance) {
     gltf_.material()["emissiveFactor"] = {1, 0.5, 0};
-    expect_close(only_material().emission, {1, 0.5f, 0});
+    expect_close(top_of(load()).emission.value, {1, 0.5f, 0});
     gltf_.material()["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
-    expect_close(only_material().emission, {8, 4, 0});
+    expect_close(top_of(load()).emission.value, {8, 4, 0});
 }
 
 /// A PNG file of two rows, red above blue.
@@ -65,19 +99,70 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
         gltf_.root["images"] = {image};
         const Scene scene = load();
         ASSERT_EQ(scene.images.size(), 1u) << to_string(scene.notes.back());
-        EXPECT_EQ(scene.images[0].texels, (std::vector<std::uint32_t>{0xff0000ffu, 0xffff0000u}));
-        EXPECT_EQ(scene.materials.at(0).base_texture, 0);
-        expect_close(scene.materials.at(0).base, {1, 1, 1});
+        EXPECT_EQ(scene.images[0].format, NEARLIGHT_TEXELS_SRGB8);
+        EXPECT_EQ(scene.images[0].words, (std::vector<std::uint32_t>{0xff0000ffu, 0xffff0000u}));
+        EXPECT_EQ(side_of(scene).reflectance.texture, 0);
+        expect_close(side_of(scene).reflectance.value, {1, 1, 1});
     }
     gltf_.root["bufferViews"].back()["byteLength"] = 1'000'000;
     for (const auto& [image, part] :
          {std::pair{json{{"uri", "missing.png"}}, "missing.png"}, {in_buffer, "beyond"}}) {
         gltf_.root["images"] = {image};
         const Scene grey = load();
-        EXPECT_EQ(grey.materials.at(0).base_texture, -1);
-        expect_close(grey.materials.at(0).base, {0.5f, 0.5f, 0.5f});
+        EXPECT_EQ(side_of(grey).reflectance.texture, -1);
+        expect_close(side_of(grey).reflectance.value, {0.5f, 0.5f, 0.5f});
         EXPECT_THAT(grey.notes.at(0).text, HasSubstr(part));
     }
+}
+
+/// A scene with one texture of 2 × 1 texels: red with no alpha, blue with alpha ½; roughness 0 and metal 1
+/// follow from the same numbers.
+json alpha_texture(const SceneFiles& files) {
+    write_image(files.path("alpha.exr"), {2, 1, {"R", "G", "B", "A"}, {1, 0, 0, 0, 0, 0, 1, 128 / 255.0f}});
+    return {{{"uri", "alpha.exr"}}};
+}
+
+TEST_F(GltfLoader, AlphaMakesMasks) {
+    gltf_.root["images"] = alpha_texture(files_);
+    gltf_.root["textures"] = {{{"source", 0}}};
+    gltf_.material() = {{"pbrMetallicRoughness",
+                         {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {1, 1, 1, 0.5}}}}};
+    EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_TWO_SIDED);  // opaque, whatever the alpha
+    const auto opacity_at = [&](float u) {
+        const Scene scene = load();
+        EXPECT_EQ(top_of(scene).model, NEARLIGHT_BSDF_MASK);
+        return parameter_value(scene, top_of(scene).reflectance, u, 0.5f).x;
+    };
+    gltf_.material()["alphaMode"] = "BLEND";
+    EXPECT_EQ(opacity_at(0.25f), 0.0f);
+    EXPECT_NEAR(opacity_at(0.75f), 0.25f, 2e-3f);
+    gltf_.material()["alphaMode"] = "MASK";
+    gltf_.material()["alphaCutoff"] = 0.25;  // times the factor, texels of alpha ½ pass
+    EXPECT_EQ(opacity_at(0.25f), 0.0f);
+    EXPECT_EQ(opacity_at(0.75f), 1.0f);
+    gltf_.material()["alphaCutoff"] = 0.3;
+    EXPECT_EQ(opacity_at(0.75f), 0.0f);
+}
+
+TEST_F(GltfLoader, RoughnessMetalnessAndNormalsAreTextured) {
+    gltf_.root["images"] = alpha_texture(files_);
+    gltf_.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+    gltf_.root["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}},
+                        {"normalTexture", {{"index", 0}}}};
+    const Scene scene = load();
+    const Material map = top_of(scene);
+    ASSERT_EQ(map.model, NEARLIGHT_BSDF_NORMAL_MAP);
+    EXPECT_NE(map.flags & NEARLIGHT_MATERIAL_TANGENT, 0u);
+    expect_close(parameter_value(scene, map.reflectance, 0.25f, 0.5f), {1, 0, 0});
+    const Material side = scene.materials.at(scene.materials.at(map.child[0]).child[0]);
+    EXPECT_EQ(parameter_value(scene, side.metallic, 0.25f, 0.5f).x, 0.0f);
+    EXPECT_EQ(parameter_value(scene, side.metallic, 0.75f, 0.5f).x, 1.0f);
+    EXPECT_EQ(parameter_value(scene, side.roughness, 0.25f, 0.5f).x, 0.0f);
+    const Texture& texture = scene.textures.at(static_cast<std::size_t>(side.roughness.texture)).parameters;
+    EXPECT_EQ(texture.wrap_s, NEARLIGHT_WRAP_CLAMP);
+    EXPECT_EQ(texture.wrap_t, NEARLIGHT_WRAP_MIRROR);
+    EXPECT_EQ(texture.filter, NEARLIGHT_FILTER_NEAREST);
 }
 
 /// The place, with v downwards, at which glTF's (u, v), also with v downwards, looks up a texture.

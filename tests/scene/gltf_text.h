@@ -103,10 +103,6 @@ class GltfLoader : public testing::Test {
     [[nodiscard]] std::string error() const {
         return file_error([&] { load(); });
     }
-    [[nodiscard]] Material only_material() const {
-        const Scene scene = load();
-        return scene.materials.at(scene.triangles.at(0).material);
-    }
 
     SceneFiles files_;
     GltfText gltf_;

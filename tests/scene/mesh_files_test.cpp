@@ -119,21 +119,30 @@ TEST(Obj, MaterialsLightsAndMissingOnes) {
         "my lib.mtl",
         "newmtl red wall\nKd 0.8 0.1 0.1\nillum 1\nnewmtl red roof \nKd 0.2 0 0\nnewmtl lamp\nKd 0 0 0\nKe 5 "
         "6 7\n"
-        "newmtl paper\nKd 1 1 1\nmap_Kd gone.png\nnewmtl pane\nd 0.1\nnewmtl mirror\nillum 5\nKs 1 1 1\n");
+        "newmtl paper\nKd 1 1 1\nmap_Kd gone.png\nnewmtl veil\nd 0.1\nnewmtl mirror\nillum 5\nKs 1 1 1\n"
+        "newmtl pane\nillum 4\n");
     std::string text = "mtllib my lib.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    for (const char* name : {"red wall", "lamp", "paper", "nobody", "pane", "mirror", "red roof"}) {
+    for (const char* name : {"red wall", "lamp", "paper", "nobody", "veil", "mirror", "red roof", "pane"}) {
         text += std::string("usemtl ") + name + "\nf 1 2 3\n";
     }
     const Scene scene = load_obj(files, text);
-    ASSERT_EQ(scene.triangles.size(), 8u);
+    ASSERT_EQ(scene.triangles.size(), 9u);
     const auto material = [&](std::size_t i) { return scene.materials[scene.triangles[i].material]; };
-    expect_near(material(0).base, {0.5f, 0.5f, 0.5f});
-    expect_near(material(1).base, {0.8f, 0.1f, 0.1f});
-    expect_near(material(2).emission, {5, 6, 7});
-    expect_near(material(3).base, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(material(5).lobe, NEARLIGHT_LOBE_THIN_DIELECTRIC);
-    EXPECT_EQ(material(6).lobe, NEARLIGHT_LOBE_CONDUCTOR);
-    expect_near(material(7).base, {0.2f, 0, 0});
+    const auto side = [&](std::size_t i) {
+        EXPECT_EQ(material(i).model, NEARLIGHT_BSDF_TWO_SIDED);
+        EXPECT_EQ(material(i).child[0], material(i).child[1]);
+        return scene.materials[material(i).child[0]];
+    };
+    expect_near(side(0).reflectance.value, {0.5f, 0.5f, 0.5f});
+    expect_near(side(1).reflectance.value, {0.8f, 0.1f, 0.1f});
+    expect_near(material(2).emission.value, {5, 6, 7});
+    expect_near(side(3).reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(material(5).model, NEARLIGHT_BSDF_MASK);
+    EXPECT_FLOAT_EQ(material(5).reflectance.value.x, 0.1f);
+    EXPECT_EQ(scene.materials[material(5).child[0]].model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_EQ(side(6).model, NEARLIGHT_BSDF_CONDUCTOR);
+    expect_near(side(7).reflectance.value, {0.2f, 0, 0});
+    EXPECT_EQ(material(8).model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
     EXPECT_TRUE(has_note(scene, "m.obj:2: material library 'missing.mtl'"));
     EXPECT_TRUE(has_note(scene, "my lib.mtl:11: texture is replaced"));
     EXPECT_TRUE(has_note(scene, "m.obj:13: material 'nobody'"));

@@ -15,61 +15,20 @@ Material material_of(const SceneFiles& files, const std::string& bsdf) {
     return files.load_xml(shape("rectangle", bsdf)).materials.at(0);
 }
 
-TEST(MitsubaBsdf, PlasticConservesEnergyAndMatchesMitsubasFresnelMeans) {
-    const SceneFiles files;
-    const std::string body = "<rgb name='diffuse_reflectance' value='1'/>";
-    const Material linear = material_of(files, "<bsdf type='plastic'>" + body + "</bsdf>");
-    EXPECT_EQ(linear.lobe, NEARLIGHT_LOBE_COAT);
-    EXPECT_NEAR(linear.light_offset.x, 0.0902f, 2e-3f);
-    EXPECT_NEAR(linear.light_scale + linear.light_offset.x, 1.0f, 1e-4f);
-    const Material nonlinear = material_of(
-        files, "<bsdf type='plastic'>" + body + "<boolean name='nonlinear' value='true'/></bsdf>");
-    EXPECT_NEAR(nonlinear.base_saturation, 0.5905f, 2e-3f);
-    EXPECT_NEAR(nonlinear.light_scale / (1 - nonlinear.base_saturation) + nonlinear.light_offset.x, 1.0f,
-                1e-4f);
-}
-
-TEST(MitsubaBsdf, EachKindBecomesItsLobe) {
-    const SceneFiles files;
-    const auto lobe = [&](const std::string& bsdf) { return material_of(files, bsdf).lobe; };
-    EXPECT_EQ(lobe("<bsdf type='diffuse'/>"), NEARLIGHT_LOBE_NONE);
-    EXPECT_EQ(lobe("<bsdf type='roughplastic'/>"), NEARLIGHT_LOBE_COAT);
-    EXPECT_EQ(lobe("<bsdf type='dielectric'/>"), NEARLIGHT_LOBE_DIELECTRIC);
-    EXPECT_EQ(lobe("<bsdf type='thindielectric'/>"), NEARLIGHT_LOBE_THIN_DIELECTRIC);
-    EXPECT_EQ(lobe("<bsdf type='roughconductor'/>"), NEARLIGHT_LOBE_CONDUCTOR);
-    EXPECT_EQ(lobe("<bsdf type='principled'/>"), NEARLIGHT_LOBE_COAT);
-    EXPECT_EQ(lobe("<bsdf type='principled'><float name='metallic' value='1'/></bsdf>"),
-              NEARLIGHT_LOBE_CONDUCTOR);
-    EXPECT_EQ(lobe("<bsdf type='bumpmap'><texture type='checkerboard'/><bsdf type='plastic'/></bsdf>"),
-              NEARLIGHT_LOBE_COAT);
-    const Material mirror = material_of(files, "<bsdf type='twosided'><bsdf type='conductor'/></bsdf>");
-    EXPECT_TRUE(mirror.flags & NEARLIGHT_MATERIAL_TWO_SIDED);
-    expect_near(mirror.light_offset, {0.99f, 0.99f, 0.99f});
-    const Material gold = material_of(files,
-                                      "<bsdf type='roughconductor'><string name='material' "
-                                      "value='Au'/><float name='alpha' value='0.3'/></bsdf>");
-    EXPECT_GT(gold.light_offset.x, gold.light_offset.z);
-    EXPECT_FLOAT_EQ(gold.roughness, 0.3f);
-    const Material water = material_of(files,
-                                       "<bsdf type='dielectric'><string name='intIOR' value='water'/><string "
-                                       "name='extIOR' value='vacuum'/></bsdf>");
-    EXPECT_FLOAT_EQ(water.eta.x, 1.333f);
-}
-
 TEST(MitsubaBsdf, ReferencesShareAMaterialAndReflectanceIsClamped) {
     const SceneFiles files;
     const Scene scene = files.load_xml(
         shape("rectangle", "<ref name='bsdf' id='late'/>") + shape("cube", "<ref id='late'/>") +
         "\n<bsdf type='diffuse' id='late'><rgb name='reflectance' value='1.5 0.2 0.1'/></bsdf>");
     ASSERT_EQ(scene.materials.size(), 1u);
-    expect_near(scene.materials[0].base, {1, 0.2f, 0.1f});
+    expect_near(scene.materials[0].reflectance.value, {1, 0.2f, 0.1f});
     EXPECT_TRUE(has_note(scene, "scene.xml:3: 'reflectance' lies outside"));
 }
 
 TEST(MitsubaValues, ColoursAndSpectra) {
     const SceneFiles files;
     const auto base = [&](const std::string& value) {
-        return material_of(files, "<bsdf type='diffuse'>" + value + "</bsdf>").base;
+        return material_of(files, "<bsdf type='diffuse'>" + value + "</bsdf>").reflectance.value;
     };
     expect_near(base("<rgb name='reflectance' value='0.1, 0.2, 0.3'/>"), {0.1f, 0.2f, 0.3f});
     expect_near(base("<rgb name='reflectance' value='0.1 0.2 0.3'/>"), {0.1f, 0.2f, 0.3f});
@@ -97,7 +56,7 @@ TEST(MitsubaEmitter, AreaPointSpotConstantEnvmap) {
         "</emitter><emitter type='envmap'><string name='filename' value='sky.exr'/><float name='scale' "
         "value='2'/>" +
         to_world("<rotate y='1' angle='90'/><scale value='3'/>") + "</emitter>");
-    expect_near(scene.materials[scene.triangles[0].material].emission, {1, 2, 3});
+    expect_near(scene.materials[scene.triangles[0].material].emission.value, {1, 2, 3});
     ASSERT_EQ(scene.delta_emitters.size(), 2u);
     expect_near(scene.delta_emitters[0].position, {1, 2, 3});
     expect_near(scene.delta_emitters[1].position, {0, 5, 0});
@@ -106,6 +65,46 @@ TEST(MitsubaEmitter, AreaPointSpotConstantEnvmap) {
     EXPECT_EQ(scene.environment.width, 4);
     expect_near(scene.environment.radiance[1], {6, 0, 0});
     expect_near(transform_vector(scene.environment.to_world, {0, 0, 1}), {1, 0, 0});
+}
+
+TEST(MitsubaEmitter, SpotTextureProjectorAndDirectional) {
+    const SceneFiles files;
+    write_image(files.path("wide.exr"), make_image(4, 2, {"R", "G", "B"}));
+    const std::string bitmap = "type='bitmap'><string name='filename' value='wide.exr'/></texture>";
+    const Scene scene = files.load_xml(
+        "<emitter type='spot'><float name='cutoff_angle' value='45'/><texture name='texture' " + bitmap +
+        to_world("<translate x='1'/>") +
+        "</emitter><emitter type='projector'><float name='fov' value='90'/><float name='scale' value='2'/>"
+        "<texture name='irradiance' " +
+        bitmap + to_world("<lookat origin='0,5,0' target='0,0,0' up='0,0,1'/>") +
+        "</emitter><emitter type='directional'><vector name='direction' x='0' y='-2' z='0'/>"
+        "<rgb name='irradiance' value='1,2,3'/></emitter>"
+        "<emitter type='directional'>" +
+        to_world("<rotate y='1' angle='90'/>") + "</emitter>");
+    ASSERT_EQ(scene.delta_emitters.size(), 4u);
+    const Emitter& spot = scene.delta_emitters[0];
+    EXPECT_EQ(spot.image, 1u);
+    expect_near(spot.radiance, {1, 1, 1});  // the default
+    expect_near(spot.x_axis, {0.5f, 0, 0});
+    expect_near(spot.y_axis, {0, 0.5f, 0});
+    const Emitter& projector = scene.delta_emitters[1];
+    EXPECT_EQ(projector.image, 2u);
+    expect_near(projector.radiance, Vec3{2, 2, 2} * kPi);
+    expect_near(projector.direction, {0, -1, 0});
+    EXPECT_NEAR(projector.area, 2.0f, 1e-5f);      // 2 wide, 1 high
+    expect_near(projector.y_axis, {0, 0, -1.0f});  // the top row lies on the side of +Y
+    EXPECT_NEAR(length(projector.x_axis), 0.5f, 1e-6f);
+    expect_near(scene.delta_emitters[2].direction, {0, -1, 0});
+    expect_near(scene.delta_emitters[2].radiance, {1, 2, 3});
+    expect_near(scene.delta_emitters[3].direction, {1, 0, 0});
+    EXPECT_TRUE(has_note(files.load_xml("<emitter type='spot'>" + to_world("<scale x='2'/>") + "</emitter>"),
+                         "distorts its beam"));
+    EXPECT_TRUE(mentions(file_error([&] {
+                             files.load_xml(
+                                 "<emitter type='directional'><vector name='direction' x='0' y='0' "
+                                 "z='0'/></emitter>");
+                         }),
+                         "is zero"));
 }
 
 double fov_x(const SceneFiles& files, const std::string& body, int width, int height) {
@@ -160,7 +159,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
     const std::pair<const char*, const char*> cases[] = {
         {"<shape type='blob'/>", "unknown shape 'blob'; known ones are obj"},
         {"<bsdf type='phong' id='p'/><shape type='cube'><ref id='p'/></shape>", "unknown bsdf 'phong'"},
-        {"<emitter type='directional'/>", "unknown emitter"},
+        {"<emitter type='collimated'/>", "unknown emitter"},
         {"<sensor type='fisheye'/>", "unknown sensor"},
         {"<shape type='cube'><ref id='nobody'/></shape>", "nothing has the id 'nobody'"},
         {"<bsdf type='diffuse' id='a'/><bsdf type='diffuse' id='a'/>", "used twice"},

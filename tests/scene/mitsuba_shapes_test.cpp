@@ -128,6 +128,24 @@ TEST(MitsubaShape, MirroredMeshesKeepMitsubasFront) {
     }
 }
 
+TEST(MitsubaShape, MirroredSpheresAndCylindersTurnInsideOut) {
+    const SceneFiles files;
+    const auto outward = [&](const char* type, const std::string& body) {
+        const Scene scene = files.load_xml(shape(type, body));
+        const Triangle t = scene.triangles[scene.triangles.size() / 2];
+        const Vec3 a = scene.vertices[t.v0].position;
+        const Vec3 n = cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a);
+        return dot(n, {a.x, a.y, 0}) > 0.0f;
+    };
+    const std::string flip = "<boolean name='flip_normals' value='true'/>";
+    for (const char* type : {"sphere", "cylinder"}) {
+        EXPECT_TRUE(outward(type, "")) << type;
+        EXPECT_FALSE(outward(type, to_world("<scale value='1,1,-1'/>"))) << type;
+        EXPECT_TRUE(outward(type, to_world("<scale value='-1,-1,1'/>"))) << type;
+        EXPECT_TRUE(outward(type, flip + to_world("<scale value='-1'/>"))) << type;
+    }
+}
+
 TEST(MitsubaShape, InstancesAreCopies) {
     const SceneFiles files;
     const Scene scene = files.load_xml("<shape type='shapegroup' id='g'>" + shape("rectangle") +
@@ -152,7 +170,7 @@ Vec3 color_at(const Scene& scene, Vec3 p) {
     return texture_color(scene, scene.textures.at(0), hit.u, 1.0f - hit.v);
 }
 
-std::string textured(const std::string& texture_body = "") {
+std::string textured_shape(const std::string& texture_body = "") {
     return "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
            "value='corners.png'/>" +
            texture_body + "</texture></bsdf>";
@@ -163,14 +181,14 @@ TEST(MitsubaTexture, ObjIsUprightAndFlippableAndRectangleAsInMitsuba) {
     write_corners(files);
     files.write("square.obj",
                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
-    const std::string obj = "<string name='filename' value='square.obj'/>" + textured();
+    const std::string obj = "<string name='filename' value='square.obj'/>" + textured_shape();
     const Scene upright = files.load_xml(shape("obj", obj));
     expect_near(color_at(upright, {0.25f, 0.75f, 0}), {1, 0, 0}, 0.02f);
     expect_near(color_at(upright, {0.75f, 0.75f, 0}), {0, 1, 0}, 0.02f);
     const Scene flipped = files.load_xml(shape("obj", obj + "<boolean name='flipTexCoords' value='false'/>"));
     expect_near(color_at(flipped, {0.25f, 0.25f, 0}), {1, 0, 0}, 0.02f);
     // Mitsuba shows the top row of the picture at the lower edge of a rectangle.
-    const Scene rectangle = files.load_xml(shape("rectangle", textured()));
+    const Scene rectangle = files.load_xml(shape("rectangle", textured_shape()));
     expect_near(color_at(rectangle, {-0.5f, -0.5f, 0}), {1, 0, 0}, 0.02f);
 }
 
@@ -180,14 +198,14 @@ TEST(MitsubaTexture, ToUvAndOldScalesPlaceIt) {
     // (u, v) = (0.75, 0.25) of the rectangle looks up (0.25, 0.25) in Mitsuba's coordinates, which is at the
     // top left.
     const Scene moved = files.load_xml(
-        shape("rectangle", textured("<transform name='to_uv'><translate x='-0.5'/></transform>")));
+        shape("rectangle", textured_shape("<transform name='to_uv'><translate x='-0.5'/></transform>")));
     expect_near(color_at(moved, {0.5f, -0.5f, 0}), {1, 0, 0}, 0.02f);
     const Scene turned = files.load_xml(
-        shape("rectangle", textured("<transform name='to_uv'><rotate z='1' angle='90'/></transform>")));
+        shape("rectangle", textured_shape("<transform name='to_uv'><rotate z='1' angle='90'/></transform>")));
     // (0.25, 0.25) becomes (−0.25, 0.25), which is at the top right.
     expect_near(color_at(turned, {-0.5f, -0.5f, 0}), {0, 1, 0}, 0.02f);
-    const Scene old = files.load_xml(
-        shape("rectangle", textured("<float name='uscale' value='2'/><float name='voffset' value='0.5'/>")));
+    const Scene old = files.load_xml(shape(
+        "rectangle", textured_shape("<float name='uscale' value='2'/><float name='voffset' value='0.5'/>")));
     // (0.125, 0.25) becomes (0.25, 0.75), which is at the bottom left.
     expect_near(color_at(old, {-0.75f, -0.5f, 0}), {0, 0, 1}, 0.02f);
 }
@@ -206,7 +224,8 @@ TEST(MitsubaTexture, CheckerboardHasColor0WhereBothHalvesAreTheSame) {
 TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
     const SceneFiles files;
     write_corners(files);
-    const Scene shared = files.load_xml(shape("rectangle", textured()) + shape("rectangle", textured()));
+    const Scene shared =
+        files.load_xml(shape("rectangle", textured_shape()) + shape("rectangle", textured_shape()));
     EXPECT_EQ(shared.images.size(), 1u);
     const std::string gone =
         shape("rectangle",
@@ -214,8 +233,8 @@ TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
               "value='gone.png'/></texture></bsdf>");
     const Scene scene = files.load_xml(gone);
     EXPECT_TRUE(has_note(scene, "scene.xml:3: texture is replaced"));
-    expect_near(scene.materials[0].base, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(scene.materials[0].base_texture, -1);
+    expect_near(scene.materials[0].reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(scene.materials[0].reflectance.texture, -1);
     EXPECT_TRUE(mentions(file_error([&] { files.load_xml(gone, {.parameters = {}, .strict = true}); }),
                          "scene.xml:3"));
 }

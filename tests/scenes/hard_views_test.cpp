@@ -23,8 +23,8 @@ TEST(HardViews, AreReadWithoutAnyApproximation) {
         EXPECT_TRUE(scene.notes.empty()) << name;
         EXPECT_GT(scene.triangles.size(), 100u) << name;
         EXPECT_EQ(scene.max_depth, 8) << name;
-        for (const Material& material : scene.materials) {
-            EXPECT_NE(material.flags & NEARLIGHT_MATERIAL_TWO_SIDED, 0u) << name;
+        for (const Triangle& triangle : scene.triangles) {
+            EXPECT_EQ(scene.materials[triangle.material].model, NEARLIGHT_BSDF_TWO_SIDED) << name;
         }
     }
 }

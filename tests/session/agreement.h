@@ -17,29 +17,36 @@ namespace nearlight::core::test {
 inline constexpr int kAgreementSize = 32;
 
 /// Compares the layers direct and indirect of several seeds with a path-traced picture, as convergence.h
-/// explains.
+/// explains. If rays of receivers compensate for the clamp radius, the path tracer has none.
 inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
-                             Policy policy = Policy::complete) {
+                             bool compensate) {
+    SCOPED_TRACE(compensate ? "compensated" : "clamped");
     constexpr uint kSeeds = 24;
     const Image truth = trace_paths(scene, {.width = kAgreementSize,
                                             .height = kAgreementSize,
                                             .spp = 512,
                                             .max_depth = 6,
-                                            .clamp_radius = clamp_radius,
+                                            .clamp_radius = compensate ? 0.0f : clamp_radius,
                                             .seed = 9});
     Session session(device, scene);
-    const RenderSettings settings{.view = {.width = kAgreementSize,
-                                           .height = kAgreementSize,
-                                           .clamp_radius = clamp_radius,
-                                           .max_depth = 6},
-                                  .sampling = {.sampler = sampler, .policy = policy, .vpl_count = 1000},
-                                  .gather = {.samples_per_pixel = 4, .direct_samples_per_pixel = 64}};
+    const RenderSettings settings{
+        .view = {.width = kAgreementSize,
+                 .height = kAgreementSize,
+                 .clamp_radius = clamp_radius,
+                 .max_depth = 6},
+        .sampling = {.sampler = sampler, .vpl_count = 1000},
+        .gather = {.samples_per_pixel = 4, .direct_samples_per_pixel = 64, .compensate = compensate}};
     const std::vector<Image> renders = render_seeds(session, settings, 100, kSeeds);
     for (const std::string layer : {"direct", "indirect"}) {
         const Verdict verdict = judge_convergence(renders, truth, layer);
         EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;
         EXPECT_LT(verdict.relative_error, 0.015) << layer << ": too noisy to tell anything";
     }
+}
+
+inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius) {
+    expect_agreement(device, scene, sampler, clamp_radius, false);
+    expect_agreement(device, scene, sampler, clamp_radius, true);
 }
 
 }  // namespace nearlight::core::test

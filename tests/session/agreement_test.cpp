@@ -46,7 +46,7 @@ Scene room_with_point_light() {
 Scene room_with_area_light() {
     Scene scene = room();
     Material lamp = lambertian({0.0f, 0.0f, 0.0f});
-    lamp.emission = {5, 5, 6};
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
     add_quad(scene, {-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
     return scene;
 }

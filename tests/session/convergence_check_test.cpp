@@ -114,7 +114,7 @@ TEST_F(ConvergenceMistakes, AreFound) {
     const RenderSettings settings{
         .view = {.width = kSize, .height = kSize, .clamp_radius = 0.1f, .max_depth = 5},
         .sampling = {.sampler = SamplerKind::instant_radiosity, .vpl_count = 1000},
-        .gather = {.samples_per_pixel = 1, .indirect_only = true}};
+        .gather = {.samples_per_pixel = 1, .compensate = false, .indirect_only = true}};
     const auto multiply = [](float factor, const std::function<bool(int x, int y)>& where) -> Mistake {
         return [=](Image& image) {
             for (const char* name : {"indirect.R", "indirect.G", "indirect.B"}) {

@@ -37,19 +37,20 @@ struct Case {
     int spp = 512;  ///< samples per pixel of the path-traced picture
 };
 
-Image trace_truth(const Case& test_case, uint max_depth) {
+/// If rays of receivers compensate for the clamp radius, the picture that is right has none.
+Image trace_truth(const Case& test_case, uint max_depth, bool compensate) {
     return trace_paths(test_case.scene, {.width = test_case.size,
                                          .height = test_case.size,
                                          .spp = test_case.spp,
                                          .max_depth = static_cast<int>(max_depth),
-                                         .clamp_radius = test_case.clamp_radius,
+                                         .clamp_radius = compensate ? 0.0f : test_case.clamp_radius,
                                          .indirect_only = true,
                                          .pixel_centers = true,
                                          .seed = 17});
 }
 
 Verdict judge(Session& session, const Case& test_case, const Variant& variant, const Image& truth,
-              uint max_depth) {
+              uint max_depth, bool compensate) {
     const RenderSettings settings{
         .view = {.width = test_case.size,
                  .height = test_case.size,
@@ -57,19 +58,26 @@ Verdict judge(Session& session, const Case& test_case, const Variant& variant, c
                  .clamp_radius = test_case.clamp_radius,
                  .max_depth = max_depth},
         .sampling = {.sampler = variant.sampler, .policy = variant.policy, .vpl_count = test_case.vpl_count},
-        .gather = {.samples_per_pixel = 1, .indirect_only = true}};
+        .gather = {.samples_per_pixel = 1, .compensate = compensate, .indirect_only = true}};
     return judge_convergence(test::render_seeds(session, settings, 1000, kSeeds), truth, "indirect");
 }
 
 class Convergence : public test::DeviceTest {
   protected:
     void expect_all_converge(const Case& test_case) {
-        const Image truth = trace_truth(test_case, test_case.max_depth);
+        for (const bool compensate : {false, true}) {
+            SCOPED_TRACE(compensate ? "compensated" : "clamped");
+            expect_all_converge(test_case, compensate);
+        }
+    }
+    void expect_all_converge(const Case& test_case, bool compensate) {
+        const Image truth = trace_truth(test_case, test_case.max_depth, compensate);
         on_each_device([&](Device& device) {
             Session session(device, test_case.scene);
             for (const Variant& variant : all_variants()) {
                 if (variant.policy != Policy::paper) {
-                    const Verdict verdict = judge(session, test_case, variant, truth, test_case.max_depth);
+                    const Verdict verdict =
+                        judge(session, test_case, variant, truth, test_case.max_depth, compensate);
                     EXPECT_TRUE(verdict.agrees) << variant.name() << ": " << verdict.reason;
                     EXPECT_LT(verdict.relative_error, 0.05)
                         << variant.name() << ": too noisy to tell anything";
@@ -80,14 +88,14 @@ class Convergence : public test::DeviceTest {
     /// The paper's policy keeps all light that has bounced once, and drops light that has bounced more often
     /// in the close range.
     void expect_paper_loses_bounces(const Case& test_case) {
-        const Image one_bounce = trace_truth(test_case, 3);
-        const Image truth = trace_truth(test_case, test_case.max_depth);
+        const Image one_bounce = trace_truth(test_case, 3, false);
+        const Image truth = trace_truth(test_case, test_case.max_depth, false);
         on_each_device([&](Device& device) {
             Session session(device, test_case.scene);
             const Variant paper{SamplerKind::close_range, Policy::paper};
-            const Verdict first = judge(session, test_case, paper, one_bounce, 3);
+            const Verdict first = judge(session, test_case, paper, one_bounce, 3, false);
             EXPECT_TRUE(first.agrees) << first.reason;
-            const Verdict all = judge(session, test_case, paper, truth, test_case.max_depth);
+            const Verdict all = judge(session, test_case, paper, truth, test_case.max_depth, false);
             EXPECT_FALSE(all.agrees);
             EXPECT_LT(all.bias, -5 * all.relative_error);
         });

@@ -15,12 +15,18 @@ namespace {
 
 using namespace small_scenes;
 
+uint add_rough_plastic(Scene& scene) {
+    Material plastic = plastic_material(scene, {.alpha = 0.1});
+    plastic.reflectance = parameter_of(Vec3{0.5f, 0.4f, 0.3f});
+    return add_material(scene, plastic);
+}
+
 /// A coated and a plain floor, a lamp and a sky, for which every kind of random number is drawn.
 Scene terrace() {
     Scene scene;
-    const uint coat = add_material(scene, coat_material({0.5f, 0.4f, 0.3f}, {1, 1, 1}, 1.5, 0.1f, false));
+    const uint coat = add_rough_plastic(scene);
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {5, 5, 6};
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
     add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, coat);
     add_quad(scene, {-1, -0.5f, 0}, {0, 0, 1}, {1, 0, 0},
              add_material(scene, lambertian({0.6f, 0.6f, 0.6f})));

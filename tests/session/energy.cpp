@@ -40,12 +40,13 @@ std::string to_string(const EnergyClass& energy_class) {
 }
 
 bool in_region(const CloseRange& region, Vec3 p) {
+    const Vec3 q = p - region.origin;
     for (const auto& plane : region.planes) {
-        if (plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] < 0.0f) {
+        if (plane[0] * q.x + plane[1] * q.y + plane[2] * q.z + plane[3] < 0.0f) {
             return false;
         }
     }
-    return length(p - region.origin) < region.range;
+    return length(q) < region.range;
 }
 
 Photographer::Photographer(const Scene& scene, std::vector<SceneCamera> cameras, const CloseRange& region,

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "host/reference/close_range_oracle.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/session/session.h"
 #include "host/stages/close_range.h"
 #include "tests/session/rendering.h"
+#include "tests/session/variants.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
 
@@ -60,7 +61,7 @@ double albedo_sum(uint first, uint last) {
 /// Fraction of the sphere's area in triangles that reach into the view.
 double share_in_view() {
     const Scene scene = unit_furnace();
-    const CloseRange region = make_close_range(make_pinhole_camera(scene.camera, 24, 24), 10.0f);
+    const CloseRange region = make_close_range(make_camera(scene.camera, 24, 24), 10.0f);
     double inside = 0;
     double all = 0;
     for (const Triangle& triangle : scene.triangles) {
@@ -86,6 +87,29 @@ TEST_F(Furnace, EveryDepthAddsItsPowerOfTheAlbedo) {
                 EXPECT_NEAR(direct, kIntensity * kAlbedo / kPi, kFacets * direct);
                 const double expected = direct * albedo_sum(1, max_depth - 2);
                 EXPECT_NEAR(indirect, expected, kFacets * expected) << "max depth " << max_depth;
+            }
+        }
+    });
+}
+
+/// What a wide clamp radius takes from the VPLs, rays of receivers bring back, for every sampler.
+TEST_F(Furnace, IndirectLightIsTheSameAtAnyClampRadius) {
+    constexpr uint kMaxDepth = 6;
+    on_each_device([](Device& device) {
+        Session session(device, unit_furnace());
+        for (const test::Variant& variant : test::all_variants()) {
+            const auto indirect = [&](float clamp_radius, bool compensate) {
+                RenderSettings settings = furnace_settings(variant.sampler, variant.policy, kMaxDepth);
+                settings.view.clamp_radius = clamp_radius;
+                settings.gather.compensate = compensate;
+                return channel_mean(render_image(session, settings).image, "indirect.G");
+            };
+            if (variant.policy != Policy::paper) {
+                SCOPED_TRACE(variant.name());
+                const double expected = kIntensity * kAlbedo / kPi * albedo_sum(1, kMaxDepth - 2);
+                EXPECT_NEAR(indirect(0.015f, true), expected, 2 * kFacets * expected);
+                EXPECT_NEAR(indirect(1.5f, true), expected, 2 * kFacets * expected);
+                EXPECT_LT(indirect(1.5f, false), 0.9 * expected) << "the clamp radius takes nothing away";
             }
         }
     });

@@ -21,7 +21,7 @@ Scene yard() {
     Scene scene;
     const uint grey = add_material(scene, lambertian({0.6f, 0.5f, 0.4f}));
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {5, 5, 6};
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
     add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, grey);
     add_quad(scene, {-2, -1, 1}, {0, 2, 0}, {4, 0, 0}, grey);
     add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));

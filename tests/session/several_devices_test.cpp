@@ -22,7 +22,7 @@ using namespace small_scenes;
 Scene lit_floor() {
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {5, 5, 6};
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
     const uint gray = add_material(scene, lambertian({0.6f, 0.6f, 0.6f}));
     add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, gray);
     add_quad(scene, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, gray);
@@ -64,7 +64,7 @@ class SeveralDevices : public test::DeviceTest {
     /// A folder with the program's kernels for bands, in which the gather does not compile.
     static void write_kernels_without_gather(const std::filesystem::path& folder) {
         std::filesystem::create_directory(folder / "joint");
-        for (const char* name : {"camera_pass.cl", "direct_light.cl", "film.cl", "joint/view.cl"}) {
+        for (const char* name : {"camera_pass.cl", "receiver_paths.cl", "film.cl", "joint/view.cl"}) {
             std::ofstream(folder / name) << expand_kernel_source(name);
         }
         for (const char* name : {"gather_packets.cl", "gather_rays.cl"}) {

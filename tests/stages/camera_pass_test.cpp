@@ -5,10 +5,11 @@
 
 #include "host/base/random.h"
 #include "host/base/receivers.h"
+#include "host/reference/bsdf/surface_bsdf.h"
 #include "host/reference/camera_oracle.h"
-#include "host/reference/lobe.h"
+#include "host/scene/camera.h"
 #include "host/scene/material_model.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/transmission_curve.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -21,6 +22,7 @@ using namespace small_scenes;
 using test::SceneOnDevice;
 
 constexpr std::size_t kTile = NEARLIGHT_TILE_SIZE;
+constexpr uint kManyEdges = 64;
 
 struct GBuffer {
     std::vector<ReceiverPacket> receivers;
@@ -31,7 +33,7 @@ struct GBuffer {
 class Shooting {
   public:
     Shooting(Device& device, const Scene& scene, int width, int height, float range = 1.0f)
-        : camera(make_pinhole_camera(scene.camera, width, height)),
+        : camera(make_camera(scene.camera, width, height)),
           region(make_close_range(camera, range)),
           device_(&device),
           pass_(device),
@@ -51,18 +53,19 @@ class Shooting {
         return shoot({.tile_row_count = tiles_across(camera.height),
                       .sample_count = samples,
                       .samples_per_pixel = samples,
-                      .branch_count = branches},
+                      .branch_count = branches,
+                      .max_depth = kManyEdges},
                      seed);
     }
 
-    PinholeCamera camera;
+    Camera camera;
     CloseRange region;
 
   private:
     Device* device_;
     CameraPass pass_;
     SceneOnDevice scene_;
-    Buffer<PinholeCamera> cameras_;
+    Buffer<Camera> cameras_;
     Buffer<CloseRange> regions_;
 };
 
@@ -70,13 +73,17 @@ void set_constant_sky(Scene& scene, Vec3 radiance) {
     scene.environment = {.width = 1, .height = 1, .radiance = {radiance}, .to_world = {}};
 }
 
+Material coated(Scene& scene, Vec3 base, const Coat& coat) {
+    Material material = plastic_material(scene, coat);
+    material.reflectance = parameter_of(base);
+    return material;
+}
+
 /// A floor, a wall and a box of two colours, open on one side and seen from a corner.
 Scene open_room() {
     Scene scene;
     const uint white = add_material(scene, lambertian({0.8f, 0.7f, 0.6f}));
-    Material two_sided = lambertian({0.2f, 0.4f, 0.6f});
-    two_sided.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    const uint blue = add_material(scene, two_sided);
+    const uint blue = add_two_sided(scene, lambertian({0.2f, 0.4f, 0.6f}));
     add_quad(scene, {-1, -1, -1}, {0, 0, 3}, {2, 0, 0}, white);
     add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, white);
     add_quad(scene, {-0.5f, -0.8f, 0.5f}, {0.8f, 0, 0.2f}, {0, 0.7f, 0}, blue);
@@ -110,7 +117,7 @@ TEST_F(CameraPassTest, PixelCentresFindWhatEmbreeFinds) {
 TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
     Scene scene;
     Material lamp = lambertian({0, 0, 0});
-    lamp.emission = {1, 0, 0};
+    lamp.emission = parameter_of(Vec3{1, 0, 0});
     add_quad(scene, {0.5f, 0.5f, 2}, {0, 0.4f, 0}, {0.4f, 0, 0}, add_material(scene, lamp));
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
     on_each_ray_tree([&](Device& device) {
@@ -130,7 +137,7 @@ TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
 TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
     Scene scene;
     Material lamp = lambertian({0.5f, 0.5f, 0.5f});
-    lamp.emission = {3, 2, 1};
+    lamp.emission = parameter_of(Vec3{3, 2, 1});
     add_quad(scene, {-9, -9, 2}, {0, 18, 0}, {18, 0, 0}, add_material(scene, lamp));
     on_each_ray_tree([&](Device& device) {
         set_camera(scene, {0, 0, 0}, {0, 0, 1}, 40);
@@ -143,7 +150,7 @@ TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
 /// Rows and samples may be divided in any way.
 TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
     Scene scene = open_room();
-    scene.materials[0] = coat_material({0.5f, 0.5f, 0.5f}, {1, 1, 1}, 1.5, 0.2f, false);
+    scene.materials[0] = coated(scene, {0.5f, 0.5f, 0.5f}, {.alpha = 0.2});
     set_constant_sky(scene, {1, 2, 3});
     on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 37, 29);
@@ -157,7 +164,8 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
                                                  .first_sample = first_sample,
                                                  .sample_count = samples,
                                                  .samples_per_pixel = kSamples,
-                                                 .branch_count = 2});
+                                                 .branch_count = 2,
+                                                 .max_depth = kManyEdges});
             for (std::size_t p = 0; p < part.receivers.size(); ++p) {
                 const std::size_t tile = p / (2 * samples) + first_row * tiles_x;
                 const std::size_t sample = p / 2 % samples + first_sample;
@@ -207,11 +215,22 @@ TEST_F(CameraPassTest, WithoutLobesTheSecondBranchIsAbsent) {
     });
 }
 
+/// What of its base a smooth coat of index 1.5 with linear colours shows: T(cosθ) = 1 − F, between the values
+/// of the curve, divided by (1 − i)·η², where i is the mean reflectance from inside.
+float base_share(float cosine) {
+    const TransmissionCurve curve = smooth_coat_curve(1.5);
+    const float at = cosine * (NEARLIGHT_CURVE_SIZE - 1);
+    const auto entry = static_cast<std::size_t>(at);
+    const float transmitted = std::lerp(curve.at(entry), curve.at(entry + 1), at - std::floor(at));
+    EXPECT_NEAR(transmitted, 1 - dielectric_reflectance(cosine, 1.5), 1e-4);
+    return transmitted / static_cast<float>((1 - smooth_internal_reflectance(1.5)) * 1.5 * 1.5);
+}
+
 /// A smooth coat has two branches: its base, weighted by 1 − F in the albedo, and the mirror image, weighted
 /// by F.
 TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
     Scene scene;
-    const uint coat = add_material(scene, coat_material({0.5f, 0.4f, 0.3f}, {1, 1, 1}, 1.5, 0.0f, false));
+    const uint coat = add_material(scene, coated(scene, {0.5f, 0.4f, 0.3f}, {}));
     const uint wall = add_material(scene, lambertian({0.9f, 0.9f, 0.9f}));
     add_quad(scene, {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, coat);
     add_quad(scene, {-9, 0, 3}, {0, 9, 0}, {18, 0, 0}, wall);
@@ -227,8 +246,8 @@ TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
             const uint y = static_cast<uint>(tile / 3 * kTile + lane / kTile);
             const Vec3 d = pixel_ray(shooting.camera, x, y).direction;
             const auto f = static_cast<float>(dielectric_reflectance(-d.y, 1.5));
-            const Vec3 base = camera_albedo(scene, scene.materials[coat], 0, 0);
-            ASSERT_NEAR(length(b.vertex[0].albedo - base * (1.0f - f)), 0.0f, 1e-5f);
+            const Vec3 base = scene.materials[coat].reflectance.value;
+            ASSERT_NEAR(length(b.vertex[0].albedo - base * base_share(-d.y)), 0.0f, 1e-5f);
             ASSERT_EQ(b.vertex[0].throughput.x, 1.0f);
             ASSERT_NEAR(b.receiver[0].position.y, 0.0f, 1e-3f);
             ASSERT_NEAR(b.vertex[1].throughput.y, f, 1e-5f);
@@ -241,13 +260,18 @@ TEST_F(CameraPassTest, SmoothCoatDividesIntoBaseAndReflection) {
 }
 
 /// Under a constant sky, glass that absorbs nothing looks like air. The emissions that both branches see add
-/// up to the sky, whatever is behind the first surface, because later surfaces have weight 1.
+/// up to the sky, whatever is behind the first surface, because later surfaces have weight 1. Bodies have
+/// their fronts outside, and what the radiance loses where it enters it regains where it leaves.
 TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
     for (const bool thin : {true, false}) {
         Scene scene;
-        const uint glass = add_material(scene, glass_material(1.5, thin));
-        for (const float z : {1.0f, 1.5f, 2.0f, 2.5f}) {
-            add_quad(scene, {-9, -9, z}, {0.3f, 18, 0.2f}, {18, 0, 0.1f}, glass);
+        const uint glass =
+            add_material(scene, thin ? thin_dielectric_material(1.5) : dielectric_material(1.5));
+        constexpr Vec3 kUp{0.3f, 18, 0.2f};
+        constexpr Vec3 kAside{18, 0, 0.1f};
+        for (const float z : {1.0f, 2.0f}) {
+            add_quad(scene, {-9, -9, z}, kUp, kAside, glass);
+            add_quad(scene, {-9, -9, z + 0.5f}, kAside, kUp, glass);
         }
         set_constant_sky(scene, {1, 2, 3});
         set_camera(scene, {0, 0, 0}, {0.2, 0.1, 1}, 50);
@@ -265,8 +289,9 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
 /// One branch chosen at random must have the same expectation as two branches with their weights.
 TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     Scene scene = open_room();
-    scene.materials[0] = coat_material({0.6f, 0.5f, 0.4f}, {1, 1, 1}, 1.5, 0.1f, true);
-    add_quad(scene, {-1, -1, -0.2f}, {0, 2, 0}, {2, 0, 0.3f}, add_material(scene, glass_material(1.5, true)));
+    scene.materials[0] = coated(scene, {0.6f, 0.5f, 0.4f}, {.alpha = 0.1, .nonlinear = true});
+    add_quad(scene, {-1, -1, -0.2f}, {0, 2, 0}, {2, 0, 0.3f},
+             add_material(scene, thin_dielectric_material(1.5)));
     set_constant_sky(scene, {1, 1, 1});
     on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 16, 16);
@@ -287,51 +312,83 @@ TEST_F(CameraPassTest, OneBranchAndTwoAgreeInMean) {
     });
 }
 
-struct LobeWeights {
-    double reflected = 0;
-    double transmitted = 0;
-};
-
-/// Mean weights of the light that a rough interface reflects and transmits, by the reference's lobes.
-LobeWeights lobe_weights(const Material& material, Vec3 to_viewer, int samples) {
-    const Surface surface{.position = {0, 0, 0},
-                          .geometric_normal = {0, 0, 1},
-                          .shading_normal = {0, 0, 1},
-                          .material = &material};
-    Pcg32 random(31);
-    LobeWeights sums;
-    for (int i = 0; i < samples; ++i) {
-        const LobeRandom u{random.uniform(), {random.uniform(), random.uniform()}};
-        const LobeSample sample = sample_lobe(surface, to_viewer, u);
-        (sample.direction.z > 0 ? sums.reflected : sums.transmitted) += sample.weight.x;
-    }
-    return {sums.reflected / samples, sums.transmitted / samples};
+/// A mirror of reflectance 0.1 shows a wall behind the camera, which a point light shines at.
+TEST_F(CameraPassTest, LightOfReceiversOfLittleWeightIsTraced) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0},
+             add_material(scene, conductor_material({0, 0, 0}, {1, 1, 1}, {0.1f, 0.1f, 0.1f})));
+    add_quad(scene, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    add_point_light(scene, {0.5f, 0, 0}, {1, 4, 1});
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 0.001);
+    const float radiance = 0.5f / kPi * 4 / std::pow(1.25f, 1.5f);
+    on_each_ray_tree([&](Device& device) {
+        for (const float min_weight : {0.0f, 0.09f, 0.11f}) {
+            const bool is_traced = min_weight > 0.1f;
+            const GBuffer found = Shooting(device, scene, 8, 8)
+                                      .shoot({.tile_row_count = 1, .max_depth = 3, .min_weight = min_weight});
+            for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+                EXPECT_NEAR(found.vertices[i].emitted.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
+                EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced);
+                EXPECT_TRUE(is_zero(found.vertices[i].traced)) << "there is no second surface to reflect";
+            }
+        }
+    });
 }
 
-/// One rough interface under a constant sky: each branch sees what the reference's lobes transmit and
-/// reflect.
+struct Scattered {
+    double up = 0;
+    double down = 0;
+};
+
+/// Mean radiance that a rough interface with the normal y reflects from an upper and lets through from a
+/// lower hemisphere of radiance 1, by the reference's BSDF.
+Scattered scattered(const Scene& scene, Vec3 to_viewer, int samples) {
+    const Surface surface{.position = {0, 0, 0},
+                          .geometric_normal = {0, 1, 0},
+                          .shading_normal = {0, 1, 0},
+                          .front_normal = {0, 1, 0},
+                          .along_u = {0, 0, 0},
+                          .along_v = {0, 0, 0},
+                          .material = scene.materials.data()};
+    const SurfaceBsdf bsdf(scene, surface, as_double(to_viewer), 0.5);
+    Scattered sums;
+    for (int i = 0; i < samples; ++i) {
+        const SurfaceDraw draw = bsdf.sample_specular(even_random(i));
+        (draw.wi.y > 0 ? sums.up : sums.down) += draw.weight.x / samples;
+    }
+    return sums;
+}
+
+/// One rough interface under half a sky: the branches together see what the reference's BSDF reflects of the
+/// upper half, or lets through of the lower half.
 TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
-    Material glass = glass_material(1.5, false);
     for (const float roughness : {0.3f, 0.7f}) {
         for (const double tilt : {10.0, 65.0}) {
-            glass.roughness = roughness;
             Scene scene;
-            add_quad(scene, {-90, -90, 0}, {180, 0, 0}, {0, 180, 0}, add_material(scene, glass));
-            set_constant_sky(scene, {1, 1, 1});
+            Material glass = dielectric_material(1.5);
+            glass.roughness = parameter_of(roughness);
+            add_quad(scene, {-90, 0, -90}, {0, 0, 180}, {180, 0, 0}, add_material(scene, glass));
             const double angle = tilt * kPi / 180;
-            const Vec3 to_viewer{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
-            set_camera(scene, {to_viewer.x, to_viewer.y, to_viewer.z}, {0, 0, 0}, 0.01);
-            const LobeWeights weights = lobe_weights(glass, to_viewer, 200'000);
-            on_each_ray_tree([&](Device& device) {
-                const GBuffer found = Shooting(device, scene, 8, 8).shoot_all(2048, 2);
-                double sums[2] = {0, 0};
-                for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-                    sums[i / NEARLIGHT_PACKET_SIZE % 2] += found.vertices[i].emitted.x;
-                }
-                const double count = 64.0 * 2048;
-                EXPECT_NEAR(sums[0] / count, weights.transmitted, 0.004) << roughness << ", " << tilt << "°";
-                EXPECT_NEAR(sums[1] / count, weights.reflected, 0.004) << roughness << ", " << tilt << "°";
-            });
+            const Vec3 to_viewer{static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
+            set_camera(scene, {to_viewer.x, to_viewer.y, to_viewer.z}, {0, 0, 0}, 0.01, {0, 0, 1});
+            const Scattered expected = scattered(scene, to_viewer, 200'000);
+            for (const bool above : {true, false}) {
+                const Vec3 white{1, 1, 1};
+                const Vec3 black{0, 0, 0};
+                scene.environment = {.width = 1,
+                                     .height = 2,
+                                     .radiance = {above ? white : black, above ? black : white},
+                                     .to_world = {}};
+                on_each_ray_tree([&](Device& device) {
+                    double sum = 0;
+                    for (const CameraVertex& vertex :
+                         Shooting(device, scene, 8, 8).shoot_all(2048, 2).vertices) {
+                        sum += vertex.emitted.x;
+                    }
+                    EXPECT_NEAR(sum / (64.0 * 2048), above ? expected.up : expected.down, 0.004)
+                        << roughness << ", " << tilt << "°, above " << above;
+                });
+            }
         }
     }
 }

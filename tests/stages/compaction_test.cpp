@@ -69,7 +69,7 @@ TEST_F(CompactionTest, GathersElementsOfAnyStruct) {
                        .normal = {},
                        .flags = 0,
                        .power = {},
-                       .pad0 = random.uniform()};
+                       .shading = random.next()};
             indices[i] = random.next() % kCount;
         }
         Buffer<Vpl> gathered(device, kCount);
@@ -78,7 +78,7 @@ TEST_F(CompactionTest, GathersElementsOfAnyStruct) {
         for (std::size_t i = 0; i < kCount; ++i) {
             EXPECT_EQ(result[i].depth, indices[i]);
             EXPECT_EQ(result[i].position.x, vpls[indices[i]].position.x);
-            EXPECT_EQ(result[i].pad0, vpls[indices[i]].pad0);
+            EXPECT_EQ(result[i].shading, vpls[indices[i]].shading);
         }
     });
 }

@@ -52,19 +52,17 @@ TEST_F(DeviceTreeTest, HasTheShapesThatWereAskedFor) {
 TEST_F(DeviceTreeTest, TheDeviceDecidesWhereTheCallerDoesNot) {
     Scene scene = data_.scene;
     scene.materials.push_back(small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
-    const SceneBvhs bvhs = build_scene_bvhs(scene);
+    const Bvh bvh = build_scene_bvh(scene);
     on_each_device([&](Device& device) {
         const bool cpu = device.is_cpu();
         EXPECT_EQ(device.has_wide_rays(), cpu);
         EXPECT_EQ(Gatherer(device).kernel(), choose_kernel(GatherKernel::automatic, device));
         expect_tree(upload_tree(device, data_.bvh), data_.bvh, !cpu, cpu);
-        const DeviceScene on_device = upload_scene(device, scene, bvhs);
-        expect_tree(on_device.tree, bvhs.opaque, !cpu, cpu);
-        expect_tree(on_device.glass, bvhs.glass, !cpu, cpu);
-        expect_tree(upload_scene(device, scene, bvhs, GatherKernel::rays).tree, bvhs.opaque, true, cpu);
-        const SceneTrees trees = build_scene_trees(scene, {}, tree_shapes(device, GatherKernel::automatic));
-        expect_tree(upload_scene(device, scene, trees).tree, bvhs.opaque, !cpu, cpu);
-        expect_tree(upload_scene(device, scene, trees).glass, bvhs.glass, !cpu, cpu);
+        const DeviceScene on_device = upload_scene(device, scene, bvh);
+        expect_tree(on_device.tree, bvh, !cpu, cpu);
+        expect_tree(upload_scene(device, scene, bvh, GatherKernel::rays).tree, bvh, true, cpu);
+        const ShapedBvh tree = build_scene_tree(scene, {}, tree_shapes(device, GatherKernel::automatic));
+        expect_tree(upload_scene(device, scene, tree).tree, bvh, !cpu, cpu);
     });
 }
 

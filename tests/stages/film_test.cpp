@@ -26,6 +26,7 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
             if (sample >= first && sample < first + count) {
                 batch.receivers.push_back(samples.receivers[p]);
                 batch.direct.push_back(samples.direct[p]);
+                batch.gathered.push_back(samples.gathered[p]);
                 batch.indirect.push_back(samples.indirect[p]);
                 const auto from =
                     samples.vertices.begin() + static_cast<std::ptrdiff_t>(p * NEARLIGHT_PACKET_SIZE);
@@ -35,8 +36,9 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
         const Buffer<ReceiverPacket> receivers(device, batch.receivers);
         const Buffer<CameraVertex> vertices(device, batch.vertices);
         const Buffer<IrradiancePacket> direct(device, batch.direct);
+        const Buffer<IrradiancePacket> gathered(device, batch.gathered);
         const Buffer<IrradiancePacket> indirect(device, batch.indirect);
-        film.add(receivers, vertices, direct, indirect,
+        film.add(receivers, vertices, {.direct = direct, .gathered = gathered, .indirect = indirect},
                  {.tile_row_count = static_cast<uint>(kLayout.tile_rows()),
                   .sample_count = count,
                   .samples_per_pixel = kLayout.samples,

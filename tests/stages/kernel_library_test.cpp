@@ -7,7 +7,7 @@
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/image/color.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
@@ -23,7 +23,7 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
     SceneCamera camera;
     camera.to_world = look_at({3, -2, 5}, {-1, 4, 0.5}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 71;
-    const PinholeCamera pinhole = make_pinhole_camera(camera, 640, 200);
+    const Camera pinhole = make_camera(camera, 640, 200);
     constexpr float kRange = 2.5f;
     constexpr std::size_t kCount = 10'000;
     std::vector<Vec3> points(kCount);

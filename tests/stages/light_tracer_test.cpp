@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/stages/close_range.h"
 #include "host/stages/joint_programs.h"
 #include "tests/support/device_fixture.h"
@@ -117,9 +117,16 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
         const double cone = 2 * kPi * (1 - (std::sin(kPi / 3) - 0.5) / (kPi / 6));
         EXPECT_NEAR(emitted_power(device, spot), 2 * cone, 0.005 * cone);
 
+        // Of the bitmap's green channel (0, 255, 64, 128), the mean is that of the linear values.
+        Scene projector;
+        add_projector(projector, {0, 0.5f, 0}, {1, 2, 3}, 0.5f, 0.25f, {1, 4, 1},
+                      add_small_bitmap(projector));
+        const double mean = (0 + 1 + 0.0512695 + 0.2158605) / 4;
+        EXPECT_NEAR(emitted_power(device, projector), 4 * 0.5 * mean, 0.005 * mean);
+
         Scene lamp;
         Material emissive = lambertian({0, 0, 0});
-        emissive.emission = {4, 4, 4};
+        emissive.emission = parameter_of(Vec3{4, 4, 4});
         add_quad(lamp, {-0.2f, 0, 0}, {0.4f, 0, 0}, {0, 0, 0.5f}, add_material(lamp, emissive));
         EXPECT_NEAR(emitted_power(device, lamp), kPi * 4 * 0.2, 0.001 * kPi);
     });
@@ -128,9 +135,7 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
 /// A white square of area A under a sky of radiance L on both sides: each side reflects π·L·A.
 TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
     Scene scene;
-    Material white = lambertian({1, 1, 1});
-    white.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, white));
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_two_sided(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 2, .height = 1, .radiance = {{3, 2, 1}, {3, 2, 1}}, .to_world = {}};
     on_each_ray_tree([&](Device& device) {
         const auto vpls = trace_all(
@@ -142,6 +147,41 @@ TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
         }
         EXPECT_NEAR(up, kPi * 2 * 6, 0.02 * kPi * 12);
         EXPECT_NEAR(down, kPi * 2 * 6, 0.02 * kPi * 12);
+    });
+}
+
+TEST_F(LightTracerTest, DirectionalLightIsWhatMeetsASquare) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_directional_light(scene, {3, 0, -4}, {1, 5, 2});
+    on_each_ray_tree([&](Device& device) {
+        double power = 0;
+        for (const Vpl& vpl : trace_all(
+                 device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7})) {
+            power += vpl.power.y;
+        }
+        EXPECT_NEAR(power, 5 * 6 * 0.8, 0.01 * 5 * 6);
+    });
+}
+
+TEST_F(LightTracerTest, SunIsWhatMeetsASquare) {
+    Scene scene;
+    add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_material(scene, lambertian({1, 1, 1})));
+    scene.environment = {.width = 1,
+                         .height = 1,
+                         .radiance = {{0, 0, 0}},
+                         .to_world = {},
+                         .sun_direction = normalize(Vec3{-3, 0, 4}),
+                         .sun_half_angle = 0.01f,
+                         .sun_radiance = {1000, 5000, 2000}};
+    on_each_ray_tree([&](Device& device) {
+        double power = 0;
+        for (const Vpl& vpl : trace_all(
+                 device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7})) {
+            power += vpl.power.y;
+        }
+        const double irradiance = 5000 * std::numbers::pi * 1e-4;
+        EXPECT_NEAR(power, irradiance * 6 * 0.8, 0.01 * irradiance * 6);
     });
 }
 
@@ -179,7 +219,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian({0.7f, 0.7f, 0.7f})));
     add_point_light(scene, {0, 0, 0}, {1, 1, 1});
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 90);
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 64, 64), 5.0f);
+    const CloseRange range = make_close_range(make_camera(scene.camera, 64, 64), 5.0f);
     // On the sphere of radius 1 the region is where |x| < z and |y| < z.
     const auto is_inside = [](const Vpl& v, float slack) {
         return std::max(std::abs(v.position.x), std::abs(v.position.y)) < v.position.z + slack;

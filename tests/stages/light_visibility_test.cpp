@@ -30,9 +30,8 @@ std::vector<uint> selected(Device& device, const Scene& scene, const std::vector
 /// and a roof.
 Scene three_floors(bool two_sided) {
     Scene scene;
-    Material material = lambertian({0.5f, 0.5f, 0.5f});
-    material.flags = two_sided ? NEARLIGHT_MATERIAL_TWO_SIDED : 0;
-    const uint grey = add_material(scene, material);
+    const Material material = lambertian({0.5f, 0.5f, 0.5f});
+    const uint grey = two_sided ? add_two_sided(scene, material) : add_material(scene, material);
     add_quad(scene, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, grey);
     add_quad(scene, {5, 0, 0}, {0, 0, 1}, {1, 0, 0}, grey);
     add_quad(scene, {0, 0, 5}, {1, 0, 0}, {0, 0, 1}, grey);  // faces down
@@ -69,7 +68,7 @@ TEST_F(LightVisibilityTest, AreaLightsShineOnWhatTheyFace) {
         for (const bool faces_down : {true, false}) {
             Scene scene = three_floors(false);
             Material lamp = lambertian({0, 0, 0});
-            lamp.emission = {1, 1, 1};
+            lamp.emission = parameter_of(Vec3{1, 1, 1});
             const uint material = add_material(scene, lamp);
             add_quad(scene, {0, 2, 0}, faces_down ? Vec3{1, 0, 0} : Vec3{0, 0, 1},
                      faces_down ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, material);

@@ -29,9 +29,8 @@ Scene lit_corner() {
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.8f, 0.7f, 0.6f})));
     add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.5f, 0.2f, 0.1f})));
     add_quad(scene, {1, 0, -1}, {0, 0, 2}, {0, 2, 0}, add_material(scene, lambertian({0.1f, 0.6f, 0.2f})));
-    Material both = lambertian({0.3f, 0.3f, 0.9f});
-    both.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    add_quad(scene, {0.5f, 0.2f, 0.5f}, {0, 0, 0.3f}, {0.3f, 0, 0}, add_material(scene, both));
+    add_quad(scene, {0.5f, 0.2f, 0.5f}, {0, 0, 0.3f}, {0.3f, 0, 0},
+             add_two_sided(scene, lambertian({0.3f, 0.3f, 0.9f})));
     add_point_light(scene, kLamp, kIntensity);
     return scene;
 }
@@ -108,7 +107,7 @@ LocalLightPlan plan_of(uint bounce_count) {
 TEST_F(LocalLightsTest, PowerIsExitanceOverTheDensityOfAllRaysOfThePacket) {
     on_each_device([](Device& device) {
         const SceneOnDevice on_device(device, lit_corner());
-        const Bvh& bvh = on_device.bvhs.opaque;
+        const Bvh& bvh = on_device.bvh;
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         LocalLightSlots slots(device, receivers.size() * kSlotsPerPacket);
         const std::size_t count = LocalLights(device).make(
@@ -153,8 +152,7 @@ TEST_F(LocalLightsTest, BitsSayWhichReceiversSeeALight) {
             for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
                 const ReceiverPoint receiver =
                     receiver_at(receivers, slot / kSlotsPerPacket * NEARLIGHT_PACKET_SIZE + lane);
-                const bool expected =
-                    pair_geometry(on_device.bvhs.opaque, receiver, lights[slot], kRadius) > 0;
+                const bool expected = pair_geometry(on_device.bvh, receiver, lights[slot], kRadius) > 0;
                 const bool found = (seen_by[slot] >> lane & 1u) != 0;
                 bits += found ? 1 : 0;
                 wrong += found != expected ? 1 : 0;

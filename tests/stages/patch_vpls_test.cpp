@@ -2,7 +2,7 @@
 #include "host/stages/patch_vpls.h"
 
 #include "host/base/random.h"
-#include "host/scene/pinhole_camera.h"
+#include "host/scene/camera.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
@@ -25,9 +25,7 @@ constexpr float kAreaPerSample = 0.25f;
 Scene two_walls() {
     Scene scene;
     const uint one = add_material(scene, lambertian({0.5f, 0.25f, 0.125f}));
-    Material both = lambertian({0.2f, 0.4f, 0.8f});
-    both.flags = NEARLIGHT_MATERIAL_TWO_SIDED;
-    const uint two = add_material(scene, both);
+    const uint two = add_two_sided(scene, lambertian({0.2f, 0.4f, 0.8f}));
     add_quad(scene, {-2, -2, 2}, {0, 4, 0}, {4, 0, 0}, one);
     add_quad(scene, {-2, -2, 3}, {0, 4, 0}, {4, 0, 0}, two);
     set_camera(scene, {0, 0, 0}, {0, 0, 1}, 60);
@@ -54,7 +52,7 @@ struct PatchResult {
 
 PatchResult make_patches(Device& device, const Scene& scene, bool whole_triangles) {
     const SceneOnDevice on_device(device, scene);
-    const CloseRange range = make_close_range(make_pinhole_camera(scene.camera, 64, 64), 2.6f);
+    const CloseRange range = make_close_range(make_camera(scene.camera, 64, 64), 2.6f);
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&range, 1));
     region.whole_triangles = whole_triangles;
@@ -108,7 +106,8 @@ TEST_F(PatchVplsTest, PowerIsAlbedoTimesArea) {
         const PatchResult result = make_patches(device, scene, true);
         for (std::size_t i = 0; i < kSlots; ++i) {
             if (result.flags[i] != 0) {
-                const Vec3 albedo = scene.materials[samples[i / 2].triangle / 2].base;
+                // The two-sided material is the one after the Lambertian one that it shows on both sides.
+                const Vec3 albedo = scene.materials[samples[i / 2].triangle / 2].reflectance.value;
                 EXPECT_EQ(result.vpls[i].power, albedo * kAreaPerSample);
             }
         }

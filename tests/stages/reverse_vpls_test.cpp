@@ -133,7 +133,7 @@ TEST_F(ReverseVplsTest, DensityIsThatOfAPlainLoop) {
         const Reverse found = trace_in_room(device, scene, 5);
         int different = 0;
         for (std::size_t i = 0; i < found.vpls.size(); ++i) {
-            const double expected = expected_density(scene.bvhs.opaque, found.vpls[i], 5);
+            const double expected = expected_density(scene.bvh, found.vpls[i], 5);
             EXPECT_GT(found.density[i], 0.0f);
             different += std::abs(found.density[i] - expected) > 1e-3 * expected ? 1 : 0;
         }

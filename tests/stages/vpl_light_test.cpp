@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/vpl_light.h"
 
+#include <cmath>
+
 #include "host/base/math.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
@@ -12,6 +14,22 @@ namespace {
 
 class VplLightTest : public test::DeviceTest {};
 
+/// The octahedral map: (x, y) of the point of |x| + |y| + |z| = 1 in this direction, the lower half folded
+/// out, in 16 bits each.
+uint packed(Vec3 direction) {
+    const Vec3 p = direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
+    const float x = p.z < 0 ? std::copysign(1 - std::abs(p.y), p.x) : p.x;
+    const float y = p.z < 0 ? std::copysign(1 - std::abs(p.x), p.y) : p.y;
+    const auto bits = [](float value) { return static_cast<uint>(std::lround((value + 1) / 2 * 65535)); };
+    return bits(x) | bits(y) << 16u;
+}
+
+/// A shading normal of its own for each VPL, on all sides.
+Vec3 shading_normal(std::size_t index) {
+    const auto i = static_cast<float>(index);
+    return normalize(Vec3{std::sin(2 * i), std::sin(3 * i + 1), std::sin(5 * i + 2)});
+}
+
 std::vector<Vpl> random_vpls(std::size_t count) {
     Pcg32 random(8);
     const auto vector = [&] {
@@ -20,9 +38,13 @@ std::vector<Vpl> random_vpls(std::size_t count) {
         return Vec3{x, y, random.uniform()};
     };
     std::vector<Vpl> vpls(count);
-    for (Vpl& vpl : vpls) {
-        vpl = {
-            .position = vector(), .depth = 2, .normal = vector(), .flags = 1, .power = vector(), .pad0 = 0};
+    for (std::size_t i = 0; i < count; ++i) {
+        vpls[i] = {.position = vector(),
+                   .depth = 2,
+                   .normal = vector(),
+                   .flags = NEARLIGHT_VPL_CLOSE | static_cast<uint>(i % 5) << NEARLIGHT_VPL_CURVE_SHIFT,
+                   .power = vector(),
+                   .shading = packed(shading_normal(i))};
     }
     return vpls;
 }
@@ -45,13 +67,21 @@ TEST_F(VplLightTest, ReceiversAreTheVplsThenNothing) {
             const std::vector<Vpl> vpls = random_vpls(count);
             const std::size_t packets = receiver_packet_count(count);
             ASSERT_EQ(packets, (count + 63) / 64);
-            Buffer<ReceiverPacket> receivers(device, packets);
-            VplLight(device).make_receivers(Buffer<Vpl>(device, vpls), count, receivers);
-            const std::vector<ReceiverPacket> found = receivers.download();
-            for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
-                const auto [position, normal] = receiver_at(found, i);
-                EXPECT_EQ(position, i < count ? vpls[i].position : Vec3{});
-                EXPECT_EQ(normal, i < count ? vpls[i].normal : Vec3{});
+            for (const VplSide side : {VplSide::emits, VplSide::receives}) {
+                Buffer<ReceiverPacket> receivers(device, packets);
+                VplLight(device).make_receivers(Buffer<Vpl>(device, vpls), count, side, receivers);
+                const std::vector<ReceiverPacket> found = receivers.download();
+                for (std::size_t i = 0; i < packets * NEARLIGHT_PACKET_SIZE; ++i) {
+                    const auto [position, normal] = receiver_at(found, i);
+                    EXPECT_EQ(position, i < count ? vpls[i].position : Vec3{});
+                    if (i < count && side == VplSide::receives) {
+                        EXPECT_LT(length(normal - shading_normal(i)), 1e-4f);
+                    } else {
+                        EXPECT_EQ(normal, i < count ? vpls[i].normal : Vec3{});
+                    }
+                    EXPECT_EQ(found[i / NEARLIGHT_PACKET_SIZE].surface[i % NEARLIGHT_PACKET_SIZE],
+                              i < count ? i % 5 : 0);
+                }
             }
         }
     });

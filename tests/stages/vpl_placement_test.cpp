@@ -186,8 +186,11 @@ TEST_F(VplPlacementTest, SamplesCarryWhatTheSurfaceHasThere) {
             EXPECT_GE(p.y, 2.0f);
             EXPECT_LE(p.x - 1 + p.y - 2, side * 1.000001f + 1e-6f);
             EXPECT_EQ(p.z, 3.0f);
-            EXPECT_NEAR(sample.u, p.x, 1e-5f);
-            EXPECT_NEAR(sample.v, p.y, 1e-5f);
+            const Triangle& triangle = surface.triangles[sample.triangle];
+            const Vec3 corner = surface.vertices[triangle.v0].position;
+            const Vec3 of_weights = corner + (surface.vertices[triangle.v1].position - corner) * sample.u +
+                                    (surface.vertices[triangle.v2].position - corner) * sample.v;
+            EXPECT_NEAR(length(of_weights - p), 0.0f, 1e-5f);
             EXPECT_NEAR(sample.normal.z, sample.triangle == 1 ? -1.0f : 1.0f, 1e-6f);
             EXPECT_NEAR(length(sample.normal), 1.0f, 1e-6f);
         }

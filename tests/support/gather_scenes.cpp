@@ -64,7 +64,7 @@ void finish(GatherCase& data, std::size_t vpls, std::size_t packets, Pcg32& rand
     for (std::size_t i = 0; i < vpls; ++i) {
         const ReceiverPoint point = make_point();
         const float power = random.uniform();
-        data.vpls.push_back({point.position, 1, point.normal, 0, {power, 0.5f * power, 1.0f - power}, 0.0f});
+        data.vpls.push_back({point.position, 1, point.normal, 0, {power, 0.5f * power, 1.0f - power}, 0});
     }
     for (std::size_t p = 0; p < packets; ++p) {
         ReceiverPacket& packet = data.receivers.emplace_back();

@@ -24,7 +24,8 @@ class KernelProbe {
     DeviceOptions options(const std::string& source) {
         const std::filesystem::path kernels = std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels";
         for (const char* folder : {"lib", "shared"}) {
-            std::filesystem::copy(kernels / folder, folder_ / folder);
+            std::filesystem::copy(kernels / folder, folder_ / folder,
+                                  std::filesystem::copy_options::recursive);
         }
         std::ofstream(folder_ / "probe.cl") << source;
         return {.kernel_dir = folder_.path(), .cache_dir = "none"};

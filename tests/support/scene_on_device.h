@@ -13,11 +13,11 @@ namespace nearlight::core::test {
 struct SceneOnDevice {
     SceneOnDevice(Device& device, Scene a_scene)
         : scene(std::move(a_scene)),
-          bvhs(build_scene_bvhs(scene)),
-          buffers(upload_scene(device, scene, bvhs)) {}
+          bvh(build_scene_bvh(scene)),
+          buffers(upload_scene(device, scene, bvh)) {}
 
     Scene scene;
-    SceneBvhs bvhs;
+    Bvh bvh;
     DeviceScene buffers;
 };
 

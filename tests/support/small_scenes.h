@@ -9,21 +9,14 @@
 #include <utility>
 
 #include "host/image/image.h"
+#include "host/scene/material_model.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_loader.h"
 
 namespace nearlight::core::small_scenes {
 
 inline Material lambertian(Vec3 albedo) {
-    Material material{};
-    material.base = albedo;
-    material.base_texture = -1;
-    material.specular = {1, 1, 1};
-    material.eta = {1.5f, 0, 0};
-    material.base_scale = 1.0f;
-    material.light_scale = 1.0f;
-    material.transmission = {1, 1, 1};
-    return material;
+    return diffuse_material(albedo);
 }
 
 inline uint add_material(Scene& scene, const Material& material) {
@@ -93,6 +86,43 @@ inline void add_point_light(Scene& scene, Vec3 position, Vec3 intensity) {
     scene.delta_emitters.push_back(light);
 }
 
+/// Adds a projector of the texture with the index `texture` (−1: an even image), `half_width` wide and
+/// `half_height` high at the distance 1, which sends `intensity` along its axis.
+inline void add_projector(Scene& scene, Vec3 position, Vec3 axis, float half_width, float half_height,
+                          Vec3 intensity, int texture) {
+    Emitter light{};
+    light.type = NEARLIGHT_EMITTER_PROJECTOR;
+    light.position = position;
+    light.direction = normalize(axis);
+    const auto [x, y] = orthonormal_basis(light.direction);
+    light.x_axis = x * (0.5f / half_width);
+    light.y_axis = y * (0.5f / half_height);
+    light.area = 4.0f * half_width * half_height;
+    light.radiance = intensity;
+    light.image = static_cast<uint>(texture + 1);
+    scene.delta_emitters.push_back(light);
+}
+
+inline void add_directional_light(Scene& scene, Vec3 direction, Vec3 irradiance) {
+    Emitter light{};
+    light.type = NEARLIGHT_EMITTER_DIRECTIONAL;
+    light.direction = normalize(direction);
+    light.radiance = irradiance;
+    scene.delta_emitters.push_back(light);
+}
+
+/// Adds a bitmap of four texels, whose colours differ, and returns the texture's index.
+inline int add_small_bitmap(Scene& scene) {
+    scene.images.push_back(
+        {"four", 2, 2, NEARLIGHT_TEXELS_SRGB8, {0xff0000ffu, 0xff00ff80u, 0xffff4020u, 0xff808080u}});
+    SceneTexture bitmap;
+    bitmap.parameters.kind = NEARLIGHT_TEXTURE_BITMAP;
+    bitmap.parameters.u_scale = bitmap.parameters.v_scale = 1.0f;
+    bitmap.image = static_cast<int>(scene.images.size()) - 1;
+    scene.textures.push_back(bitmap);
+    return static_cast<int>(scene.textures.size()) - 1;
+}
+
 inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<double, 3> target, double fov,
                        std::array<double, 3> up = {0, 1, 0}) {
     scene.camera.to_world = look_at(origin, target, up);
@@ -107,11 +137,11 @@ inline Scene checkered_plain() {
     SceneTexture checkerboard;
     checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
     checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
-    checkerboard.parameters.color0 = {0.8f, 0.7f, 0.6f};
-    checkerboard.parameters.color1 = {0.1f, 0.15f, 0.3f};
+    checkerboard.parameters.color0 = parameter_of(Vec3{0.8f, 0.7f, 0.6f});
+    checkerboard.parameters.color1 = parameter_of(Vec3{0.1f, 0.15f, 0.3f});
     scene.textures.push_back(checkerboard);
     Material tiles = lambertian({1, 1, 1});
-    tiles.base_texture = 0;
+    tiles.reflectance = textured(0);
     add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
     for (Vertex& vertex : scene.vertices) {
         vertex.u = vertex.position.x;  // a period of the pattern is two cells

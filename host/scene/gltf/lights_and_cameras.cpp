@@ -12,8 +12,6 @@ namespace {
 
 /// Lumens per watt of green light, which exporters take for the ratio of photometric and radiometric units.
 constexpr double kLumensPerWatt = 683;
-/// The distance of directional lights in radii of the scene: their rays differ by a degree at most.
-constexpr float kFarAway = 50.0f;
 constexpr int kUsualHeight = 480;
 
 Vec3 color_of(const tinygltf::Light& light) {
@@ -47,17 +45,11 @@ Emitter spot_emitter(const PlacedLight& placed) {
     return emitter;
 }
 
-/// A spot so far away that its irradiance hardly changes over the scene, and just wide enough to light all of
-/// it.
-Emitter directional_emitter(const PlacedLight& placed, const Aabb& box) {
-    const float radius = std::max(0.5f * length(box.size()), 1e-3f);
-    const float distance = kFarAway * radius;
+Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
-    emitter.type = NEARLIGHT_EMITTER_SPOT;
+    emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
     emitter.direction = forward(placed.to_world);
-    emitter.position = box.center() - distance * emitter.direction;
-    emitter.radiance = color_of(*placed.light) * (distance * distance);
-    emitter.cutoff_angle = emitter.beam_angle = std::asin(1.01f / kFarAway);
+    emitter.radiance = color_of(*placed.light);
     return emitter;
 }
 
@@ -77,18 +69,30 @@ Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
     return to_world;
 }
 
-SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
-    if (placed.camera->type != "perspective") {
-        file.fail("camera '" + placed.node + "' is not a perspective camera");
+void set_size(SceneCamera& camera, double aspect) {
+    camera.height = kUsualHeight;
+    camera.width = static_cast<int>(std::lround(std::clamp(kUsualHeight * aspect, 1.0, 16384.0)));
+}
+
+SceneCamera orthographic(const GltfFile& file, const PlacedCamera& placed) {
+    const tinygltf::OrthographicCamera& source = placed.camera->orthographic;
+    if (!(source.xmag > 0) || !(source.ymag > 0)) {
+        file.fail("camera '" + placed.node + "' has no size above 0");
     }
+    SceneCamera camera;
+    set_size(camera, source.xmag / source.ymag);
+    camera.kind = CameraKind::orthographic;
+    camera.to_world = camera_to_world(file, placed) * scaling(source.xmag, source.xmag, 1);
+    return camera;
+}
+
+SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
     const tinygltf::PerspectiveCamera& source = placed.camera->perspective;
     if (!(source.yfov > 0) || !(source.yfov < std::numbers::pi)) {
         file.fail("camera '" + placed.node + "' has no field of view between 0 and 180 degrees");
     }
     SceneCamera camera;
-    const double aspect = source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0;
-    camera.height = kUsualHeight;
-    camera.width = static_cast<int>(std::lround(std::clamp(kUsualHeight * aspect, 1.0, 16384.0)));
+    set_size(camera, source.aspectRatio > 0 ? source.aspectRatio : 4.0 / 3.0);
     camera.fov_x_degrees =
         360.0 / std::numbers::pi *
         std::atan(std::tan(source.yfov / 2) * camera.width / static_cast<double>(camera.height));
@@ -123,7 +127,6 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 }
 
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
-    const Aabb box = bounds(scene);
     for (const PlacedLight& placed : lights) {
         if (!is_finite(color_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
@@ -133,8 +136,7 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
         } else if (placed.light->type == "spot") {
             scene.delta_emitters.push_back(spot_emitter(placed));
         } else if (placed.light->type == "directional") {
-            scene.delta_emitters.push_back(directional_emitter(placed, box));
-            notes.approximation(file.path, 0, "directional lights are replaced by distant spot lights");
+            scene.delta_emitters.push_back(directional_emitter(placed));
         } else {
             notes.approximation(file.path, 0, "a light of type '" + placed.light->type + "' is left out");
         }
@@ -146,7 +148,8 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
     std::string names;
     for (const PlacedCamera& placed : cameras) {
         if (name.empty() || name == placed.node || name == placed.camera->name) {
-            return perspective(file, placed);
+            return placed.camera->type == "orthographic" ? orthographic(file, placed)
+                                                         : perspective(file, placed);
         }
         names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
     }

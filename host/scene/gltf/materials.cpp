@@ -5,17 +5,14 @@
 #include <array>
 #include <cmath>
 
-#include "host/image/color.h"
 #include "host/image/image_io.h"
 #include "host/scene/material_model.h"
+#include "host/scene/texture.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
 namespace {
 
-/// GGX's α, above which coats and metals are rendered matt. What they reflect is a blur, and would cost rays
-/// that end all over the room. Point lights, which the camera sees in no lobe, would leave metals black.
-constexpr float kMaxLobeAlpha = 0.2f;
 constexpr double kUsualIndex = 1.5;
 
 Vec3 clamped(Vec3 c) {
@@ -62,20 +59,6 @@ Image read_pixels(const GltfFile& file, const tinygltf::Image& image) {
         name_of(image));
 }
 
-/// The mean of the first three channels, or of the only one.
-Vec3 mean_numbers(const Image& image) {
-    const std::size_t channels = image.channel_count();
-    std::array<double, 3> sum{};
-    for (std::size_t i = 0; i < image.values.size(); i += channels) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            sum[c] += static_cast<double>(image.values[i + (channels < 3 ? 0 : c)]);
-        }
-    }
-    const double count = static_cast<double>(std::max<std::size_t>(image.values.size() / channels, 1));
-    return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count),
-            static_cast<float>(sum[2] / count)};
-}
-
 /// The two numbers `key` of KHR_texture_transform, or `fallback` twice.
 std::array<double, 2> pair_of(const tinygltf::Value& transform, const char* key, double fallback) {
     const tinygltf::Value& value = transform.Get(key);
@@ -105,40 +88,64 @@ void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
     texture.v_offset = static_cast<float>(1 - c * scale_v - offset_v);
 }
 
+/// How a sampler repeats a texture [glTF 2.0, 5.26].
+uint wrap_of(int mode) {
+    return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? NEARLIGHT_WRAP_CLAMP
+           : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? NEARLIGHT_WRAP_MIRROR
+                                                           : NEARLIGHT_WRAP_REPEAT;
+}
+
+/// Normal maps are given per colour texture and so on, with or without a scale; all have these members.
+template <typename Info>
+tinygltf::TextureInfo plain_info(const Info& info) {
+    tinygltf::TextureInfo plain;
+    plain.index = info.index;
+    plain.texCoord = info.texCoord;
+    plain.extensions = info.extensions;
+    return plain;
+}
+
+int texture_set_of(const tinygltf::TextureInfo& info) {
+    return index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
+}
+
+/// The index at which a dielectric reflects `factor` times as much light head-on.
+double scaled_index(double index, double factor) {
+    const double root = (index - 1.0) / (index + 1.0);
+    const double amplitude = std::min(std::abs(root) * std::sqrt(factor), 0.95);
+    return (1.0 + amplitude) / (1.0 - amplitude);
+}
+
 }  // namespace
 
 /// The properties that decide which material a glTF material becomes.
 struct MaterialMaker::Surface {
-    Vec3 color{1, 1, 1};  ///< base colour without the texture
-    float opacity = 1;
-    float metallic = 1;
-    float roughness = 1;  ///< perceptual: the square root of GGX's α
+    Parameter color;
+    Parameter opacity;
+    Parameter metallic;
+    Parameter roughness;  ///< perceptual: the square root of GGX's α
     double index = kUsualIndex;
-    Vec3 specular{1, 1, 1};
-    bool transmits = false;
+    float transmission = 0;
     bool is_thin = true;
+    bool reflects = true;
 
-    [[nodiscard]] float alpha() const { return std::clamp(roughness * roughness, 0.0f, 1.0f); }
+    /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
+    [[nodiscard]] bool is_diffuse() const {
+        const bool is_metal = metallic.value.x > 0.0f;
+        return !reflects || (!is_metal && roughness.texture < 0 && roughness.value.x >= 1.0f);
+    }
 };
 
 void MaterialMaker::approximate(const std::string& what) {
     notes_.approximation(file_.path, 0, what);
 }
 
-const tinygltf::Image* MaterialMaker::image_of(const tinygltf::TextureInfo& info) const {
-    if (info.index < 0) {
-        return nullptr;
-    }
-    const tinygltf::Texture& texture = file_.at(file_.model.textures, info.index, "texture", "a material");
-    return texture.source < 0 ? nullptr : &file_.at(file_.model.images, texture.source, "image", "a texture");
-}
-
-int MaterialMaker::load_colors(const tinygltf::Image& image) {
+int MaterialMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
     if (!image.uri.empty()) {
-        return textures_.load(file_.path.parent_path() / decoded_uri(image.uri), false, file_.path, 0);
+        return textures_.load(file_.path.parent_path() / decoded_uri(image.uri), rule, file_.path, 0);
     }
     try {
-        return textures_.add(read_pixels(file_, image), name_of(image), false);
+        return textures_.add(read_pixels(file_, image), name_of(image), rule, file_.path, 0);
     } catch (const Error& error) {
         throw_unless_file(error);
         notes_.approximation(
@@ -148,148 +155,168 @@ int MaterialMaker::load_colors(const tinygltf::Image& image) {
     }
 }
 
-/// Adds a texture, and returns its index into Scene::textures, or −1.
-int MaterialMaker::add_texture(const tinygltf::TextureInfo& info) {
-    const tinygltf::Image* const image = image_of(info);
-    if (image == nullptr) {
-        return -1;
+/// The texture, scaled by `value`; `value` alone if there is none, and grey if it cannot be read.
+Parameter MaterialMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule) {
+    if (info.index < 0) {
+        return parameter_of(value);
     }
-    const auto [entry, is_new] = colors_.try_emplace(image, -1);
+    const tinygltf::Texture& source = file_.at(file_.model.textures, info.index, "texture", "a material");
+    if (source.source < 0) {
+        return parameter_of(value);
+    }
+    const tinygltf::Image& image = file_.at(file_.model.images, source.source, "image", "a texture");
+    const auto [entry, is_new] = images_.try_emplace({source.source, rule}, -1);
     if (is_new) {
-        entry->second = load_colors(*image);
+        entry->second = load_image(image, rule);
     }
     if (entry->second < 0) {
-        return -1;
+        return parameter_of(0.5f);
     }
     SceneTexture texture = plain_texture(entry->second);
     apply_transform(info, texture.parameters);
-    scene_.textures.push_back(texture);
-    return static_cast<int>(scene_.textures.size() - 1);
+    if (source.sampler >= 0) {
+        const tinygltf::Sampler& sampler =
+            file_.at(file_.model.samplers, source.sampler, "sampler", "a texture");
+        texture.parameters.wrap_s = wrap_of(sampler.wrapS);
+        texture.parameters.wrap_t = wrap_of(sampler.wrapT);
+        texture.parameters.filter = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST
+                                        ? NEARLIGHT_FILTER_NEAREST
+                                        : NEARLIGHT_FILTER_BILINEAR;
+    }
+    return {value, add_texture(scene_, texture)};
 }
 
-/// The mean of the numbers in a texture's file; empty if there is no such texture.
-std::optional<Vec3> MaterialMaker::mean_of(const tinygltf::TextureInfo& info) {
-    const tinygltf::Image* const image = image_of(info);
-    if (image == nullptr) {
-        return std::nullopt;
+/// The opacity of masked and blended surfaces; 1 where the material has no holes.
+Parameter MaterialMaker::opacity_of(const tinygltf::Material& source) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    const float factor = pbr.baseColorFactor.size() > 3
+                             ? std::clamp(static_cast<float>(pbr.baseColorFactor[3]), 0.0f, 1.0f)
+                             : 1.0f;
+    if (source.alphaMode == "BLEND") {
+        return textured_by(pbr.baseColorTexture, Vec3{1, 1, 1} * factor, {.channel = 3});
     }
-    const auto [entry, is_new] = means_.try_emplace(image);
-    if (is_new) {
-        try {
-            entry->second = mean_numbers(read_pixels(file_, *image));
-        } catch (const Error& error) {
-            throw_unless_file(error);
-            notes_.approximation(file_.path, 0, std::string("a texture is left out: ") + error.what());
-        }
+    if (source.alphaMode != "MASK") {
+        return parameter_of(1.0f);
     }
-    return entry->second;
+    const auto cutoff = static_cast<float>(source.alphaCutoff);
+    if (pbr.baseColorTexture.index < 0 || factor < cutoff) {
+        return parameter_of(factor >= cutoff ? 1.0f : 0.0f);
+    }
+    return cutoff > 0.0f
+               ? textured_by(pbr.baseColorTexture, {1, 1, 1}, {.channel = 3, .cutoff = cutoff / factor})
+               : parameter_of(1.0f);
 }
 
 MaterialMaker::Surface MaterialMaker::surface_of(const tinygltf::Material& source) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    const auto share = [](double factor) {
+        return Vec3{1, 1, 1} * std::clamp(static_cast<float>(factor), 0.0f, 1.0f);
+    };
     Surface surface;
-    surface.color = clamped(to_vec3(pbr.baseColorFactor, {1, 1, 1}));
-    surface.opacity = pbr.baseColorFactor.size() > 3 ? static_cast<float>(pbr.baseColorFactor[3]) : 1.0f;
-    surface.metallic = static_cast<float>(pbr.metallicFactor);
-    surface.roughness = static_cast<float>(pbr.roughnessFactor);
-    if (const std::optional<Vec3> mean = mean_of(pbr.metallicRoughnessTexture)) {
-        surface.roughness *= mean->y;
-        surface.metallic *= mean->z;
-        approximate("textures of roughness and metalness are replaced by their means");
-    }
+    surface.color = textured_by(pbr.baseColorTexture, clamped(to_vec3(pbr.baseColorFactor, {1, 1, 1})), {});
+    surface.opacity = opacity_of(source);
+    surface.metallic = textured_by(pbr.metallicRoughnessTexture, share(pbr.metallicFactor), {.channel = 2});
+    surface.roughness = textured_by(pbr.metallicRoughnessTexture, share(pbr.roughnessFactor), {.channel = 1});
     surface.index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
     const double specular = number_of(source.extensions, "KHR_materials_specular", "specularFactor", 1);
-    surface.specular =
-        clamped(static_cast<float>(specular) *
-                color_of(source.extensions, "KHR_materials_specular", "specularColorFactor", {1, 1, 1}));
-    surface.transmits =
-        number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0) > 0.5;
-    surface.is_thin = number_of(source.extensions, "KHR_materials_volume", "thicknessFactor", 0) <= 0;
-    if (source.alphaMode == "BLEND" && surface.opacity < 0.5f && !surface.transmits) {
-        approximate("blended surfaces are rendered as thin panes of glass");
-        surface.transmits = true;
+    const Vec3 tint = color_of(source.extensions, "KHR_materials_specular", "specularColorFactor", {1, 1, 1});
+    const double factor = std::max(0.0, specular) * static_cast<double>(std::max(0.0f, luminance(tint)));
+    if (tint.x != tint.y || tint.y != tint.z) {
+        approximate("the colour of reflections (specularColorFactor) is replaced by its luminance");
     }
+    surface.reflects =
+        factor > 0.0 && surface.index > 1.0 && !source.extensions.contains("KHR_materials_unlit");
+    surface.index = surface.reflects ? scaled_index(surface.index, factor) : kUsualIndex;
+    surface.transmission =
+        std::clamp(static_cast<float>(
+                       number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0)),
+                   0.0f, 1.0f);
+    surface.is_thin = number_of(source.extensions, "KHR_materials_volume", "thicknessFactor", 0) <= 0;
     return surface;
 }
 
 void MaterialMaker::remark_what_is_left_out(const tinygltf::Material& source) {
-    if (source.normalTexture.index >= 0) {
-        approximate("normal maps are left out");
-    }
-    if (source.alphaMode == "MASK" ||
-        (source.alphaMode == "BLEND" && source.pbrMetallicRoughness.baseColorTexture.index >= 0)) {
-        approximate("holes made by the alpha of textures are filled");
-    }
     for (const char* extension : {"KHR_materials_clearcoat", "KHR_materials_sheen"}) {
         if (source.extensions.contains(extension)) {
             approximate(std::string(extension) + " is left out");
         }
     }
+    if (source.alphaMode == "MASK" && source.pbrMetallicRoughness.baseColorTexture.index >= 0) {
+        approximate("the edges of alpha masks are smoothed over one texel");
+    }
+    const int set = texture_set_of(source.pbrMetallicRoughness.baseColorTexture);
+    for (const tinygltf::TextureInfo& info : {source.pbrMetallicRoughness.metallicRoughnessTexture,
+                                              plain_info(source.normalTexture), source.emissiveTexture}) {
+        if (info.index >= 0 && texture_set_of(info) != set) {
+            approximate("all textures of a material use the texture coordinates of its colour");
+        }
+    }
 }
 
 /// The emission as a radiance, because exporters write a strength rather than nits.
-Vec3 MaterialMaker::emission_of(const tinygltf::Material& source) {
+Parameter MaterialMaker::emission_of(const tinygltf::Material& source) {
     const double strength =
         number_of(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-    Vec3 emission = static_cast<float>(strength) * max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
-    if (!is_zero(emission) && source.emissiveTexture.index >= 0) {
-        if (const std::optional<Vec3> mean = mean_of(source.emissiveTexture)) {
-            approximate("textures of emitted light are replaced by their means");
-            emission =
-                emission * Vec3{srgb_to_linear(mean->x), srgb_to_linear(mean->y), srgb_to_linear(mean->z)};
-        }
-    }
-    return emission;
-}
-
-/// Makes a Lambertian material, under a coat if `has_coat` is true.
-Material MaterialMaker::make_base(const tinygltf::Material& source, const Surface& surface, bool has_coat) {
-    Material material =
-        has_coat ? coat_material(surface.color, surface.specular, surface.index, surface.alpha(), false)
-                 : diffuse_material(surface.color);
-    material.base_texture = add_texture(source.pbrMetallicRoughness.baseColorTexture);
-    if (material.base_texture < 0 && source.pbrMetallicRoughness.baseColorTexture.index >= 0) {
-        material.base = {0.5f, 0.5f, 0.5f};
-    }
-    return material;
-}
-
-Material MaterialMaker::make_metal(const tinygltf::Material& source, const Surface& surface) {
-    Vec3 tint = surface.color;
-    if (const int texture = add_texture(source.pbrMetallicRoughness.baseColorTexture); texture >= 0) {
-        approximate("colour textures of smooth metals are replaced by their means");
-        const int image = scene_.textures[static_cast<std::size_t>(texture)].image;
-        tint = tint * mean_color(scene_.images[static_cast<std::size_t>(image)]);
-    }
-    return conductor_material({0, 0, 0}, {1, 1, 1}, tint, surface.alpha());
-}
-
-Material MaterialMaker::make(const tinygltf::Material& source) {
-    const Surface surface = surface_of(source);
-    remark_what_is_left_out(source);
-    const bool is_metal = surface.metallic > 0.5f;
-    const bool reflects = is_metal || (!is_zero(surface.specular) && surface.index > 1 &&
-                                       !source.extensions.contains("KHR_materials_unlit"));
-    const bool is_smooth = surface.alpha() <= kMaxLobeAlpha;
-    const bool is_even = !is_metal && surface.alpha() >= 1;
-    if (reflects && !is_smooth && !is_even && !surface.transmits) {
-        approximate("rough reflections are rendered diffuse");
-    }
-    Material material;
-    if (surface.transmits) {
-        material = glass_material(surface.index > 1 ? surface.index : kUsualIndex, surface.is_thin);
-        material.transmission = surface.color;
-    } else if (is_metal && is_smooth) {
-        material = make_metal(source, surface);
-    } else {
-        material = make_base(source, surface, reflects && is_smooth);
-    }
-    material.emission = emission_of(source);
-    if (!is_finite(material.emission)) {
+    const Vec3 emission =
+        static_cast<float>(strength) * max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
+    if (!is_finite(emission)) {
         file_.fail("material '" + source.name + "' emits light that is not finite");
     }
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
+    return is_zero(emission) ? parameter_of(0.0f) : textured_by(source.emissiveTexture, emission, {});
+}
+
+uint MaterialMaker::add(const Material& material) {
+    scene_.materials.push_back(material);
+    return static_cast<uint>(scene_.materials.size() - 1);
+}
+
+/// A base with reflections, or metal, or a texture's choice of both, on both sides.
+uint MaterialMaker::add_opaque(const Surface& surface) {
+    if (surface.is_diffuse()) {
+        Material base = diffuse_material({1, 1, 1});
+        base.reflectance = surface.color;
+        return add_two_sided(scene_, base);
+    }
+    Material material = principled_material(scene_, surface.index);
+    material.reflectance = surface.color;
+    material.metallic = surface.metallic;
+    material.roughness = surface.roughness;
+    return add_two_sided(scene_, material);
+}
+
+uint MaterialMaker::add_glass(const Surface& surface) {
+    const double index = surface.index > 1.001 ? surface.index : kUsualIndex;
+    Material glass = surface.is_thin ? thin_dielectric_material(index) : dielectric_material(index);
+    glass.transmission = surface.color;
+    if (surface.roughness.value.x > 0.0f && surface.is_thin) {
+        approximate("rough panes of glass are rendered smooth");
+    } else if (surface.roughness.texture >= 0) {
+        approximate("textures of the roughness of glass are replaced by their means");
+    }
+    const float roughness = mean_value(scene_, surface.roughness).x;
+    glass.roughness = parameter_of(surface.is_thin ? 0.0f : roughness * roughness);
+    return add(glass);
+}
+
+uint MaterialMaker::make(const tinygltf::Material& source) {
+    const Surface surface = surface_of(source);
+    remark_what_is_left_out(source);
+    uint made = surface.transmission >= 1.0f ? add_glass(surface) : add_opaque(surface);
+    if (surface.transmission > 0.0f && surface.transmission < 1.0f) {
+        made = add(blend_material(parameter_of(surface.transmission), made, add_glass(surface)));
+    }
+    if (source.normalTexture.index >= 0) {
+        if (source.normalTexture.scale != 1.0) {
+            approximate("the scale of normal maps is left out");
+        }
+        const Parameter normals = textured_by(plain_info(source.normalTexture), {1, 1, 1}, {.gamma = 1.0f});
+        made = normals.texture < 0 ? made : add(normal_map_material(normals, made));
+    }
+    if (surface.opacity.texture >= 0 || surface.opacity.value.x < 1.0f) {
+        made = add(mask_material(surface.opacity, made));
+    }
+    scene_.materials[made].emission = emission_of(source);
+    return made;
 }
 
 PlacedMaterial MaterialMaker::material(int index) {
@@ -297,19 +324,14 @@ PlacedMaterial MaterialMaker::material(int index) {
     if (!is_new) {
         return entry->second;
     }
-    Material made = diffuse_material({0.5f, 0.5f, 0.5f});
-    made.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
     if (index < 0) {
         notes_.remark(file_.path, 0, "surfaces without a material are grey");
-    } else {
-        const tinygltf::Material& source = file_.at(file_.model.materials, index, "material", "a mesh");
-        made = make(source);
-        const tinygltf::TextureInfo& info = source.pbrMetallicRoughness.baseColorTexture;
-        entry->second.texture_set =
-            index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
+        entry->second.index = add_two_sided(scene_, diffuse_material({0.5f, 0.5f, 0.5f}));
+        return entry->second;
     }
-    entry->second.index = static_cast<uint>(scene_.materials.size());
-    scene_.materials.push_back(made);
+    const tinygltf::Material& source = file_.at(file_.model.materials, index, "material", "a mesh");
+    entry->second.index = make(source);
+    entry->second.texture_set = texture_set_of(source.pbrMetallicRoughness.baseColorTexture);
     return entry->second;
 }
 

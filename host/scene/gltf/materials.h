@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <utility>
 
 #include "host/image/image.h"
 #include "host/scene/gltf/gltf_file.h"
@@ -17,9 +17,9 @@ struct PlacedMaterial {
     int texture_set = 0;
 };
 
-/// Makes each material when a mesh first asks for it. A dielectric becomes a Lambertian base under a coat, a
-/// metal a rough conductor, and a transmitting surface glass. Textures of anything but colour are replaced by
-/// their means or left out, with a note.
+/// Makes each material when a mesh first asks for it: a principled one for metals and bases that reflect,
+/// diffuse for bases that hardly do, glass where light is transmitted. Masks, blends and normal maps lie
+/// around it. What is left out or replaced by its mean is noted.
 class MaterialMaker {
   public:
     MaterialMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
@@ -31,24 +31,23 @@ class MaterialMaker {
   private:
     struct Surface;
     [[nodiscard]] Surface surface_of(const tinygltf::Material& source);
-    [[nodiscard]] Material make(const tinygltf::Material& source);
-    [[nodiscard]] Material make_base(const tinygltf::Material& source, const Surface& surface, bool has_coat);
-    [[nodiscard]] Material make_metal(const tinygltf::Material& source, const Surface& surface);
-    [[nodiscard]] Vec3 emission_of(const tinygltf::Material& source);
+    [[nodiscard]] uint make(const tinygltf::Material& source);
+    [[nodiscard]] uint add_opaque(const Surface& surface);
+    [[nodiscard]] uint add_glass(const Surface& surface);
+    uint add(const Material& material);
+    [[nodiscard]] Parameter emission_of(const tinygltf::Material& source);
+    [[nodiscard]] Parameter opacity_of(const tinygltf::Material& source);
     void remark_what_is_left_out(const tinygltf::Material& source);
     void approximate(const std::string& what);
-    [[nodiscard]] const tinygltf::Image* image_of(const tinygltf::TextureInfo& info) const;
-    int add_texture(const tinygltf::TextureInfo& info);
-    int load_colors(const tinygltf::Image& image);
-    std::optional<Vec3> mean_of(const tinygltf::TextureInfo& info);
+    [[nodiscard]] Parameter textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule);
+    int load_image(const tinygltf::Image& image, const TexelRule& rule);
 
     const GltfFile& file_;
     Scene& scene_;
     NoteSink& notes_;
     TextureLoader textures_;
     std::map<int, PlacedMaterial> made_;
-    std::map<const tinygltf::Image*, int> colors_;                 ///< index into Scene::images, or −1
-    std::map<const tinygltf::Image*, std::optional<Vec3>> means_;  ///< means of the file's numbers
+    std::map<std::pair<int, TexelRule>, int> images_;  ///< index into Scene::images, or −1
 };
 
 }  // namespace nearlight::core::gltf

@@ -1,125 +1,180 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/material_maker.h"
 
-#include "host/scene/material_model.h"
 #include "host/scene/mitsuba/optics_tables.h"
+#include "host/scene/reflectance.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr int kMaxBsdfDepth = 32;  // BSDFs within BSDFs; only a cycle of references goes deeper
-
 constexpr const char* kKnown =
     "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, thindielectric, "
-    "roughdielectric, principled, twosided, mask, bumpmap, normalmap, blendbsdf";
+    "roughdielectric, principled, principledthin, twosided, mask, bumpmap, normalmap, blendbsdf, null";
 
-bool is_lambertian(const Material& m) {
-    return m.lobe == NEARLIGHT_LOBE_NONE && m.base_texture < 0;
+// With indices closer to each other than this, refraction has no half-vector to speak of.
+constexpr double kMinIndexStep = 1e-3;
+
+bool starts_with_rough(const Object& bsdf) {
+    return bsdf.type.starts_with("rough");
 }
 
 }  // namespace
 
-uint MaterialMaker::index(const Object* bsdf, Vec3 emission) {
-    const auto [entry, is_new] = indices_.try_emplace({bsdf, {emission.x, emission.y, emission.z}}, 0u);
+uint MaterialMaker::index(const Object* bsdf, const Parameter& emission) {
+    const Vec3 e = emission.value;
+    const auto [entry, is_new] =
+        indices_.try_emplace({bsdf, {e.x, e.y, e.z, static_cast<float>(emission.texture)}}, 0u);
     if (!is_new) {
         return entry->second;
     }
-    Material material = bsdf == nullptr ? diffuse_material({0.5f, 0.5f, 0.5f}) : make(*bsdf, 0);
+    if (bsdf != nullptr && is_zero(e)) {
+        return entry->second = make(*bsdf, 0);
+    }
+    const float grey = is_zero(e) ? 0.5f : 0.0f;
+    Material material =
+        bsdf == nullptr ? diffuse_material(Vec3{1, 1, 1} * grey) : scene_.materials[make(*bsdf, 0)];
     material.emission = emission;
-    entry->second = static_cast<uint>(scene_.materials.size());
-    scene_.materials.push_back(material);
-    return entry->second;
+    return entry->second = add(material);
 }
 
-Material MaterialMaker::make(const Object& bsdf, int depth) {
+uint MaterialMaker::add(const Material& material) {
+    scene_.materials.push_back(material);
+    return static_cast<uint>(scene_.materials.size() - 1);
+}
+
+uint MaterialMaker::make(const Object& bsdf, int depth) {
+    if (depth > NEARLIGHT_MAX_BSDF_NESTING) {
+        fail(bsdf.where, "bsdf '" + bsdf.type + "' contains itself, or more than " +
+                             std::to_string(NEARLIGHT_MAX_BSDF_NESTING) + " bsdfs lie within each other");
+    }
     if (const auto found = made_.find(&bsdf); found != made_.end()) {
         return found->second;
     }
-    if (depth > kMaxBsdfDepth) {
-        fail(bsdf.where, "bsdf '" + bsdf.type + "' contains itself");
-    }
-    const std::string& type = bsdf.type;
-    Material material{};
-    if (type == "diffuse" || type == "roughdiffuse") {
-        material = make_diffuse(bsdf);
-    } else if (type == "plastic" || type == "roughplastic") {
-        material = make_plastic(bsdf);
-    } else if (type == "conductor" || type == "roughconductor") {
-        material = make_conductor(bsdf);
-    } else if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
-        material = make_glass(bsdf, type == "thindielectric");
-    } else if (type == "principled") {
-        material = make_principled(bsdf);
-    } else if (type == "twosided") {
-        material = make_twosided(bsdf, depth);
-    } else if (type == "mask") {
-        material = make_mask(bsdf, depth);
-    } else if (type == "blendbsdf") {
-        material = make_blend(bsdf, depth);
-    } else if (type == "bumpmap" || type == "normalmap" || type == "bump") {
-        note(notes_, bsdf.where, "bump and normal maps are left out");
-        bsdf.ignore_nested("texture");
-        bsdf.ignore({"scale"});
-        material = make_nested(bsdf, depth);
-    } else {
-        fail_unknown_type(bsdf, kKnown);
-    }
+    const uint index = make_new(bsdf, depth);
     bsdf.report_unused(notes_);
-    made_.emplace(&bsdf, material);
-    return material;
+    made_.emplace(&bsdf, index);
+    return index;
 }
 
-Material MaterialMaker::make_nested(const Object& wrapper, int depth) {
+uint MaterialMaker::make_new(const Object& bsdf, int depth) {
+    const std::string& type = bsdf.type;
+    if (type == "diffuse" || type == "roughdiffuse") {
+        return add(make_diffuse(bsdf));
+    }
+    if (type == "plastic" || type == "roughplastic") {
+        return add(make_plastic(bsdf));
+    }
+    if (type == "conductor" || type == "roughconductor") {
+        return add(make_conductor(bsdf));
+    }
+    if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
+        return add(make_glass(bsdf));
+    }
+    if (type == "principled" || type == "principledthin") {
+        return add(make_principled(bsdf));
+    }
+    if (type == "null") {
+        return add(plain_material(NEARLIGHT_BSDF_NULL));
+    }
+    if (type == "twosided") {
+        return make_twosided(bsdf, depth);
+    }
+    if (type == "mask") {
+        return make_mask(bsdf, depth);
+    }
+    if (type == "blendbsdf") {
+        return make_blend(bsdf, depth);
+    }
+    if (type == "bumpmap" || type == "bump") {
+        return make_bump(bsdf, depth);
+    }
+    if (type == "normalmap") {
+        return make_normal_map(bsdf, depth);
+    }
+    fail_unknown_type(bsdf, kKnown);
+}
+
+uint MaterialMaker::make_nested(const Object& wrapper, int depth) {
     const std::vector<const Object*> nested = wrapper.nested("bsdf");
-    if (nested.empty()) {
-        fail(wrapper.where, "bsdf '" + wrapper.type + "' needs a nested bsdf");
+    if (nested.size() != 1) {
+        fail(wrapper.where, "bsdf '" + wrapper.type + "' needs one nested bsdf");
     }
     return make(*nested.front(), depth + 1);
 }
 
-Material MaterialMaker::make_twosided(const Object& bsdf, int depth) {
-    if (bsdf.nested("bsdf").size() > 1) {
-        note(notes_, bsdf.where, "'twosided' has two bsdfs; the first one is used for both sides");
+uint MaterialMaker::make_twosided(const Object& bsdf, int depth) {
+    const std::vector<const Object*> nested = bsdf.nested("bsdf");
+    if (nested.empty() || nested.size() > 2) {
+        fail(bsdf.where, "'twosided' needs one or two nested bsdfs");
     }
-    Material material = make_nested(bsdf, depth);
-    material.flags |= NEARLIGHT_MATERIAL_TWO_SIDED;
-    return material;
+    const bool allows_transmission = bsdf.boolean("allow_transmission", false);
+    const uint front = make(*nested.front(), depth + 1);
+    const uint back = make(*nested.back(), depth + 1);
+    const auto is_glass = [&](uint index) {
+        return lets_through(scene_, scene_.materials[index]) &&
+               !passes_straight(scene_, scene_.materials[index]);
+    };
+    if ((is_glass(front) || is_glass(back)) && !allows_transmission) {
+        note(notes_, bsdf.where, "'twosided' has no effect on a bsdf that lets light through");
+        return front;
+    }
+    return add(two_sided_material(front, back));
 }
 
-Material MaterialMaker::make_mask(const Object& bsdf, int depth) {
-    const float opacity = luminance(textures_.mean_reflectance(bsdf, "opacity", {0.5f, 0.5f, 0.5f}));
-    note(notes_, bsdf.where,
-         "'mask' becomes either opaque or invisible, whichever is closer to its mean opacity");
-    const Material opaque = make_nested(bsdf, depth);
-    return opacity >= 0.5f ? opaque : glass_material(1.0, true);
+uint MaterialMaker::make_mask(const Object& bsdf, int depth) {
+    const Parameter opacity = textures_.number(bsdf, "opacity", 0.5f);
+    return add(mask_material(opacity, make_nested(bsdf, depth)));
 }
 
-Material MaterialMaker::make_blend(const Object& bsdf, int depth) {
-    const float weight = luminance(textures_.mean_reflectance(bsdf, "weight", {0.5f, 0.5f, 0.5f}));
+uint MaterialMaker::make_blend(const Object& bsdf, int depth) {
     const std::vector<const Object*> nested = bsdf.nested("bsdf");
     if (nested.size() != 2) {
         fail(bsdf.where, "'blendbsdf' needs two nested bsdfs");
     }
-    Material first = make(*nested[0], depth + 1);
-    const Material second = make(*nested[1], depth + 1);
-    if (is_lambertian(first) && is_lambertian(second) && first.flags == second.flags) {
-        first.base = first.base * (1.0f - weight) + second.base * weight;
-        return first;
+    const Parameter weight = textures_.number(bsdf, "weight", 0.5f);
+    const uint first = make(*nested[0], depth + 1);
+    return add(blend_material(weight, first, make(*nested[1], depth + 1)));
+}
+
+uint MaterialMaker::make_bump(const Object& bsdf, int depth) {
+    const std::vector<const Object*> textures = bsdf.nested("texture");
+    if (textures.size() != 1) {
+        fail(bsdf.where, "'" + bsdf.type + "' needs one nested texture");
     }
-    note(notes_, bsdf.where, "'blendbsdf' is replaced by the bsdf that has the larger weight");
-    return weight < 0.5f ? first : second;
+    const Parameter height =
+        textures_.height(*textures.front(), static_cast<float>(bsdf.number("scale", 1.0)));
+    warn_of_fixed_switches(bsdf);
+    return add(bump_map_material(height, make_nested(bsdf, depth)));
+}
+
+uint MaterialMaker::make_normal_map(const Object& bsdf, int depth) {
+    const std::vector<const Object*> textures = bsdf.nested("texture");
+    if (textures.size() != 1) {
+        fail(bsdf.where, "'normalmap' needs one nested texture");
+    }
+    const Parameter normals = textures_.normals(*textures.front());
+    warn_of_fixed_switches(bsdf);
+    return add(normal_map_material(normals, make_nested(bsdf, depth)));
+}
+
+void MaterialMaker::warn_of_fixed_switches(const Object& bsdf) {
+    for (const char* name : {"flip_invalid_normals", "use_shadowing_function"}) {
+        if (!bsdf.boolean(name, true)) {
+            note(notes_, bsdf.find(name)->where, std::string("'") + name + "' is always true");
+        }
+    }
 }
 
 Material MaterialMaker::make_diffuse(const Object& bsdf) {
     if (bsdf.type == "roughdiffuse") {
         note(notes_, bsdf.where, "'roughdiffuse' is replaced by 'diffuse'");
         bsdf.ignore({"alpha", "use_fast_approx"});
+        bsdf.ignore_nested("texture");
     }
-    const bool old_name = bsdf.has("diffuse_reflectance");
-    const auto [color, texture] =
+    const bool old_name = bsdf.has("diffuse_reflectance") || bsdf.texture("diffuse_reflectance") != nullptr;
+    Material material = plain_material(NEARLIGHT_BSDF_DIFFUSE);
+    material.reflectance =
         textures_.reflectance(bsdf, old_name ? "diffuse_reflectance" : "reflectance", {0.5f, 0.5f, 0.5f});
-    Material material = diffuse_material(color);
-    material.base_texture = texture;
     return material;
 }
 
@@ -140,96 +195,179 @@ double MaterialMaker::index_of_refraction(const Object& bsdf, const std::string&
         index = bsdf.number(name, fallback);
     }
     if (!(index > 0.0)) {
-        fail(property->where, "'" + name + "' should be greater than 0");
+        note(notes_, property->where,
+             "'" + name + "' is not greater than 0; " + std::to_string(fallback) + " is used");
+        return fallback;
     }
     return index;
 }
 
-float MaterialMaker::roughness(const Object& bsdf) {
-    if (!bsdf.type.starts_with("rough")) {
-        return 0.0f;
+double MaterialMaker::index_ratio(const Object& bsdf, double interior) {
+    const double inside = index_of_refraction(bsdf, "int_ior", interior);
+    const double eta = inside / index_of_refraction(bsdf, "ext_ior", 1.000277);
+    if (std::abs(eta - 1.0) < kMinIndexStep) {
+        note(notes_, bsdf.where, "the indices of refraction inside and outside are the same; 1.001 is used");
+        return 1.0 + kMinIndexStep;
     }
-    if (bsdf.string("distribution", "beckmann") != "ggx") {
-        note(notes_, bsdf.where, "the microfacet distribution is replaced by GGX with the same alpha");
+    if (eta < 1.0 && !bsdf.has("ext_ior")) {
+        notes_.remark(*bsdf.where.file, bsdf.where.line, "the index of refraction is below 1");
     }
+    return eta;
+}
+
+Parameter MaterialMaker::anisotropic_alpha(const Object& bsdf) {
+    if (bsdf.has("alpha") || bsdf.texture("alpha") != nullptr) {
+        note(notes_, bsdf.where, "'alpha' is ignored beside 'alpha_u' and 'alpha_v'");
+        bsdf.ignore({"alpha"});
+    }
+    const Parameter u = textures_.number(bsdf, "alpha_u", 0.1f);
+    const Parameter v = textures_.number(bsdf, "alpha_v", 0.1f);
+    if (u.texture == v.texture) {
+        return {{u.value.x, v.value.x, 0.0f}, u.texture};
+    }
+    note(notes_, bsdf.where, "different textures for 'alpha_u' and 'alpha_v' are replaced by their means");
+    return {{mean_value(scene_, u).x, mean_value(scene_, v).x, 0.0f}, -1};
+}
+
+void MaterialMaker::read_microfacets(const Object& bsdf, Material& material) {
+    if (!starts_with_rough(bsdf)) {
+        return;
+    }
+    const std::string distribution = bsdf.string("distribution", "beckmann");
+    if (distribution == "phong" || distribution == "as") {
+        note(notes_, bsdf.where,
+             "the microfacet distribution '" + distribution + "' is replaced by Beckmann's");
+    } else if (distribution != "beckmann" && distribution != "ggx") {
+        fail(bsdf.where, "unknown microfacet distribution '" + distribution + "'; known are beckmann, ggx");
+    }
+    material.flags |= distribution == "ggx" ? 0u : NEARLIGHT_MATERIAL_BECKMANN;
     bsdf.ignore({"sample_visible"});
-    const bool anisotropic = bsdf.has("alpha_u") || bsdf.has("alpha_v");
-    const double alpha =
-        anisotropic ? 0.5 * (bsdf.number("alpha_u", 0.1) + bsdf.number("alpha_v", 0.1))
-                    : static_cast<double>(textures_.color(bsdf, "alpha", Vec3{0.1f, 0.1f, 0.1f}, false).x);
-    if (anisotropic) {
-        note(notes_, bsdf.where, "anisotropic roughness is replaced by its mean");
+    const bool has_two = bsdf.has("alpha_u") || bsdf.has("alpha_v") || bsdf.texture("alpha_u") != nullptr ||
+                         bsdf.texture("alpha_v") != nullptr;
+    material.roughness = has_two ? anisotropic_alpha(bsdf) : textures_.number(bsdf, "alpha", 0.1f);
+    const Vec3 alpha = material.roughness.value;
+    if (alpha.x != alpha.y) {
+        material.flags |= NEARLIGHT_MATERIAL_TANGENT;
     }
-    return static_cast<float>(std::clamp(alpha, 0.0, 1.0));
+    if (std::min(alpha.x, alpha.y) <= 0.0f) {
+        notes_.remark(*bsdf.where.file, bsdf.where.line, "a roughness of 0 makes a smooth surface");
+    }
 }
 
 Material MaterialMaker::make_plastic(const Object& bsdf) {
-    const auto [color, texture] = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
-    const Vec3 specular = textures_.mean_reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    const double eta =
-        index_of_refraction(bsdf, "int_ior", 1.49) / index_of_refraction(bsdf, "ext_ior", 1.000277);
-    Material material =
-        coat_material(color, specular, eta, roughness(bsdf), bsdf.boolean("nonlinear", false));
-    material.base_texture = texture;
+    Material microfacets = plain_material(NEARLIGHT_BSDF_PLASTIC);
+    read_microfacets(bsdf, microfacets);
+    if (microfacets.roughness.texture >= 0) {
+        note(notes_, bsdf.where, "a texture for 'alpha' of 'roughplastic' is replaced by its mean");
+    }
+    const Vec3 alpha = mean_value(scene_, microfacets.roughness);
+    if (alpha.x != alpha.y) {
+        note(notes_, bsdf.where, "anisotropic roughness of 'roughplastic' is replaced by its mean");
+    }
+    const Coat coat{.eta = index_ratio(bsdf, 1.49),
+                    .alpha = std::clamp(0.5 * static_cast<double>(alpha.x + alpha.y), 0.0, 1.0),
+                    .beckmann = (microfacets.flags & NEARLIGHT_MATERIAL_BECKMANN) != 0,
+                    .nonlinear = bsdf.boolean("nonlinear", false)};
+    const auto [entry, is_new] = plastics_.try_emplace(coat);
+    if (is_new) {
+        entry->second = plastic_material(scene_, coat);
+    }
+    Material material = entry->second;
+    material.reflectance = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
+    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
     return material;
 }
 
-Material MaterialMaker::make_conductor(const Object& bsdf) {
-    const Vec3 specular = textures_.mean_reflectance(bsdf, "specular_reflectance", {1, 1, 1});
+void MaterialMaker::read_metal(const Object& bsdf, Material& material) {
     // Without a material, Mitsuba 0.6 takes copper, and Mitsuba 3 a perfect mirror.
     const std::string name = bsdf.string("material", "none");
     const std::optional<Metal> metal = find_metal(name);
     if (!metal) {
         fail(bsdf.find("material")->where, "unknown metal '" + name + "'; give eta and k instead");
     }
-    const bool given = bsdf.has("eta") || bsdf.has("k");
-    Vec3 eta = given ? textures_.color(bsdf, "eta", {0, 0, 0}, false) : metal->eta;
-    Vec3 k = given ? textures_.color(bsdf, "k", {1, 1, 1}, false) : metal->k;
+    const auto is_given = [&](const char* key) { return bsdf.has(key) || bsdf.texture(key) != nullptr; };
+    const bool given = is_given("eta") || is_given("k");
+    const Vec3 eta = given ? textures_.color(bsdf, "eta", {0, 0, 0}, false) : metal->eta;
+    const Vec3 k = given ? textures_.color(bsdf, "k", {1, 1, 1}, false) : metal->k;
     const auto outside = static_cast<float>(index_of_refraction(bsdf, "ext_eta", 1.0));
-    return conductor_material(eta / outside, k / outside, specular, roughness(bsdf));
+    material.eta = max(eta, {0, 0, 0}) / outside;
+    material.k = max(k, {0, 0, 0}) / outside;
+    bool is_possible = eta == max(eta, {0, 0, 0}) && k == max(k, {0, 0, 0});
+    for (float Vec3::*channel : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        if (material.eta.*channel + material.k.*channel == 0.0f) {  // reflects all, as index 0 + 1i does
+            material.k.*channel = 1.0f;
+            is_possible = false;
+        }
+    }
+    if (!is_possible) {
+        note(notes_, bsdf.where, "no metal has this 'eta' and 'k'; negative ones count as 0");
+    }
 }
 
-Material MaterialMaker::make_glass(const Object& bsdf, bool thin) {
-    const double eta =
-        index_of_refraction(bsdf, "int_ior", 1.5046) / index_of_refraction(bsdf, "ext_ior", 1.000277);
-    Material material = glass_material(eta, thin);
-    material.roughness = roughness(bsdf);
-    material.specular = textures_.mean_reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    material.transmission = textures_.mean_reflectance(bsdf, "specular_transmittance", {1, 1, 1});
+Material MaterialMaker::make_conductor(const Object& bsdf) {
+    Material material = plain_material(NEARLIGHT_BSDF_CONDUCTOR);
+    read_metal(bsdf, material);
+    read_microfacets(bsdf, material);
+    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
     return material;
 }
 
-// Makes metal if the BSDF is mostly metallic, glass if it mostly transmits, otherwise a base under a coat.
+Material MaterialMaker::make_glass(const Object& bsdf) {
+    const double eta = index_ratio(bsdf, 1.5046);
+    Material material =
+        bsdf.type == "thindielectric" ? thin_dielectric_material(eta) : dielectric_material(eta);
+    read_microfacets(bsdf, material);
+    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
+    material.transmission = textures_.reflectance(bsdf, "specular_transmittance", {1, 1, 1});
+    return material;
+}
+
+// The index from `eta`, or from `specular`, a scale that Disney's model has for indices from 1 to 1.8.
+double MaterialMaker::principled_index(const Object& bsdf, bool transmits) {
+    if (bsdf.texture("eta") != nullptr) {
+        return static_cast<double>(textures_.color(bsdf, "eta", {1.5f, 1.5f, 1.5f}, false).x);
+    }
+    const bool is_thin = bsdf.type == "principledthin";
+    double eta = 1.5;
+    if (bsdf.has("eta") || is_thin) {
+        eta = index_of_refraction(bsdf, "eta", 1.5);
+        bsdf.ignore({"specular"});
+    } else {
+        const double specular = static_cast<double>(textures_.number(bsdf, "specular", 0.5f).value.x);
+        eta = 2.0 / (1.0 - std::sqrt(0.08 * specular)) - 1.0;
+    }
+    return transmits && std::abs(eta - 1.0) < kMinIndexStep ? 1.0 + kMinIndexStep : eta;
+}
+
 Material MaterialMaker::make_principled(const Object& bsdf) {
-    note(notes_, bsdf.where, "'principled' is approximated by metal, glass, or a base under a coat");
-    bsdf.ignore({"anisotropic", "sheen", "sheen_tint", "flatness", "spec_tint", "clearcoat",
-                 "clearcoat_gloss", "diffuse_reflectance_sampling_rate", "main_specular_sampling_rate",
-                 "clearcoat_sampling_rate"});
-    const float rough = textures_.mean_reflectance(bsdf, "roughness", {0.5f, 0.5f, 0.5f}).x;
-    const float alpha = std::max(1e-3f, rough * rough);
-    const float metallic = textures_.mean_reflectance(bsdf, "metallic", {0, 0, 0}).x;
-    const float transmission = textures_.mean_reflectance(bsdf, "spec_trans", {0, 0, 0}).x;
-    const double specular = bsdf.number("specular", 0.5);
-    const double eta = bsdf.has("eta") ? bsdf.number("eta", 1.5)
-                                       : 2.0 / (1.0 - std::sqrt(std::clamp(0.08 * specular, 0.0, 0.9))) - 1.0;
-    if (metallic >= 0.5f) {
-        const Vec3 color = textures_.mean_reflectance(bsdf, "base_color", {0.5f, 0.5f, 0.5f});
-        const auto index = [](float reflectance) {
-            const float root = std::sqrt(std::min(reflectance, 0.98f));
-            return (1.0f + root) / (1.0f - root);
-        };
-        return conductor_material({index(color.x), index(color.y), index(color.z)}, {0, 0, 0}, {1, 1, 1},
-                                  alpha);
+    bsdf.ignore({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate",
+                 "clearcoat_sampling_rate", "specular_reflectance_sampling_rate",
+                 "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
+    const auto number = [&](const char* name) { return textures_.number(bsdf, name, 0.0f); };
+    const Parameter spec_trans = number("spec_trans");
+    const bool transmits = spec_trans.texture >= 0 || spec_trans.value.x > 0.0f;
+    Material material = principled_material(scene_, principled_index(bsdf, transmits));
+    material.reflectance = textures_.reflectance(bsdf, "base_color", {0.5f, 0.5f, 0.5f});
+    material.roughness = textures_.number(bsdf, "roughness", 0.5f);
+    material.spec_trans = spec_trans;
+    material.anisotropic = number("anisotropic");
+    material.spec_tint = number("spec_tint");
+    material.sheen = number("sheen");
+    material.sheen_tint = number("sheen_tint");
+    material.flatness = number("flatness");
+    if (material.anisotropic.texture >= 0 || material.anisotropic.value.x > 0.0f) {
+        material.flags |= NEARLIGHT_MATERIAL_TANGENT;
     }
-    if (transmission >= 0.5f) {
-        Material material = glass_material(eta, false);
-        material.roughness = alpha;
-        material.transmission = textures_.mean_reflectance(bsdf, "base_color", {0.5f, 0.5f, 0.5f});
-        return material;
+    if (bsdf.type == "principledthin") {
+        material.flags |= NEARLIGHT_MATERIAL_THIN;
+        // Mitsuba counts diffuse transmission from 0 to 2, of which half is the share of light.
+        material.transmission = textures_.number(bsdf, "diff_trans", 0.0f, {0.0f, 2.0f});
+        material.transmission.value *= 0.5f;
+    } else {
+        material.metallic = number("metallic");
+        material.clearcoat = number("clearcoat");
+        material.clearcoat_gloss = number("clearcoat_gloss");
     }
-    const auto [color, texture] = textures_.reflectance(bsdf, "base_color", {0.5f, 0.5f, 0.5f});
-    Material material = coat_material(color * (1.0f - metallic), {1, 1, 1}, eta, alpha, false);
-    material.base_texture = texture;
     return material;
 }
 

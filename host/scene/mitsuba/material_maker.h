@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "host/scene/material_model.h"
 #include "host/scene/mitsuba/texture_maker.h"
 
 namespace nearlight::core::mitsuba {
@@ -14,28 +15,41 @@ class MaterialMaker {
         : scene_(scene), notes_(notes), textures_(textures) {}
 
     /// The index into Scene::materials that all shapes of this BSDF and emission share. Null stands for
-    /// Mitsuba's default, a diffuse reflectance of 0.5.
-    uint index(const Object* bsdf, Vec3 emission);
+    /// Mitsuba's default: a diffuse reflectance of 0.5, or 0 where light is emitted.
+    uint index(const Object* bsdf, const Parameter& emission);
+    uint index(const Object* bsdf, Vec3 emission) { return index(bsdf, parameter_of(emission)); }
 
   private:
-    Material make(const Object& bsdf, int depth);
-    Material make_nested(const Object& wrapper, int depth);
-    Material make_twosided(const Object& bsdf, int depth);
-    Material make_mask(const Object& bsdf, int depth);
-    Material make_blend(const Object& bsdf, int depth);
+    /// The index of the material without emission; `depth` counts the BSDFs around this one.
+    uint make(const Object& bsdf, int depth);
+    uint make_new(const Object& bsdf, int depth);
+    uint add(const Material& material);
+    uint make_nested(const Object& wrapper, int depth);
+    uint make_twosided(const Object& bsdf, int depth);
+    uint make_mask(const Object& bsdf, int depth);
+    uint make_blend(const Object& bsdf, int depth);
+    uint make_bump(const Object& bsdf, int depth);
+    uint make_normal_map(const Object& bsdf, int depth);
     Material make_diffuse(const Object& bsdf);
     Material make_plastic(const Object& bsdf);
     Material make_conductor(const Object& bsdf);
-    Material make_glass(const Object& bsdf, bool thin);
+    Material make_glass(const Object& bsdf);
     Material make_principled(const Object& bsdf);
+    void warn_of_fixed_switches(const Object& bsdf);
+    void read_metal(const Object& bsdf, Material& material);
     double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
-    float roughness(const Object& bsdf);
+    double index_ratio(const Object& bsdf, double interior);
+    double principled_index(const Object& bsdf, bool transmits);
+    /// The roughness of a `rough…` BSDF, and flags of its microfacets.
+    void read_microfacets(const Object& bsdf, Material& material);
+    Parameter anisotropic_alpha(const Object& bsdf);
 
     Scene& scene_;
     NoteSink& notes_;
     TextureMaker& textures_;
-    std::map<const Object*, Material> made_;
-    std::map<std::pair<const Object*, std::array<float, 3>>, uint> indices_;
+    std::map<const Object*, uint> made_;
+    std::map<Coat, Material> plastics_;
+    std::map<std::pair<const Object*, std::array<float, 4>>, uint> indices_;
 };
 
 }  // namespace nearlight::core::mitsuba

@@ -3,6 +3,7 @@
 
 #include "host/scene/default_view.h"
 #include "host/scene/mitsuba/emitter_maker.h"
+#include "host/scene/mitsuba/integrator_maker.h"
 #include "host/scene/mitsuba/sensor_maker.h"
 #include "host/scene/mitsuba/shape_maker.h"
 #include "host/scene/mitsuba/xml_reader.h"
@@ -11,21 +12,11 @@ namespace nearlight::core {
 namespace mitsuba {
 namespace {
 
-// The depth for Mitsuba's −1, "no limit". Light that is left after so many bounces cannot be seen.
-constexpr int kUnlimitedDepth = 64;
-
-void apply_integrator(const Object& integrator, Scene& scene) {
-    const double depth = integrator.number("max_depth", -1.0);
-    if (depth < -1.0 || depth > 1e6) {
-        fail(integrator.find("max_depth")->where, "'max_depth' should be -1 (unlimited), 0 or greater");
-    }
-    scene.max_depth = depth < 0.0 ? kUnlimitedDepth : std::max(1, static_cast<int>(depth));
-}
-
 void apply_sensors(const Object& root, Scene& scene, NoteSink& notes) {
     const std::vector<const Object*> sensors = root.nested("sensor");
     if (sensors.empty()) {
         scene.camera = default_camera(bounds(scene));
+        scene.camera.filter = default_filter(FilterKind::gaussian);
         notes.remark(scene.source, root.where.line,
                      "the scene has no sensor; a camera that frames everything is added");
         return;
@@ -50,10 +41,10 @@ void translate(const Object& root, Scene& scene, NoteSink& notes) {
     for (const Object* emitter : root.nested("emitter")) {
         add_emitter(*emitter, scene, textures, notes);
     }
-    for (const Object* integrator : root.nested("integrator")) {
-        apply_integrator(*integrator, scene);
-    }
     apply_sensors(root, scene, notes);
+    for (const Object* integrator : root.nested("integrator")) {
+        apply_integrator(*integrator, scene, notes);
+    }
     for (const char* definitions : {"bsdf", "texture", "film", "sampler", "rfilter"}) {
         root.ignore_nested(definitions);
     }

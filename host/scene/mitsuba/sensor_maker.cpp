@@ -3,35 +3,13 @@
 
 #include <numbers>
 
+#include "host/scene/mitsuba/film_maker.h"
 #include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;
-constexpr int kMaxSide = 1 << 16;
-
-int positive_integer(const Object& object, const char* name, int fallback, int max_value) {
-    const double value = object.number(name, fallback);
-    if (!(value >= 1.0 && value <= max_value)) {
-        fail(object.find(name)->where,
-             std::string("'") + name + "' should be from 1 to " + std::to_string(max_value));
-    }
-    return static_cast<int>(value);
-}
-
-void apply_film(const Object& film, SceneCamera& camera, NoteSink& notes) {
-    if (film.type != "hdrfilm" && film.type != "ldrfilm" && film.type != "specfilm") {
-        fail_unknown_type(film, "hdrfilm, ldrfilm");
-    }
-    camera.width = positive_integer(film, "width", 768, kMaxSide);
-    camera.height = positive_integer(film, "height", 576, kMaxSide);
-    for (const char* crop : {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"}) {
-        if (film.has(crop)) {
-            note(notes, film.find(crop)->where, "the film's crop is ignored; the whole picture is rendered");
-        }
-    }
-}
 
 // Converts the focal length of a 35 mm camera (film of 36 × 24 mm) to a diagonal field of view.
 double fov_of_focal_length(const Object& sensor) {
@@ -46,16 +24,12 @@ double fov_of_focal_length(const Object& sensor) {
     return 2.0 * std::atan(std::hypot(36.0, 24.0) / (2.0 * length)) * kRadian;
 }
 
-double read_fov(const Object& sensor, const SceneCamera& camera) {
-    const double aspect = static_cast<double>(camera.width) / camera.height;
-    if (!sensor.has("fov")) {
-        return horizontal_fov(fov_of_focal_length(sensor), "diagonal", aspect, sensor.where);
+double positive_number(const Object& sensor, const char* name, double fallback) {
+    const double value = sensor.number(name, fallback);
+    if (!(value > 0.0)) {
+        fail(sensor.find(name)->where, std::string("'") + name + "' should be greater than 0");
     }
-    const double fov = sensor.number("fov", 0.0);
-    if (!(fov > 0.0 && fov < 180.0)) {
-        fail(sensor.find("fov")->where, "'fov' should be between 0 and 180");
-    }
-    return horizontal_fov(fov, sensor.string("fov_axis", "x"), aspect, sensor.where);
+    return value;
 }
 
 // Scaling the camera does not change the picture, but mirroring would.
@@ -73,7 +47,47 @@ Mat4 without_scale(Mat4 m, const Location& where) {
     return m;
 }
 
+void apply_clip(const Object& sensor, SceneCamera& camera) {
+    camera.near_clip = positive_number(sensor, "near_clip", 1e-2);
+    camera.far_clip = positive_number(sensor, "far_clip", 1e4);
+    if (camera.near_clip >= camera.far_clip) {
+        fail(sensor.where, "'near_clip' should be smaller than 'far_clip'");
+    }
+}
+
+void apply_optics(const Object& sensor, const FilmSize& film, SceneCamera& camera) {
+    if (sensor.type == "thinlens") {
+        if (!sensor.has("aperture_radius")) {
+            fail(sensor.where, "sensor 'thinlens' needs a float 'aperture_radius'");
+        }
+        camera.aperture_radius = sensor.number("aperture_radius", 0.0);
+        if (!(camera.aperture_radius >= 0.0)) {
+            fail(sensor.find("aperture_radius")->where, "'aperture_radius' should be 0 or greater");
+        }
+        camera.focus_distance = positive_number(sensor, "focus_distance", camera.far_clip);
+        return;
+    }
+    // Offsets are relative to the film's width and height, and centers to its width alone.
+    camera.center_x += sensor.number("principal_point_offset_x", 0.0);
+    camera.center_y += sensor.number("principal_point_offset_y", 0.0) * film.height / film.width;
+}
+
 }  // namespace
+
+double read_fov(const Object& owner, double aspect) {
+    if (owner.has("fov") && owner.has("focal_length")) {
+        fail(owner.find("fov")->where, "it has both 'fov' and 'focal_length'; give one of them");
+    }
+    owner.ignore({"fov_axis"});
+    if (!owner.has("fov")) {
+        return horizontal_fov(fov_of_focal_length(owner), "diagonal", aspect, owner.where);
+    }
+    const double fov = owner.number("fov", 0.0);
+    if (!(fov > 0.0 && fov < 180.0)) {
+        fail(owner.find("fov")->where, "'fov' should be between 0 and 180");
+    }
+    return horizontal_fov(fov, lower_case(owner.string("fov_axis", "x")), aspect, owner.where);
+}
 
 double horizontal_fov(double fov_degrees, const std::string& axis, double aspect, const Location& where) {
     const double half = std::tan(0.5 * fov_degrees / kRadian);
@@ -89,28 +103,32 @@ double horizontal_fov(double fov_degrees, const std::string& axis, double aspect
 }
 
 void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
-    if (sensor.type == "thinlens") {
-        note(notes, sensor.where, "'thinlens' is replaced by a pinhole camera; everything is in focus");
-        sensor.ignore({"aperture_radius", "focus_distance"});
-    } else if (sensor.type != "perspective") {
-        fail_unknown_type(sensor, "perspective, thinlens");
+    if (sensor.type != "perspective" && sensor.type != "thinlens" && sensor.type != "orthographic") {
+        fail_unknown_type(sensor, "perspective, thinlens, orthographic");
     }
-    sensor.ignore({"near_clip", "far_clip", "focus_distance", "shutter_open", "shutter_close", "fov_axis"});
-    scene.camera.width = 768;
-    scene.camera.height = 576;
-    for (const Object* film : sensor.nested("film")) {
-        apply_film(*film, scene.camera, notes);
+    SceneCamera& camera = scene.camera;
+    camera.filter = default_filter(FilterKind::gaussian);
+    FilmSize film;
+    camera.width = film.width;
+    camera.height = film.height;
+    for (const Object* object : sensor.nested("film")) {
+        film = apply_film(*object, camera, notes);
     }
     for (const Object* sampler : sensor.nested("sampler")) {
-        scene.samples_per_pixel = positive_integer(*sampler, "sample_count", 4, 1 << 24);
+        scene.samples_per_pixel = whole_number(*sampler, "sample_count", 4, 1, 1 << 24);
     }
-    scene.camera.to_world = without_scale(sensor.transform("to_world"), sensor.where);
-    scene.camera.fov_x_degrees = read_fov(sensor, scene.camera);
-    if (sensor.has("principal_point_offset_x") || sensor.has("principal_point_offset_y")) {
-        note(notes, sensor.where,
-             "the sensor's principal point is ignored; the middle of the picture is used");
-        sensor.ignore({"principal_point_offset_x", "principal_point_offset_y"});
+    const Mat4 to_world = sensor.transform("to_world");
+    const Mat4 unscaled = without_scale(to_world, sensor.where);
+    apply_clip(sensor, camera);
+    if (sensor.type == "orthographic") {
+        camera.kind = CameraKind::orthographic;
+        camera.to_world = to_world;
+    } else {
+        camera.to_world = unscaled;
+        camera.fov_x_degrees = read_fov(sensor, static_cast<double>(film.width) / film.height);
+        apply_optics(sensor, film, camera);
     }
+    sensor.ignore({"focus_distance", "shutter_open", "shutter_close", "fov_axis"});
     sensor.report_unused(notes);
 }
 

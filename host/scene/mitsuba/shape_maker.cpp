@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/shape_maker.h"
 
 #include "host/scene/file_text.h"
+#include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/ply_loader.h"
@@ -51,6 +52,20 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
+// Which of the meshes of a file the shape is.
+int shape_index(const Object& shape) {
+    const double index = shape.number("shape_index", 0.0);
+    if (!(index >= 0.0 && index < 1e9)) {
+        fail(shape.where, "'shape_index' should be 0 or greater");
+    }
+    return static_cast<int>(index);
+}
+
+// Mitsuba turns a mirrored sphere or cylinder inside out, and no other shape.
+bool turns_inside_out(const Object& shape, const Mat4& to_world) {
+    return (shape.type == "sphere" || shape.type == "cylinder") && linear_determinant(to_world) < 0.0;
+}
+
 }  // namespace
 
 void ShapeMaker::add(const Object& shape) {
@@ -59,6 +74,13 @@ void ShapeMaker::add(const Object& shape) {
     }
     if (shape.type == "instance") {
         add_instance(shape);
+        return;
+    }
+    if (shape.type == "merge") {
+        for (const Object* part : shape.nested("shape")) {
+            add(*part);
+        }
+        shape.report_unused(notes_);
         return;
     }
     add_placed(shape, load(shape), shape.transform("to_world") * local_placement(shape));
@@ -92,8 +114,8 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
     append_mesh(scene_, mesh,
                 {.to_world = to_world,
                  .materials = {&material, 1},
-                 .face_normals = shape.boolean("face_normals", false),
-                 .flip_normals = shape.boolean("flip_normals", false)},
+                 .face_normals = shape.boolean("face_normals", mesh.face_normals),
+                 .flip_normals = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world)},
                 notes_);
     if (shape.has("max_smooth_angle")) {
         note(notes_, shape.where,
@@ -105,7 +127,7 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
 
 Mesh ShapeMaker::load(const Object& shape) {
     const std::string& type = shape.type;
-    if (type == "obj" || type == "ply") {
+    if (type == "obj" || type == "ply" || type == "serialized") {
         return load_file(shape);
     }
     if (type == "rectangle") {
@@ -123,16 +145,19 @@ Mesh ShapeMaker::load(const Object& shape) {
     if (type == "cylinder") {
         return cylinder_mesh();
     }
-    fail_unknown_type(shape, "obj, ply, rectangle, cube, sphere, disk, cylinder, shapegroup, instance");
+    fail_unknown_type(
+        shape, "obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance, merge");
 }
 
-// A file's v counts from the bottom of the texture in OBJ and from the top in PLY, unless the scene says
-// otherwise.
+// A file's v counts from the bottom of the texture in OBJ and from the top in the others, unless the scene
+// says otherwise.
 Mesh ShapeMaker::load_file(const Object& shape) {
     const std::filesystem::path file = resolve_path(*shape.where.file, shape.required_string("filename"));
     const bool is_obj = shape.type == "obj";
     try {
-        Mesh mesh = is_obj ? read_obj(file, notes_).mesh : read_ply(file);
+        Mesh mesh = is_obj                       ? read_obj(file, notes_).mesh
+                    : shape.type == "serialized" ? read_serialized(file, shape_index(shape))
+                                                 : read_ply(file);
         mesh.groups.clear();
         if (!shape.boolean("flip_tex_coords", is_obj)) {
             flip_v(mesh);

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/texture_maker.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "host/scene/file_text.h"
+#include "host/scene/material_model.h"
+#include "host/scene/texture.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr Vec3 kMissing{0.5f, 0.5f, 0.5f};
+constexpr Vec3 kFlat{0.5f, 0.5f, 1.0f};  // a normal map without effect
 
 // The affine map (u, v) → (s, t) of Mitsuba's coordinates.
 struct UvMap {
@@ -41,32 +47,110 @@ void set_uv_map(Texture& texture, const UvMap& map, bool from_bottom) {
     texture.v_offset = static_cast<float>((from_bottom ? 1.0 : 0.0) + sign * (map.e + map.f));
 }
 
-}  // namespace
-
-Vec3 TextureMaker::clamp_reflectance(Vec3 color, const Location& where, const std::string& name) {
-    const Vec3 clamped = min(max(color, {0, 0, 0}), {1, 1, 1});
-    if (!(clamped == color)) {
-        note(notes_, where, "'" + name + "' lies outside 0 to 1 and is clamped");
-    }
-    return clamped;
+std::optional<uint> wrap_of(const std::string& name) {
+    return name == "repeat"   ? std::optional<uint>(NEARLIGHT_WRAP_REPEAT)
+           : name == "mirror" ? std::optional<uint>(NEARLIGHT_WRAP_MIRROR)
+           : name == "clamp"  ? std::optional<uint>(NEARLIGHT_WRAP_CLAMP)
+                              : std::nullopt;
 }
 
-TextureMaker::Reflectance TextureMaker::reflectance(const Object& owner, const std::string& name,
-                                                    Vec3 fallback) {
+uint read_wrap(const Object& texture, const std::string& name, const std::string& fallback) {
+    const std::string mode = texture.string(name, fallback);
+    const std::optional<uint> wrap = wrap_of(mode);
+    if (!wrap) {
+        fail(texture.where,
+             "wrap mode '" + mode + "' is not supported; known ones are repeat, mirror, clamp");
+    }
+    return *wrap;
+}
+
+// Mitsuba 0.5 and 0.6 know anisotropic filters, which average over the pixel as many samples do.
+uint read_filter(const Object& texture) {
+    const std::string filter = texture.string("filter_type", "bilinear");
+    if (filter != "bilinear" && filter != "nearest" && filter != "ewa" && filter != "trilinear") {
+        fail(texture.where, "filter '" + filter + "' is not supported; known ones are bilinear, nearest");
+    }
+    return filter == "nearest" ? NEARLIGHT_FILTER_NEAREST : NEARLIGHT_FILTER_BILINEAR;
+}
+
+// Mitsuba 0.5 and 0.6 give a gamma, where 0 and −1 mean that of the file.
+float read_gamma(const Object& texture) {
+    const double gamma = texture.number("gamma", 0.0);
+    return texture.boolean("raw", false) ? 1.0f : static_cast<float>(std::max(gamma, 0.0));
+}
+
+// The texture that a texture of another kind changes.
+const Object& inner_texture(const Object& texture) {
+    const std::vector<const Object*> nested = texture.nested("texture");
+    if (nested.size() != 1) {
+        fail(texture.where, "texture '" + texture.type + "' needs one nested texture");
+    }
+    return *nested.front();
+}
+
+// How many textures are looked up one after the other.
+int nesting(const Scene& scene, const Parameter& parameter) {
+    if (parameter.texture < 0) {
+        return 0;
+    }
+    const Texture& texture = scene.textures[static_cast<std::size_t>(parameter.texture)].parameters;
+    return texture.kind == NEARLIGHT_TEXTURE_CHECKERBOARD
+               ? 1 + std::max(nesting(scene, texture.color0), nesting(scene, texture.color1))
+               : 1;
+}
+
+constexpr const char* kKnownTextures = "bitmap, checkerboard, mesh_attribute, scale";
+
+}  // namespace
+
+Vec3 TextureMaker::limited(Vec3 value, Range range, const Location& where, const std::string& name) {
+    const Vec3 limited = min(max(value, Vec3{1, 1, 1} * range.min), Vec3{1, 1, 1} * range.max);
+    if (!(limited == value)) {
+        note(notes_, where,
+             "'" + name + "' lies outside " + std::to_string(static_cast<int>(range.min)) + " to " +
+                 std::to_string(static_cast<int>(range.max)) + " and is limited");
+    }
+    return limited;
+}
+
+Parameter TextureMaker::reflectance(const Object& owner, const std::string& name, Vec3 fallback) {
     if (const Object* texture = owner.texture(name)) {
-        const int index = texture_index(*texture);
-        return index < 0 ? Reflectance{kMissing, -1} : Reflectance{{1, 1, 1}, index};
+        return make(*texture, Purpose::color);
+    }
+    const std::optional<Color> color = owner.color(name);
+    return parameter_of(color ? limited(color->reflectance, {}, owner.find(name)->where, name) : fallback);
+}
+
+Parameter TextureMaker::number(const Object& owner, const std::string& name, float fallback, Range range) {
+    if (const Object* texture = owner.texture(name)) {
+        return make(*texture, Purpose::number);
     }
     const std::optional<Color> color = owner.color(name);
     if (!color) {
-        return {fallback, -1};
+        return parameter_of(fallback);
     }
-    return {clamp_reflectance(color->reflectance, owner.find(name)->where, name), -1};
+    const Vec3 c = color->reflectance;
+    const float value = c.x == c.y && c.y == c.z ? c.x : luminance(c);
+    return parameter_of(limited(Vec3{1, 1, 1} * value, range, owner.find(name)->where, name));
 }
 
-Vec3 TextureMaker::mean_reflectance(const Object& owner, const std::string& name, Vec3 fallback) {
-    const Vec3 value = color(owner, name, fallback, false);
-    return clamp_reflectance(value, owner.has(name) ? owner.find(name)->where : owner.where, name);
+Parameter TextureMaker::emission(const Object& owner, const std::string& name, Vec3 fallback) {
+    if (const Object* texture = owner.texture(name)) {
+        return make(*texture, Purpose::color);
+    }
+    return parameter_of(color(owner, name, fallback, true));
+}
+
+Parameter TextureMaker::height(const Object& texture, float scale) {
+    Parameter height = make(texture, Purpose::height);
+    height.value *= scale;
+    return height;
+}
+
+Parameter TextureMaker::normals(const Object& texture) {
+    const Parameter normals = make(texture, Purpose::normals);
+    warn_of_normals_below(normals, texture.where);
+    return normals;
 }
 
 Vec3 TextureMaker::color(const Object& owner, const std::string& name, Vec3 fallback, bool light) {
@@ -74,77 +158,134 @@ Vec3 TextureMaker::color(const Object& owner, const std::string& name, Vec3 fall
         note(
             notes_, texture->where,
             "a texture for '" + name + "' of " + owner.tag + " '" + owner.type + "' is replaced by its mean");
-        return mean(*texture);
+        return mean_value(scene_, make(*texture, Purpose::color));
     }
     const std::optional<Color> color = owner.color(name);
     return !color ? fallback : light ? color->light : color->reflectance;
 }
 
-Vec3 TextureMaker::mean(const Object& texture) {
-    const int index = texture_index(texture);
-    if (index < 0) {
-        return kMissing;
-    }
-    const SceneTexture& made = scene_.textures[static_cast<std::size_t>(index)];
-    if (made.parameters.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
-        return (made.parameters.color0 + made.parameters.color1) * 0.5f;
-    }
-    return mean_color(scene_.images[static_cast<std::size_t>(made.image)]);
-}
-
 int TextureMaker::texture_index(const Object& texture) {
-    if (const auto found = made_.find(&texture); found != made_.end()) {
-        return found->second;
+    const Parameter made = make(texture, Purpose::color);
+    if (made.texture >= 0 && !(made.value == Vec3{1, 1, 1})) {
+        fail(texture.where, "a scaled texture is not supported here");
     }
-    int& index = made_.emplace(&texture, -1).first->second;  // a texture that contains itself finds this
-    if (texture.type == "bitmap") {
-        index = make_bitmap(texture);
-    } else if (texture.type == "checkerboard") {
-        index = make_checkerboard(texture);
-    } else {
-        fail_unknown_type(texture, "bitmap, checkerboard");
-    }
-    texture.report_unused(notes_);
-    return index;
+    return made.texture;
 }
 
-int TextureMaker::make_bitmap(const Object& texture) {
+Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
+    const auto [entry, is_new] = made_.try_emplace({&texture, purpose}, parameter_of(kMissing));
+    if (is_new) {  // a texture that contains itself finds grey
+        entry->second = make_new(texture, purpose);
+        texture.report_unused(notes_);
+    }
+    return entry->second;
+}
+
+Parameter TextureMaker::make_new(const Object& texture, Purpose purpose) {
+    const std::string& type = texture.type;
+    if (type == "bitmap" || type == "ldrtexture" || type == "exrtexture") {
+        return make_bitmap(texture, purpose);
+    }
+    if (type == "checkerboard") {
+        return make_checkerboard(texture, purpose);
+    }
+    if (type == "mesh_attribute" || type == "vertexcolors") {
+        return make_vertex_colors(texture, purpose);
+    }
+    if (type == "scale") {
+        return make_scale(texture, purpose);
+    }
+    fail_unknown_type(texture, kKnownTextures);
+}
+
+Parameter TextureMaker::make_bitmap(const Object& texture, Purpose purpose) {
     texture.ignore({"max_anisotropy", "cache", "format", "accel"});
-    const std::string filter = texture.string("filter_type", "bilinear");
-    if (filter == "nearest") {
-        note(notes_, texture.where,
-             "the filter 'nearest' is not supported; the texture is filtered bilinearly");
-    }
     const std::string wrap = texture.string("wrap_mode", "repeat");
-    if (wrap != "repeat" || texture.string("wrap_mode_u", "repeat") != "repeat" ||
-        texture.string("wrap_mode_v", "repeat") != "repeat") {
-        note(notes_, texture.where, "this wrap mode is not supported; the texture repeats");
-    }
-    const double gamma = texture.number("gamma", -1.0);
-    if (gamma > 0.0 && gamma != 1.0) {
-        note(notes_, texture.where, "this gamma is not supported; the texture is read as sRGB or linear");
-    }
-    const bool linear = texture.boolean("raw", false) || gamma == 1.0;
+    SceneTexture made = plain_texture(-1);
+    made.parameters.wrap_s = read_wrap(texture, "wrap_mode_u", wrap);
+    made.parameters.wrap_t = read_wrap(texture, "wrap_mode_v", wrap);
+    made.parameters.filter = read_filter(texture);
+    set_uv_map(made.parameters, read_uv_map(texture), true);
+    TexelRule rule;
+    rule.gamma = read_gamma(texture);
+    rule.is_number = purpose == Purpose::number || purpose == Purpose::height;
+    rule.is_signed = purpose == Purpose::height || purpose == Purpose::normals;
     const std::filesystem::path file = resolve_path(*texture.where.file, texture.required_string("filename"));
-    const UvMap map = read_uv_map(texture);
-    const int image = loader_.load(file, linear, *texture.where.file, texture.where.line);
-    if (image < 0) {
-        return -1;
+    made.image = loader_.load(file, rule, *texture.where.file, texture.where.line);
+    if (made.image < 0) {
+        return parameter_of(purpose == Purpose::normals ? kFlat : kMissing);
     }
-    SceneTexture made = plain_texture(image);
-    set_uv_map(made.parameters, map, true);
-    scene_.textures.push_back(made);
-    return static_cast<int>(scene_.textures.size()) - 1;
+    return textured(add_texture(scene_, made));
 }
 
-int TextureMaker::make_checkerboard(const Object& texture) {
-    SceneTexture made;
+Parameter TextureMaker::field(const Object& checkerboard, const char* name, float fallback, Purpose purpose) {
+    if (const Object* texture = checkerboard.texture(name)) {
+        return make(*texture, purpose);
+    }
+    return purpose == Purpose::number || purpose == Purpose::height
+               ? number(checkerboard, name, fallback)
+               : reflectance(checkerboard, name, Vec3{1, 1, 1} * fallback);
+}
+
+Parameter TextureMaker::make_checkerboard(const Object& texture, Purpose purpose) {
+    SceneTexture made = plain_texture(-1);
     made.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
-    made.parameters.color0 = mean_reflectance(texture, "color0", {0.4f, 0.4f, 0.4f});
-    made.parameters.color1 = mean_reflectance(texture, "color1", {0.2f, 0.2f, 0.2f});
+    made.parameters.color0 = field(texture, "color0", 0.4f, purpose);
+    made.parameters.color1 = field(texture, "color1", 0.2f, purpose);
+    if (purpose == Purpose::number) {
+        // Mitsuba 3 exchanges the fields where it looks a number up.
+        std::swap(made.parameters.color0, made.parameters.color1);
+    }
     set_uv_map(made.parameters, read_uv_map(texture), false);
-    scene_.textures.push_back(made);
-    return static_cast<int>(scene_.textures.size()) - 1;
+    const Parameter board = textured(add_texture(scene_, made));
+    if (nesting(scene_, board) > NEARLIGHT_MAX_BSDF_NESTING) {
+        fail(texture.where, "more than " + std::to_string(NEARLIGHT_MAX_BSDF_NESTING) +
+                                " checkerboards lie within each other");
+    }
+    return board;
+}
+
+Parameter TextureMaker::make_vertex_colors(const Object& texture, Purpose purpose) {
+    const std::string name = texture.string("name", "vertex_color");
+    if (name != "vertex_color" || purpose != Purpose::color) {
+        fail(texture.where, "mesh attribute '" + name + "' is not supported " +
+                                (name == "vertex_color" ? "as a number; only" : "; only") +
+                                " 'vertex_color' as a colour is");
+    }
+    SceneTexture made = plain_texture(-1);
+    made.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
+    return textured(add_texture(scene_, made), static_cast<float>(texture.number("scale", 1.0)));
+}
+
+// Mitsuba 0.5 and 0.6 scale textures by another one.
+Parameter TextureMaker::make_scale(const Object& texture, Purpose purpose) {
+    Parameter made = make(inner_texture(texture), purpose);
+    const std::optional<Color> scale = texture.color(texture.has("value") ? "value" : "scale");
+    if (scale) {
+        made.value *= scale->reflectance;
+    }
+    return made;
+}
+
+void TextureMaker::warn_of_normals_below(const Parameter& normals, const Location& where) {
+    if (normals.texture < 0) {
+        return;
+    }
+    const SceneTexture& texture = scene_.textures[static_cast<std::size_t>(normals.texture)];
+    if (texture.image < 0) {
+        return;
+    }
+    const TextureImage& image = scene_.images[static_cast<std::size_t>(texture.image)];
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        below += texel_color(image, i).z * normals.value.z <= 0.5f ? 1 : 0;
+    }
+    if (below > 0) {
+        note(
+            notes_, where,
+            std::to_string(below) + " texels of the normal map '" + image.name + "' point below the surface");
+    }
 }
 
 }  // namespace nearlight::core::mitsuba

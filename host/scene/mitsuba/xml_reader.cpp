@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/scene/file_text.h"
+#include "host/scene/mitsuba/spectra.h"
 #include "host/scene/mitsuba/values.h"
 #include "host/scene/mitsuba/xml_file.h"
 
@@ -31,6 +32,11 @@ bool parse_boolean(const std::string& text, const Location& where) {
     fail(where, "'" + text + "' should be true or false");
 }
 
+/// Mitsuba 3 writes spectra with a type as textures, and 0.5 has an element for black bodies.
+bool is_spectrum_object(const Element& element, const std::string& tag) {
+    return (tag == "spectrum" && element.has("type")) || tag == "blackbody";
+}
+
 class Reader {
   public:
     Reader(const std::map<std::string, std::string>& parameters, NoteSink& notes)
@@ -45,6 +51,10 @@ class Reader {
         for (const auto& object : document_.objects) {
             resolve(*object);
         }
+        // Nested objects stand behind their owners.
+        for (auto object = document_.objects.rbegin(); object != document_.objects.rend(); ++object) {
+            take_spectra(**object);
+        }
         return std::move(document_);
     }
 
@@ -56,14 +66,31 @@ class Reader {
         }
         Object* object = document_.objects.emplace_back(std::make_unique<Object>()).get();
         object->tag = node.name();
+        if (is_spectrum_object(element, object->tag)) {
+            object->tag = "texture";
+        }
         object->where = element.where;
         object->id = element.text("id");
-        object->type = object->tag == "scene" ? "scene" : element.required("type");
+        if (object->tag == "texture" && element.node.name() == std::string("blackbody")) {
+            read_old_blackbody(element, *object);
+        } else {
+            object->type = object->tag == "scene" ? "scene" : element.required("type");
+        }
         read_children(file, node, *object, depth);
         if (!object->id.empty() && !by_id_.emplace(object->id, object).second) {
             fail(element.where, "id '" + object->id + "' is used twice");
         }
         return object;
+    }
+
+    /// <blackbody temperature="5000K" scale="2"/> of Mitsuba 0.5.
+    static void read_old_blackbody(const Element& element, Object& object) {
+        object.type = "blackbody";
+        object.properties.emplace("temperature", Property{element.required("temperature"), element.where});
+        if (element.has("scale")) {
+            object.properties.emplace(
+                "scale", Property{parse_number(element.text("scale"), element.where), element.where});
+        }
     }
 
     void read_children(const XmlFile& file, const pugi::xml_node& parent, Object& object, int depth) {
@@ -85,7 +112,7 @@ class Reader {
         } else if (tag == "ref") {
             parent.children.push_back(
                 {snake_case(element.text("name")), nullptr, element.required("id"), element.where});
-        } else if (is_object(tag)) {
+        } else if (is_object(tag) || is_spectrum_object(element, tag)) {
             const Object* child = read_object(file, element.node, depth + 1);
             parent.children.push_back({snake_case(element.text("name")), child, "", element.where});
         } else {
@@ -148,15 +175,14 @@ class Reader {
 
     Color read_spectrum_value(const Element& element) {
         if (element.has("filename")) {
-            return read_spectrum(resolve_path(*element.where.file, element.text("filename")), element.where,
-                                 notes_);
+            return read_spectrum(resolve_path(*element.where.file, element.text("filename")), element.where);
         }
         const std::string text = element.required("value");
         // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB.
         if (text.find(':') == std::string::npos && text.find_first_of(",#") != std::string::npos) {
             return parse_rgb(text, element.where);
         }
-        return parse_spectrum(text, element.where, notes_);
+        return parse_spectrum(text, element.where);
     }
 
     void resolve(Object& object) const {
@@ -170,6 +196,35 @@ class Reader {
             }
             child.object = found->second;
         }
+    }
+
+    void take_spectra(Object& object) const {
+        for (Child& child : object.children) {
+            take_spectrum(object, child);
+        }
+        std::erase_if(object.children, [](const Child& child) { return child.object == nullptr; });
+    }
+
+    /// Turns a nested spectrum into a property of its owner. A d65 that multiplies a texture is the texture
+    /// in RGB.
+    void take_spectrum(Object& owner, Child& child) const {
+        if (child.object->tag != "texture" || owner.tag == "scene") {
+            return;
+        }
+        if (child.object->type == "d65") {
+            if (const auto nested = child.object->nested("texture"); !nested.empty()) {
+                child.object = nested.front();
+            }
+        }
+        const std::optional<Color> color = spectrum_object_color(*child.object);
+        if (!color) {
+            return;
+        }
+        child.object->report_unused(notes_);
+        if (!owner.properties.emplace(child.name, Property{*color, child.where}).second) {
+            fail(child.where, "property '" + child.name + "' is given twice");
+        }
+        child.object = nullptr;
     }
 
     Parameters parameters_;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/environment_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace nearlight::core {
+namespace {
+
+/// Index of the first entry above u, or of the last entry if rounding leaves none above.
+uint pick_entry(std::span<const float> cdf, float u) {
+    const auto found = std::upper_bound(cdf.begin(), cdf.end(), u);
+    return static_cast<uint>(std::min(found - cdf.begin(), std::ptrdiff_t(cdf.size()) - 1));
+}
+
+double step_of(std::span<const float> cdf, uint i) {
+    return i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
+}
+
+}  // namespace
+
+Vec3 EnvironmentSampler::sample(float row, Point2 place) const {
+    const Environment& parameters = table_.parameters;
+    Pixel pixel;
+    pixel.row = pick_entry(table_.row_cdf, row);
+    const std::span columns =
+        std::span(table_.column_cdf).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
+    pixel.column = pick_entry(columns, place.x);
+    const float before = pixel.column > 0 ? columns[pixel.column - 1] : 0.0f;
+    const float share = columns[pixel.column] - before;
+    const float within = share > 0.0f ? std::clamp((place.x - before) / share, 0.0f, 1.0f) : 0.5f;
+
+    const float width = static_cast<float>(parameters.width);
+    const float height = static_cast<float>(parameters.height);
+    const float azimuth = 2.0f * kPi * (static_cast<float>(pixel.column) + within) / width;
+    const float cos_top = std::cos(kPi * static_cast<float>(pixel.row) / height);
+    const float cos_bottom = std::cos(kPi * static_cast<float>(pixel.row + 1) / height);
+    const float y = cos_top + (cos_bottom - cos_top) * place.y;
+    const float sine = std::sqrt(std::max(0.0f, 1.0f - y * y));
+    const Vec3 local{std::sin(azimuth) * sine, y, -std::cos(azimuth) * sine};
+    const float* m = parameters.world_to_local;  // a rotation, so its transpose is its inverse
+    return {m[0] * local.x + m[3] * local.y + m[6] * local.z,
+            m[1] * local.x + m[4] * local.y + m[7] * local.z,
+            m[2] * local.x + m[5] * local.y + m[8] * local.z};
+}
+
+Vec3 EnvironmentSampler::to_local(Vec3 direction) const {
+    const float* m = table_.parameters.world_to_local;
+    return {m[0] * direction.x + m[1] * direction.y + m[2] * direction.z,
+            m[3] * direction.x + m[4] * direction.y + m[5] * direction.z,
+            m[6] * direction.x + m[7] * direction.y + m[8] * direction.z};
+}
+
+EnvironmentSampler::Pixel EnvironmentSampler::pixel_towards(Vec3 direction) const {
+    const Environment& parameters = table_.parameters;
+    const Vec3 local = to_local(direction);
+    float azimuth = std::atan2(local.x, -local.z) / (2.0f * kPi);
+    azimuth -= std::floor(azimuth);
+    const float inclination = std::acos(std::clamp(local.y, -1.0f, 1.0f)) / kPi;
+    return {std::min(static_cast<uint>(azimuth * static_cast<float>(parameters.width)), parameters.width - 1),
+            std::min(static_cast<uint>(inclination * static_cast<float>(parameters.height)),
+                     parameters.height - 1)};
+}
+
+double EnvironmentSampler::pixel_density(Pixel pixel) const {
+    const Environment& parameters = table_.parameters;
+    const std::span columns =
+        std::span(table_.column_cdf).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
+    const double probability = step_of(table_.row_cdf, pixel.row) * step_of(columns, pixel.column);
+    const double pi = std::numbers::pi;
+    const double zone =
+        std::cos(pi * pixel.row / parameters.height) - std::cos(pi * (pixel.row + 1) / parameters.height);
+    return probability * parameters.width / (2.0 * pi * zone);
+}
+
+Vec3 EnvironmentSampler::pixel_radiance(Pixel pixel) const {
+    const float* rgba = &table_.pixels[4 * (pixel.row * std::size_t{table_.parameters.width} + pixel.column)];
+    return {rgba[0], rgba[1], rgba[2]};
+}
+
+// Columns have their centres at (i + 0.5)/width, and rows lie at i/(height − 1), as in Mitsuba's `envmap`.
+Vec3 EnvironmentSampler::interpolated_radiance(Vec3 direction) const {
+    const auto width = static_cast<double>(table_.parameters.width);
+    const auto height = static_cast<double>(table_.parameters.height);
+    const Vec3 local = to_local(direction);
+    const double turn = std::atan2(double{local.x}, -double{local.z}) / (2.0 * std::numbers::pi);
+    const double x = (turn - std::floor(turn)) * width - 0.5;
+    const double y = std::acos(std::clamp(double{local.y}, -1.0, 1.0)) / std::numbers::pi * (height - 1.0);
+    const double left = std::floor(x);
+    const double top = std::min(std::floor(y), std::max(height - 2.0, 0.0));
+    Vec3 sum{0, 0, 0};
+    for (const double column : {left, left + 1.0}) {
+        for (const double row : {top, std::min(top + 1.0, height - 1.0)}) {
+            const double weight_x = column == left ? 1.0 - (x - left) : x - left;
+            const double weight_y = row == top ? 1.0 - (y - top) : y - top;
+            const double wrapped = column < 0.0 ? width - 1.0 : (column >= width ? 0.0 : column);
+            sum += pixel_radiance({static_cast<uint>(wrapped), static_cast<uint>(row)}) *
+                   static_cast<float>(weight_x * weight_y);
+        }
+    }
+    return sum;
+}
+
+Vec3 EnvironmentSampler::map_radiance(Vec3 direction) const {
+    if (!exists()) {
+        return {0, 0, 0};
+    }
+    return table_.parameters.interpolated != 0 ? interpolated_radiance(direction)
+                                               : pixel_radiance(pixel_towards(direction));
+}
+
+Vec3 EnvironmentSampler::radiance(Vec3 direction) const {
+    const Vec3 map = map_radiance(direction);
+    return sun_density(direction) > 0.0 ? map + table_.parameters.sun_radiance : map;
+}
+
+double EnvironmentSampler::sun_density(Vec3 direction) const {
+    const Environment& parameters = table_.parameters;
+    const bool meets = length(direction - parameters.sun_direction) < parameters.sun_half_chord;
+    return meets ? 1.0 / (2.0 * std::numbers::pi * parameters.sun_height) : 0.0;
+}
+
+Vec3 EnvironmentSampler::sample_sun(Point2 place) const {
+    const double cosine = 1.0 - static_cast<double>(place.x) * table_.parameters.sun_height;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double azimuth = 2.0 * std::numbers::pi * place.y;
+    return normalize(
+        Frame(table_.parameters.sun_direction)
+            .to_world({static_cast<float>(sine * std::cos(azimuth)),
+                       static_cast<float>(sine * std::sin(azimuth)), static_cast<float>(cosine)}));
+}
+
+double EnvironmentSampler::density(Vec3 direction) const {
+    return exists() ? pixel_density(pixel_towards(direction)) : 0.0;
+}
+
+}  // namespace nearlight::core

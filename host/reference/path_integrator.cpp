@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/path_integrator.h"
+
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight::core {
+namespace {
+
+// Number of vertices before Russian roulette may end a path, and the maximum probability of survival after
+// that.
+constexpr int kSureVertices = 5;
+constexpr double kMaxSurvival = 0.95;
+
+}  // namespace
+
+/// A path on its way.
+struct PathIntegrator::Walk {
+    enum class Stage {
+        chain,     ///< all vertices so far scattered by S
+        receiver,  ///< the last vertex is the receiver
+        beyond
+    };
+    Stage stage = Stage::chain;
+    Ray ray;
+    Vec3d throughput{1, 1, 1};
+    double index = 1;  ///< refractive index relative to the camera's
+    int vertices = 0;
+    // How the last vertex drew the ray's direction: its normal, and the density with the chance of the part;
+    // without a density, as for the camera and delta directions, light sampling cannot have found the same.
+    Vec3 normal{0, 0, 1};
+    double density = 0;
+};
+
+struct PathIntegrator::VertexRandom {
+    double material = 0, part = 0;
+    BsdfRandom direction;
+    LightRandom light;
+    double survival = 0;
+};
+
+PathIntegrator::VertexRandom PathIntegrator::vertex_random(SampleBatch& batch, int sample, int vertex) {
+    Point2 part, lobe, direction, place;
+    if (vertex < 2) {
+        const bool first = vertex == 0;
+        part = batch.point(first ? Decision::first_part : Decision::second_part, sample);
+        lobe = batch.point(first ? Decision::first_lobe : Decision::second_lobe, sample);
+        direction = batch.point(first ? Decision::first_direction : Decision::second_direction, sample);
+        place = batch.point(first ? Decision::first_light : Decision::second_light, sample);
+    } else {
+        for (Point2* point : {&part, &lobe, &direction, &place}) {
+            point->x = batch.random().uniform();
+            point->y = batch.random().uniform();
+        }
+    }
+    return {.material = part.x,
+            .part = part.y,
+            .direction = {lobe.x, direction.x, direction.y},
+            .light = {lobe.y, place},
+            .survival = batch.random().uniform()};
+}
+
+PathIntegrator::PathIntegrator(const Scene& scene, int max_depth, float clamp_radius)
+    : scene_(scene), max_depth_(max_depth), clamp_radius_(clamp_radius), embree_(scene), lights_(scene) {}
+
+bool PathIntegrator::only_diffuse(const Walk& walk) const {
+    return clamp_radius_ > 0.0f && walk.stage == Walk::Stage::receiver;
+}
+
+Vec3 PathIntegrator::beside(const Surface& surface, Vec3 direction) const {
+    const bool stays = dot(direction, surface.geometric_normal) > 0.0f;
+    const Vec3 side = stays ? surface.geometric_normal : -surface.geometric_normal;
+    return stand_off(surface.position, side, lights_.extent());
+}
+
+// Emission that a ray meets was scattered once less than light sampled at the vertex before.
+void PathIntegrator::add_emission(const Walk& walk, const BvhHit& hit, PathLight& light) const {
+    const Vec3 emitted = hit.triangle == ~0u ? lights_.environment_radiance(walk.ray.direction)
+                                             : lights_.emitted_radiance(hit, walk.ray.direction);
+    if (is_zero(emitted)) {
+        return;
+    }
+    double weight = 1;
+    if (walk.density > 0) {
+        const double other = lights_.pdf(walk.ray.origin, walk.normal, walk.ray.direction, hit);
+        weight = walk.density / (walk.density + other);
+    }
+    Vec3d& layer = walk.stage == Walk::Stage::beyond ? light.indirect : light.direct;
+    layer += walk.throughput * as_double(emitted) * weight;
+}
+
+// One light, as the parts of the BSDF scatter it. Each part is weighted against its own density.
+Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+                                const LightPick& pick) const {
+    if (is_zero(pick.radiance) || !(pick.density > 0.0)) {
+        return {};
+    }
+    const Vec3d direction = as_double(pick.direction);
+    const BsdfValue value = bsdf.eval(direction);
+    const bool base_only = only_diffuse(walk);
+    Vec3d sum;
+    if (pick.is_delta) {
+        sum = (base_only ? value.diffuse : value.sum()) / pick.density;
+    } else {
+        const double diffuse_chance = base_only ? 1 : bsdf.diffuse_chance();
+        sum = value.diffuse / (pick.density + diffuse_chance * bsdf.diffuse_pdf(direction));
+        if (!base_only) {
+            sum += value.specular / (pick.density + bsdf.specular_chance() * bsdf.specular_pdf(direction));
+        }
+    }
+    if (is_zero(sum) || !LightSampler::is_visible(embree_, beside(surface, pick.direction), pick)) {
+        return {};
+    }
+    return walk.throughput * sum * as_double(pick.radiance);
+}
+
+void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+                                       const LightRandom& random, PathLight& light) const {
+    const Vec3 position = stand_off(surface.position, surface.geometric_normal, lights_.extent());
+    const Vec3 normal = as_float(bsdf.normal());
+    Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
+    for (const Emitter& emitter : lights_.exact_lights()) {
+        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
+    }
+    layer += scattered(walk, surface, bsdf, lights_.sample(position, normal, random));
+}
+
+/// Goes on by one part of the BSDF. Returns false where the path ends.
+bool PathIntegrator::scatter(Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+                             const VertexRandom& random) const {
+    const SurfaceDraw draw = only_diffuse(walk) ? bsdf.sample_diffuse(random.direction)
+                                                : bsdf.sample(random.part, random.direction);
+    walk.throughput *= draw.weight;
+    walk.density = draw.is_delta ? 0 : draw.pdf;
+    walk.index *= draw.eta;
+    walk.normal = as_float(bsdf.normal());
+    const Vec3 direction = normalize(as_float(draw.wi));
+    walk.ray = {beside(surface, direction), direction};
+    if (walk.stage == Walk::Stage::chain) {
+        walk.stage = draw.is_diffuse ? Walk::Stage::receiver : Walk::Stage::chain;
+    } else {
+        walk.stage = Walk::Stage::beyond;
+    }
+    ++walk.vertices;
+    double survival = 1;
+    if (walk.vertices >= kSureVertices) {
+        // Radiance is larger inside glass by the square of the index, and no less important for it.
+        survival = std::min(kMaxSurvival, max_component(walk.throughput) * walk.index * walk.index);
+        walk.throughput *= survival > 0 ? 1 / survival : 0;
+    }
+    return random.survival < survival && max_component(walk.throughput) > 0;
+}
+
+void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+                                   CameraPath& path) const {
+    path.has_receiver = true;
+    path.throughput = as_float(walk.throughput);
+    path.receiver = {stand_off(surface.position, surface.geometric_normal, lights_.extent()),
+                     as_float(bsdf.normal()), as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
+}
+
+/// The first surface that the camera sees. Where emitters are hidden, the ray goes on behind them to any
+/// distance.
+BvhHit PathIntegrator::first_hit(const Ray& ray) const {
+    BvhHit hit = embree_.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max);
+    while (scene_.camera.hide_emitters && hit.triangle != ~0u) {
+        const Surface surface = surface_at(scene_, hit, ray.direction);
+        if (!(max_component(surface.material->emission.value) > 0.0f)) {
+            break;
+        }
+        const float passed = hit.t;
+        const Vec3 behind = stand_off(surface.position, -surface.geometric_normal, lights_.extent());
+        hit = embree_.closest_hit(behind, ray.direction, 0.0f, kInfinity);
+        hit.t += passed;
+    }
+    return hit;
+}
+
+PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
+    PathLight light;
+    Walk walk;
+    walk.ray = ray;
+    bool sees_sky = !scene_.camera.hide_emitters;
+    for (;;) {
+        const BvhHit hit = walk.vertices == 0
+                               ? first_hit(walk.ray)
+                               : embree_.closest_hit(walk.ray.origin, walk.ray.direction, 0.0f, kInfinity);
+        // A pane that does not turn the path hides no less than air does, as in Mitsuba.
+        sees_sky = sees_sky || walk.ray.direction != ray.direction;
+        if (hit.triangle != ~0u || sees_sky) {
+            add_emission(walk, hit, light);
+        }
+        if (hit.triangle == ~0u) {
+            return light;
+        }
+        if (walk.vertices == 0) {
+            light.camera.depth = hit.t;
+        }
+        const VertexRandom random = vertex_random(batch, sample, walk.vertices);
+        const Surface surface = surface_at(scene_, hit, walk.ray.direction);
+        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(walk.ray.direction)), random.material);
+        if (walk.stage == Walk::Stage::chain && bsdf.has_diffuse() && random.part < bsdf.diffuse_chance()) {
+            note_receiver(walk, surface, bsdf, light.camera);
+        }
+        if (max_depth_ > 0 && walk.vertices + 1 >= max_depth_) {
+            return light;
+        }
+        if (only_diffuse(walk)) {
+            const float ratio = hit.t / clamp_radius_;
+            walk.throughput *= std::min(1.0f, ratio * ratio);
+        }
+        add_sampled_light(walk, surface, bsdf, random.light, light);
+        if (!scatter(walk, surface, bsdf, random)) {
+            return light;
+        }
+    }
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Converts the scene's camera to the struct that ray generation uses.
+#pragma once
+
+#include <optional>
+
+#include "host/scene/scene.h"
+
+namespace nearlight::core {
+
+/// The part of the plane at distance 1 (or of an orthographic film) that a picture shows, in the camera's
+/// local units: x to the right and y downwards from the axis.
+struct PictureWindow {
+    double left = 0.0;
+    double top = 0.0;
+    double pixel = 0.0;  ///< side of a pixel, which is square
+};
+
+/// The window of a picture of width × height pixels. It has the horizontal extent and the middle that
+/// `camera` says, for any aspect.
+PictureWindow picture_window(const SceneCamera& camera, int width, int height);
+
+/// The camera for a picture of width × height pixels. The horizontal field of view is that of `camera` for
+/// any aspect, and pixels are square. Throws Error(ErrorKind::invalid_argument) for a picture without pixels
+/// or a field of view that is not between 0 and 180 degrees.
+Camera make_camera(const SceneCamera& camera, int width, int height);
+
+/// The ray through the centre of a pixel, and of the lens; the direction has unit length.
+RayQuery pixel_ray(const Camera& camera, uint x, uint y);
+
+/// The point on the film, in pixels from the top left corner, where the camera sees `point` through the
+/// middle of its lens. Empty for points that are not in front of the camera.
+struct FilmPosition {
+    double x = 0.0;
+    double y = 0.0;
+    double distance = 0.0;  ///< from where the ray starts to the point, m
+};
+std::optional<FilmPosition> film_position(const SceneCamera& camera, Vec3 point);
+
+}  // namespace nearlight::core

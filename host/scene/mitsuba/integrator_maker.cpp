@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/integrator_maker.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace nearlight::core::mitsuba {
+namespace {
+
+// The depth for Mitsuba's −1, "no limit". Light that is left after so many bounces cannot be seen.
+constexpr int kUnlimitedDepth = 64;
+constexpr int kDirectDepth = 2;
+
+// Different ways to compute the same picture.
+constexpr std::array<std::string_view, 18> kPathIntegrators{
+    "path",      "volpath",    "volpath_simple", "volpathmis", "ptracer", "prb",
+    "prb_basic", "prbvolpath", "bdpt",           "mlt",        "pssmlt",  "erpt",
+    "ppm",       "sppm",       "photonmapper",   "vpl",        "vrl",     "prb_projective"};
+constexpr std::array<std::string_view, 2> kDirectIntegrators{"direct", "direct_projective"};
+// These render the picture of another integrator, which is nested in them, along with something else.
+constexpr std::array<std::string_view, 4> kWrappers{"aov", "moment", "irrcache", "adaptive"};
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& names, const Object& object) {
+    return std::ranges::find(names, object.type) != names.end();
+}
+
+int path_depth(const Object& integrator) {
+    const double depth = integrator.number("max_depth", -1.0);
+    if (!(depth == -1.0 || (depth >= 1.0 && depth <= 1e6))) {
+        fail(integrator.find("max_depth")->where,
+             "'max_depth' should be -1 (unlimited), or 1 (emission only) or greater");
+    }
+    return depth < 0.0 ? kUnlimitedDepth : static_cast<int>(depth);
+}
+
+void apply_wrapper(const Object& wrapper, Scene& scene, NoteSink& notes) {
+    const std::vector<const Object*> nested = wrapper.nested("integrator");
+    if (nested.size() != 1) {
+        fail(wrapper.where, "integrator '" + wrapper.type + "' needs one nested integrator");
+    }
+    if (wrapper.type == "aov" || wrapper.type == "moment") {
+        notes.remark(
+            *wrapper.where.file, wrapper.where.line,
+            "integrator '" + wrapper.type +
+                "' is left out; the picture is that of the integrator in it, with nearlight's layers");
+    }
+    apply_integrator(*nested.front(), scene, notes);
+}
+
+}  // namespace
+
+void apply_integrator(const Object& integrator, Scene& scene, NoteSink& notes) {
+    if (is_one_of(kWrappers, integrator)) {
+        apply_wrapper(integrator, scene, notes);
+        return;
+    }
+    const bool is_direct = is_one_of(kDirectIntegrators, integrator);
+    if (!is_direct && !is_one_of(kPathIntegrators, integrator)) {
+        fail_unknown_type(integrator,
+                          "path, direct, volpath, volpathmis, ptracer, prb, aov, and Mitsuba 0.5's "
+                          "bdpt, mlt, pssmlt, erpt, photonmapper, ppm, sppm, vpl, irrcache, adaptive");
+    }
+    scene.max_depth = is_direct ? kDirectDepth : path_depth(integrator);
+    scene.camera.hide_emitters = integrator.boolean("hide_emitters", false);
+    if (is_direct) {
+        for (const char* samples : {"emitter_samples", "bsdf_samples"}) {
+            if (integrator.has(samples) && integrator.number(samples, 1.0) == 0.0) {
+                note(notes, integrator.find(samples)->where,
+                     std::string("'") + samples + "' of 0 is ignored; no light is left out");
+            }
+        }
+    }
+}
+
+}  // namespace nearlight::core::mitsuba

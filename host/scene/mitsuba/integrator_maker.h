@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Mitsuba's integrators say about the picture: how long its paths are, and whether emitters are seen.
+#pragma once
+
+#include "host/scene/mitsuba/object.h"
+
+namespace nearlight::core::mitsuba {
+
+/// Sets the scene's maximum depth and whether emitters are hidden. Calls fail() for an integrator whose
+/// picture is not one of all light along paths of a limited length.
+void apply_integrator(const Object& integrator, Scene& scene, NoteSink& notes);
+
+}  // namespace nearlight::core::mitsuba

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj_materials.h"
+
+#include <tiny_obj_loader.h>
+
+#include <istream>
+
+#include "host/scene/file_text.h"
+#include "host/scene/material_model.h"
+#include "host/scene/obj_text.h"
+#include "host/scene/texture_loader.h"
+#include "nearlight/error.h"
+
+namespace nearlight::core {
+namespace {
+
+// A material library, with its text for line numbers.
+struct MaterialLibrary {
+    std::filesystem::path file;
+    std::string text;
+    std::map<std::string, int> names;
+    std::vector<tinyobj::material_t> materials;
+};
+
+// Some releases of tinyobjloader cut the names of materials at the first blank, so they are read from the
+// text.
+void restore_names(MaterialLibrary& library) {
+    std::vector<std::string> names;
+    for_each_line(library.text, [&](int, std::string_view line) {
+        if (starts_with_word(line, "newmtl")) {
+            const std::string name = trimmed(line.substr(line.find("newmtl") + 6));
+            if (!name.empty()) {
+                names.push_back(name);
+            }
+        }
+        return true;
+    });
+    if (names.size() != library.materials.size()) {
+        return;
+    }
+    library.names.clear();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        library.names.emplace(names[i], static_cast<int>(i));
+        library.materials[i].name = names[i];
+    }
+}
+
+std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
+    std::vector<MaterialLibrary> libraries;
+    for (const std::string& name : obj.libraries) {
+        MaterialLibrary library;
+        library.file = resolve_path(obj.mesh.source, name);
+        try {
+            library.text = read_file_text(library.file);
+        } catch (const Error&) {
+            notes.approximation(obj.mesh.source, find_line(obj.text, "mtllib", name),
+                                "material library '" + name + "' cannot be read; its materials are grey");
+            continue;
+        }
+        TextBuffer buffer(library.text);
+        std::istream stream(&buffer);
+        std::string warning;
+        std::string error;
+        tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
+        restore_names(library);
+        libraries.push_back(std::move(library));
+    }
+    return libraries;
+}
+
+Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
+    return {c[0], c[1], c[2]};
+}
+
+Vec3 clamped(Vec3 c) {
+    return min(max(c, {0, 0, 0}), {1, 1, 1});
+}
+
+bool is_glass(const tinyobj::material_t& source) {
+    return source.illum == 4 || source.illum == 6 || source.illum == 7;
+}
+
+bool is_mirror(const tinyobj::material_t& source) {
+    return source.illum == 3 || source.illum == 5;
+}
+
+// A material library's entry, and where notes of it point.
+struct MaterialSource {
+    const MaterialLibrary& library;
+    const tinyobj::material_t& entry;
+    int line;
+};
+
+class ObjMaterials {
+  public:
+    ObjMaterials(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes), textures_(scene, notes) {}
+
+    // The index of the material.
+    uint add(const MaterialSource& source) {
+        warn_of_what_is_left_out(source);
+        const Parameter emission = parameter_of(max(to_vec3(source.entry.emission), {0, 0, 0}));
+        if (is_glass(source.entry)) {
+            approximate(source, "a transparent material is rendered as a thin pane of glass");
+            Material pane = thin_dielectric_material(
+                static_cast<double>(source.entry.ior > 1.001f ? source.entry.ior : 1.5f));
+            pane.emission = emission;
+            scene_.materials.push_back(pane);
+            return static_cast<uint>(scene_.materials.size() - 1);
+        }
+        Material side = is_mirror(source.entry) ? mirror(source) : diffuse(source);
+        side.emission = emission;
+        return add_mask(source, add_two_sided(scene_, side));
+    }
+
+    uint add_grey() { return add_two_sided(scene_, diffuse_material({0.5f, 0.5f, 0.5f})); }
+
+  private:
+    void approximate(const MaterialSource& source, const std::string& what) {
+        notes_.approximation(source.library.file, source.line, what);
+    }
+
+    void warn_of_what_is_left_out(const MaterialSource& source) {
+        if (!source.entry.bump_texname.empty() || !source.entry.displacement_texname.empty() ||
+            !source.entry.normal_texname.empty()) {
+            approximate(source, "bump, displacement and normal maps of OBJ materials are left out");
+        }
+        if (source.entry.roughness > 0 || source.entry.metallic > 0 ||
+            !source.entry.roughness_texname.empty() || !source.entry.metallic_texname.empty()) {
+            approximate(source, "roughness and metalness (Pr, Pm) of OBJ materials are left out");
+        }
+    }
+
+    int load(const MaterialSource& source, const std::string& name, const char* keyword,
+             const TexelRule& rule) {
+        return textures_.load(resolve_path(source.library.file, name), rule, source.library.file,
+                              find_line(source.library.text, keyword, name));
+    }
+
+    Material mirror(const MaterialSource& source) {
+        approximate(source, "a reflecting material (illum 3 or 5) is rendered as a perfect mirror");
+        return conductor_material({0, 0, 0}, {1, 1, 1}, clamped(to_vec3(source.entry.specular)));
+    }
+
+    Material diffuse(const MaterialSource& source) {
+        const Vec3 given = to_vec3(source.entry.diffuse);
+        Material material = diffuse_material(clamped(given));
+        if (!(clamped(given) == given)) {
+            approximate(source, "a diffuse reflectance (Kd) lies outside 0 to 1 and is limited");
+        }
+        if (source.entry.diffuse_texname.empty()) {
+            return material;
+        }
+        const int image = load(source, source.entry.diffuse_texname, "map_Kd", {});
+        if (image < 0) {
+            return diffuse_material({0.5f, 0.5f, 0.5f});
+        }
+        // Many exporters leave Kd black beside a texture, which then alone gives the colour.
+        material.reflectance.texture = add_texture(scene_, plain_texture(image));
+        if (is_zero(material.reflectance.value)) {
+            material.reflectance.value = {1, 1, 1};
+        }
+        return material;
+    }
+
+    // Dissolves the material by `d` and `map_d`.
+    uint add_mask(const MaterialSource& source, uint material) {
+        const float d = source.entry.dissolve;
+        Parameter opacity = parameter_of(std::clamp(d, 0.0f, 1.0f));
+        if (!(d >= 0.0f && d <= 1.0f)) {
+            approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
+        }
+        if (!source.entry.alpha_texname.empty()) {
+            const int image =
+                load(source, source.entry.alpha_texname, "map_d", {.gamma = 1.0f, .is_number = true});
+            opacity.texture = image < 0 ? -1 : add_texture(scene_, plain_texture(image));
+        }
+        if (opacity.value.x == 1.0f && opacity.texture < 0) {
+            return material;
+        }
+        Material mask = mask_material(opacity, material);
+        mask.emission = scene_.materials[material].emission;
+        scene_.materials.push_back(mask);
+        return static_cast<uint>(scene_.materials.size() - 1);
+    }
+
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader textures_;
+};
+
+}  // namespace
+
+std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
+    const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
+    ObjMaterials materials(scene, notes);
+    std::vector<uint> indices;
+    for (const std::string& name : obj.materials) {
+        const MaterialLibrary* found = nullptr;
+        for (const MaterialLibrary& library : libraries) {
+            found = found == nullptr && library.names.contains(name) ? &library : found;
+        }
+        if (found == nullptr && !name.empty()) {
+            notes.approximation(obj.mesh.source, find_line(obj.text, "usemtl", name),
+                                "material '" + name + "' is not defined; it is grey");
+        }
+        if (found == nullptr) {
+            indices.push_back(materials.add_grey());
+            continue;
+        }
+        const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
+        indices.push_back(materials.add({*found, entry, find_line(found->text, "newmtl", entry.name)}));
+    }
+    return indices;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of OBJ and MTL files.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <streambuf>
+#include <string>
+#include <string_view>
+
+namespace nearlight::core {
+
+/// An istream over text in memory, without a copy.
+class TextBuffer : public std::streambuf {
+  public:
+    explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
+inline std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) {
+        return {};
+    }
+    return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
+}
+
+/// Calls visit(line number, line) until it returns false.
+template <typename Visit>
+void for_each_line(std::string_view text, Visit visit) {
+    int number = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++number) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        if (!visit(number, text.substr(begin, end - begin))) {
+            return;
+        }
+        begin = end + 1;
+    }
+}
+
+inline bool starts_with_word(std::string_view line, std::string_view word) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    return line.size() > word.size() && line.starts_with(word) &&
+           (line[word.size()] == ' ' || line[word.size()] == '\t');
+}
+
+/// The number of the line `word … value`; 0 if there is none.
+inline int find_line(std::string_view text, std::string_view word, std::string_view value) {
+    int found = 0;
+    for_each_line(text, [&](int number, std::string_view line) {
+        if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {
+            found = number;
+        }
+        return found == 0;
+    });
+    return found;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Transmission curves, which weigh the diffuse part of coated surfaces (Material::curve), and how much light
+// coats reflect back into the base.
+#pragma once
+
+#include <array>
+
+#include "host/scene/scene.h"
+
+namespace nearlight::core {
+
+/// Values at the cosines i / (NEARLIGHT_CURVE_SIZE − 1).
+using TransmissionCurve = std::array<float, NEARLIGHT_CURVE_SIZE>;
+
+/// Adds a row to Scene::transmission_curves unless an equal one is there; returns its number.
+uint add_curve(Scene& scene, const TransmissionCurve& curve);
+
+/// 1 − F(c) of a smooth dielectric; eta = interior ÷ exterior index.
+TransmissionCurve smooth_coat_curve(double eta);
+/// The share of light, coming in at each cosine, that microfacets let through without shadowing it, as
+/// Mitsuba's `roughplastic` weighs its base.
+TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann);
+/// 1 − ½(1 − c)⁵ [Burley 2012].
+TransmissionCurve principled_curve();
+
+/// The mean reflectance of a smooth coat from inside, by the fits that Mitsuba's `plastic` uses.
+double smooth_internal_reflectance(double eta);
+/// The same of microfacets as Mitsuba's `roughplastic` computes it: the plain mean over the curve's cosines.
+double rough_internal_reflectance(double eta, double alpha, bool beckmann);
+
+}  // namespace nearlight::core

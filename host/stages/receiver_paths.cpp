@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/receiver_paths.h"
+
+#include "host/stages/joint_programs.h"
+
+namespace nearlight::core {
+
+ReceiverPaths::ReceiverPaths(Device& device)
+    : program_(device, "receiver_paths.cl", kViewProgram), receiver_paths_(program_, "receiver_paths") {}
+
+void ReceiverPaths::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                        std::size_t packet_count, const ReceiverPathSettings& settings,
+                        Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect) {
+    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
+                                 static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
+                                 settings.max_edges, settings.clamp_radius, settings.seed, direct, indirect);
+}
+
+}  // namespace nearlight::core

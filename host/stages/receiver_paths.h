@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of receivers that VPLs do not bring: direct light, and by rays of the receivers all that a
+// bounded gather of Lambertian reflection leaves out.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "host/stages/device_scene.h"
+
+namespace nearlight::core {
+
+struct ReceiverPathSettings {
+    /// Samples that each receiver takes of area lights and the environment, at least 1. Point and spot lights
+    /// need no samples.
+    uint light_samples = 1;
+    /// Rays of each receiver. With 0, only direct light is found.
+    uint path_count = 0;
+    /// The maximum number of edges of a path from a light to a receiver that the camera sees without anything
+    /// between: 1 is direct light. A receiver behind n mirrors or panes gets n edges less.
+    uint max_edges = 1;
+    /// The clamp radius R (m) of the gather whose missing light the rays supply. Lambertian reflection at the
+    /// distance r has the weight max0(1 − r²/R²). Infinity counts all of it, 0 none.
+    float clamp_radius = 0.0f;
+    uint seed = 0;
+};
+
+class ReceiverPaths {
+  public:
+    explicit ReceiverPaths(Device& device);
+
+    /// Writes the irradiance (W/m²) of each receiver: `direct` gets what comes straight from lights, and
+    /// `indirect` what rays bring over other surfaces.
+    void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+             const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
+             Buffer<IrradiancePacket>& indirect);
+
+  private:
+    Program program_;
+    Kernel receiver_paths_;
+};
+
+}  // namespace nearlight::core

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pane of glass, both of its faces at once: it mirrors, or lets light pass straight on. Mitsuba's
+// `thindielectric`.
+#ifndef NEARLIGHT_LIB_BSDF_THIN_DIELECTRIC
+#define NEARLIGHT_LIB_BSDF_THIN_DIELECTRIC
+
+#include "lib/bsdf/bsdf_types.cl"
+#include "lib/fresnel.cl"
+
+/// Reflectance of the pane, with all reflections between its faces: r + t·r·t + t·r³·t + …
+inline float pane_reflectance(const Bsdf* bsdf, float3 wo) {
+    float cos_far;
+    const float once = fresnel_dielectric(wo.z, bsdf->eta.x, &cos_far);
+    return 2.0f * once / (1.0f + once);
+}
+
+inline BsdfSample thin_dielectric_sample(const Bsdf* bsdf, float3 wo, float u) {
+    BsdfSample sample = no_bsdf_sample();
+    const bool reflected = u < pane_reflectance(bsdf, wo);
+    sample.wi = reflected ? (float3)(-wo.xy, wo.z) : -wo;
+    sample.weight = reflected ? bsdf->specular : bsdf->transmission;
+    sample.is_delta = 1;
+    return sample;
+}
+
+inline float3 thin_dielectric_albedo(const Bsdf* bsdf, float3 wo) {
+    return mix(bsdf->transmission, bsdf->specular, pane_reflectance(bsdf, wo));
+}
+
+#endif

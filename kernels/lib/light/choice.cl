@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of lights: which are summed exactly, and how one of the others is chosen by chance.
+#ifndef NEARLIGHT_LIB_LIGHT_CHOICE
+#define NEARLIGHT_LIB_LIGHT_CHOICE
+
+#include "lib/light/tree.cl"
+
+/// Up to this many delta lights are all summed. If there are more, they are chosen by chance like the other
+/// lights.
+#define MAX_EXACT_LIGHTS 16u
+
+/// How many delta lights, the first ones of the table, are few enough to be summed all.
+inline uint exact_light_count(const SceneView* scene) {
+    const uint count = scene->info->delta_emitter_count;
+    return count <= MAX_EXACT_LIGHTS ? count : 0;
+}
+
+/// The first emitter of the table with u < cdf, or the last one if rounding leaves u above all entries.
+inline uint choose_emitter(const SceneView* scene, float u) {
+    uint low = 0;
+    uint high = scene->info->emitter_count - 1;
+    while (low < high) {
+        const uint middle = (low + high) / 2;
+        if (u < scene->emitters[middle].cdf) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+/// The part of the distribution that belongs to lights which are summed exactly.
+inline float exact_share(const SceneView* scene) {
+    const uint count = exact_light_count(scene);
+    return count == 0 ? 0.0f : scene->emitters[count - 1].cdf;
+}
+
+/// A part of the distribution.
+typedef struct CdfRange {
+    float low, high;
+} CdfRange;
+
+/// The part of the distribution that belongs to emissive triangles.
+inline CdfRange triangle_share(const SceneView* scene) {
+    const uint delta_count = scene->info->delta_emitter_count;
+    uint end = scene->info->emitter_count;
+    while (end > delta_count && scene->emitters[end - 1].type != NEARLIGHT_EMITTER_TRIANGLE) {
+        --end;  // the environment and its sun
+    }
+    CdfRange share;
+    share.low = delta_count == 0 ? 0.0f : scene->emitters[delta_count - 1].cdf;
+    share.high = end == 0 ? 0.0f : scene->emitters[end - 1].cdf;
+    return share;
+}
+
+/// Chooses among the lights that are not summed exactly, for a receiver at x with the normal n (zero: light
+/// counts from all sides); there must be a light. All triangles together have the share of their power, and
+/// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
+/// ~0u if the choice brings nothing.
+inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
+    const float low = exact_share(scene);
+    const float place = low + u * (1.0f - low);
+    if (scene->info->light_node_count > 0) {
+        const CdfRange share = triangle_share(scene);
+        if (place >= share.low && (place < share.high || share.high >= 1.0f)) {
+            const float width = share.high - share.low;
+            const float within = fmin((place - share.low) / width, 0x1.fffffep-1f);
+            const uint index = choose_in_light_tree(scene, x, n, within, probability);
+            *probability *= width / (1.0f - low);
+            return index;
+        }
+    }
+    const uint index = max(choose_emitter(scene, place), exact_light_count(scene));
+    *probability = scene->emitters[index].probability / (1.0f - low);
+    return index;
+}
+
+/// The probability with which choose_light() picks this entry of the table.
+inline float choice_probability(const SceneView* scene, uint index, float3 x, float3 n) {
+    if (index < exact_light_count(scene)) {
+        return 0.0f;
+    }
+    const float sampled_share = 1.0f - exact_share(scene);
+    if (scene->info->light_node_count > 0 && scene->emitters[index].type == NEARLIGHT_EMITTER_TRIANGLE) {
+        const CdfRange share = triangle_share(scene);
+        return light_tree_probability(scene, index, x, n) * (share.high - share.low) / sampled_share;
+    }
+    return scene->emitters[index].probability / sampled_share;
+}
+
+/// The entry of a triangle in the table, or ~0u for a triangle that does not emit. Triangles lie in the table
+/// in ascending order, between the delta lights and the environment.
+inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
+    uint low = scene->info->delta_emitter_count;
+    uint high = scene->info->emitter_count;
+    while (low < high) {
+        const uint middle = (low + high) / 2;
+        const global Emitter* emitter = scene->emitters + middle;
+        if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE && emitter->triangle < triangle) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    const bool is_found = low < scene->info->emitter_count &&
+                          scene->emitters[low].type == NEARLIGHT_EMITTER_TRIANGLE &&
+                          scene->emitters[low].triangle == triangle;
+    return is_found ? low : ~0u;
+}
+
+#endif

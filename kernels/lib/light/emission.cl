@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Particles that leave lights, for walks.
+#ifndef NEARLIGHT_LIB_LIGHT_EMISSION
+#define NEARLIGHT_LIB_LIGHT_EMISSION
+
+#include "lib/light/choice.cl"
+#include "lib/light/delta.cl"
+#include "lib/light/environment.cl"
+#include "lib/light/triangle.cl"
+
+/// A particle that leaves a light.
+typedef struct EmittedParticle {
+    float3 origin;
+    float3 direction;
+    float3 flux;      // W, divided by the density with which the particle was chosen
+    uint from_delta;  // 1: from a light that no path can hit
+} EmittedParticle;
+
+inline EmittedParticle emit_from_triangle(const SceneView* scene, const global Emitter* emitter,
+                                          float2 u_position, float2 u_direction) {
+    EmittedParticle particle;
+    float3 normal;
+    const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u_position), &normal);
+    particle.origin = offset_point(scene, point, normal);
+    particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
+    particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
+    particle.from_delta = 0;
+    return particle;
+}
+
+/// Where light that travels along −`from` enters the scene: a point on a disk of the scene's size that faces
+/// the light.
+inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
+    const float radius = scene->environment->scene_radius;
+    const float r = radius * sqrt(u.x);
+    const float phi = 2.0f * M_PI_F * u.y;
+    return load3(scene->environment->scene_center) + radius * from +
+           to_world_frame((float3)(r * cos(phi), r * sin(phi), 0.0f), from);
+}
+
+inline float entry_area(const SceneView* scene) {
+    return M_PI_F * scene->environment->scene_radius * scene->environment->scene_radius;
+}
+
+inline EmittedParticle emit_from_environment(const SceneView* scene, bool is_sun, float2 u_position,
+                                             float2 u_direction) {
+    EmittedParticle particle;
+    float pdf;
+    float3 radiance;
+    float3 from;
+    if (is_sun) {
+        from = sample_sun(scene, u_direction);
+        radiance = load3(scene->environment->sun_radiance);
+        pdf = 1.0f / (2.0f * M_PI_F * scene->environment->sun_height);
+    } else {
+        from = sample_environment(scene, u_direction, &pdf, &radiance);
+    }
+    particle.origin = entry_point(scene, from, u_position);
+    particle.direction = -from;
+    particle.flux = pdf > 0.0f ? radiance * (entry_area(scene) / pdf) : (float3)(0.0f);
+    particle.from_delta = 0;
+    return particle;
+}
+
+inline EmittedParticle emit_from_point(const SceneView* scene, const global Emitter* emitter,
+                                       float2 u_direction) {
+    const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
+    const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;
+    const float3 axis = is_spot ? load3(emitter->direction) : (float3)(0.0f, 0.0f, 1.0f);
+    EmittedParticle particle;
+    particle.origin = load3(emitter->position);
+    particle.direction = to_world_frame(square_to_cone(u_direction, cos_max), axis);
+    particle.flux = delta_intensity(scene, emitter, particle.direction) * (2.0f * M_PI_F * (1.0f - cos_max));
+    particle.from_delta = 1;
+    return particle;
+}
+
+/// A particle through a uniform point of the image plane at the distance 1, on which dω = cos³ dA.
+inline EmittedParticle emit_from_projector(const SceneView* scene, const global Emitter* emitter, float2 st) {
+    const float3 x_axis = load3(emitter->x_axis);
+    const float3 y_axis = load3(emitter->y_axis);
+    EmittedParticle particle;
+    particle.origin = load3(emitter->position);
+    particle.direction =
+        normalize(load3(emitter->direction) + x_axis * ((st.x - 0.5f) / dot(x_axis, x_axis)) +
+                  y_axis * ((st.y - 0.5f) / dot(y_axis, y_axis)));
+    particle.flux = load3(emitter->radiance) * image_color(scene, emitter, st) * emitter->area;
+    particle.from_delta = 1;
+    return particle;
+}
+
+inline EmittedParticle emit_from_direction(const SceneView* scene, const global Emitter* emitter,
+                                           float2 u_position) {
+    EmittedParticle particle;
+    particle.direction = load3(emitter->direction);
+    particle.origin = entry_point(scene, -particle.direction, u_position);
+    particle.flux = load3(emitter->radiance) * entry_area(scene);
+    particle.from_delta = 1;
+    return particle;
+}
+
+inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position,
+                                     float2 u_direction) {
+    const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
+    EmittedParticle particle;
+    if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
+        particle = emit_from_triangle(scene, emitter, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
+        particle =
+            emit_from_environment(scene, emitter->type == NEARLIGHT_EMITTER_SUN, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
+        particle = emit_from_direction(scene, emitter, u_position);
+    } else if (emitter->type == NEARLIGHT_EMITTER_PROJECTOR) {
+        particle = emit_from_projector(scene, emitter, u_direction);
+    } else {
+        particle = emit_from_point(scene, emitter, u_direction);
+    }
+    particle.flux /= emitter->probability;
+    return particle;
+}
+
+#endif

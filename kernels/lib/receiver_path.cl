@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of a receiver that VPLs do not bring: direct light, and what rays from the receiver find.
+//
+// VPLs stand for L_D(y), the light that a surface y reflects by its Lambertian part, under the bounded
+// geometry term, whose weight is min(1, r²/R²) at the distance r (R is the clamp radius). A ray from the
+// receiver brings the remainder: L_D(y) with the weight max0(1 − r²/R²) [Kollig & Keller, Illumination in the
+// Presence of Weak Singularities, 2004], all of L_S(y), which y reflects in any other way, and light that y
+// emits. From y on, the path is an ordinary one with next-event estimation at each surface and multiple
+// importance sampling by the balance heuristic [Veach & Guibas 1995].
+#ifndef NEARLIGHT_LIB_RECEIVER_PATH
+#define NEARLIGHT_LIB_RECEIVER_PATH
+
+#include "lib/bsdf/bsdf.cl"
+#include "lib/light/direct.cl"
+#include "lib/random.cl"
+
+/// A place that receives light by its Lambertian part.
+typedef struct ReceiverPoint {
+    float3 x;    // off its surface
+    float3 n;    // shading normal
+    uint curve;  // row of the transmission curve that weighs arriving light
+} ReceiverPoint;
+
+/// Irradiance (W/m²) from two kinds of paths.
+typedef struct ReceivedLight {
+    float3 direct;    // from a light straight to the receiver
+    float3 indirect;  // over at least one more surface
+} ReceivedLight;
+
+inline ReceivedLight nothing_received(void) {
+    ReceivedLight none;
+    none.direct = none.indirect = (float3)(0.0f);
+    return none;
+}
+
+/// What a light sample brings to the irradiance of a receiver before visibility, weighted for `path_ratio`
+/// cosine-distributed rays for each light sample.
+inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
+                                  float path_ratio) {
+    const float cosine = dot(at->n, light->direction);
+    if (!(cosine > 0.0f) || is_black(light->radiance)) {
+        return (float3)(0.0f);
+    }
+    const float of_rays = light->is_delta ? 0.0f : path_ratio * cosine * M_1_PI_F;
+    return light->radiance *
+           (cosine * diffuse_transmission(scene, at->curve, cosine) / (light->pdf + of_rays));
+}
+
+/// The part of the direct light that light samples bring, if each receiver sends `path_count` rays too.
+inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
+                                   uint path_count, uint seed) {
+    float3 exact = (float3)(0.0f);
+    for (uint i = 0; i < exact_light_count(scene); ++i) {
+        const LightSample light = exact_light(scene, i, at->x);
+        const float3 arriving = weighted_irradiance(scene, at, &light, 0.0f);
+        if (!is_black(arriving) && light_is_visible(scene, at->x, &light)) {
+            exact += arriving;
+        }
+    }
+    if (!has_sampled_lights(scene)) {
+        return exact;
+    }
+    const float path_ratio = (float)path_count / (float)sample_count;
+    float3 sum = (float3)(0.0f);
+    for (uint s = 0; s < sample_count; ++s) {
+        const float2 choice = sample_2d(s, 0, seed);
+        const float2 u = sample_2d(s, 1, seed);
+        const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
+                                                 : sample_light_or_cosine(scene, at->x, at->n, choice, u);
+        const float3 arriving = weighted_irradiance(scene, at, &light, path_ratio);
+        if (!is_black(arriving) && light_is_visible(scene, at->x, &light)) {
+            sum += arriving;
+        }
+    }
+    return exact + sum / (float)sample_count;
+}
+
+/// The point off a surface from which a ray in the given direction starts.
+inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+    return offset_point(scene, hit->position,
+                        dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
+}
+
+/// What one light sample sends towards the viewer of a surface, if each surface also sends `path_ratio` rays
+/// for each light sample.
+inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                               const LightSample* light, uint parts, float path_ratio) {
+    if (is_black(light->radiance)) {
+        return (float3)(0.0f);
+    }
+    float pdf;
+    const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf) * light->radiance;
+    if (is_black(value) || !light_is_visible(scene, ray_origin(scene, hit, light->direction), light)) {
+        return (float3)(0.0f);
+    }
+    const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
+    return value / (light->pdf + of_rays);
+}
+
+/// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
+/// from lights, as far as light samples bring it: rays that follow the BSDF bring the rest.
+inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                              uint parts, uint sample_count, uint seed) {
+    float3 exact = (float3)(0.0f);
+    for (uint i = 0; i < exact_light_count(scene); ++i) {
+        const LightSample light = exact_light(scene, i, hit->position);
+        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f);
+    }
+    if (!has_sampled_lights(scene)) {
+        return exact;
+    }
+    float3 sum = (float3)(0.0f);
+    for (uint s = 0; s < sample_count; ++s) {
+        const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
+                                               sample_2d(s, 1, seed));
+        sum += reflected_sample(scene, hit, surface, &light, parts, 1.0f / (float)sample_count);
+    }
+    return exact + sum / (float)sample_count;
+}
+
+/// A ray on its way, and what multiple importance sampling must know of where it began.
+typedef struct PathRay {
+    float3 origin, direction;
+    float3 throughput;
+    float3 normal;  // at the origin
+    float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
+} PathRay;
+
+/// Radiance that lights send straight along the ray, weighted against light samples of its origin.
+inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
+    const float3 radiance = hit->t < 0.0f ? environment_radiance(scene, ray->direction)
+                                          : emitted_radiance(scene, hit, ray->direction);
+    if (is_black(radiance) || !(ray->pdf > 0.0f)) {
+        return radiance;
+    }
+    const float of_lights = light_pdf(scene, ray->origin, ray->normal, ray->direction, hit);
+    return radiance * (ray->pdf / (ray->pdf + of_lights));
+}
+
+/// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
+inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
+                        const SurfaceBsdf* surface, uint parts, float u, float2 v) {
+    const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
+    ray->throughput *= sample.weight;
+    ray->direction = sample.wi;
+    ray->origin = ray_origin(scene, hit, sample.wi);
+    ray->normal = surface->frame.n;
+    ray->pdf = sample.is_delta ? 0.0f : sample.pdf;
+    return !is_black(ray->throughput);
+}
+
+/// From the third surface on, weak paths end by chance. Returns false where this one does.
+inline bool survives(PathRay* ray, uint surfaces, float first_weight, float u) {
+    if (surfaces < 3) {
+        return true;
+    }
+    const float survival = fmin(0.95f, max_component(ray->throughput) / first_weight);
+    if (!(u < survival)) {
+        return false;
+    }
+    ray->throughput /= survival;
+    return true;
+}
+
+/// Light over at least one surface, from a ray that has met `hit`. `hit` is the first of them, and its
+/// Lambertian part counts with the weight `diffuse_weight`. The whole path from the receiver to a light has
+/// at most `max_edges` edges.
+inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit, float diffuse_weight,
+                              uint max_edges, uint4 keys) {
+    const float first_weight = max_component(ray.throughput);
+    float3 light = (float3)(0.0f);
+    for (uint surfaces = 1; surfaces < max_edges; ++surfaces) {
+        const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
+        const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
+        SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, to_unit_float(more.x));
+        uint parts = BSDF_D | BSDF_S;
+        if (surfaces == 1) {
+            surface.bsdf.diffuse *= diffuse_weight;
+            parts = diffuse_weight > 0.0f ? parts : BSDF_S;
+        }
+        light += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1, random.w);
+        if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
+                         (float2)(to_unit_float(random.y), to_unit_float(random.z))) ||
+            !survives(&ray, surfaces, first_weight, to_unit_float(more.z))) {
+            break;
+        }
+        hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
+        light += ray.throughput * met_light(scene, &ray, &hit);
+        if (hit.t < 0.0f) {
+            break;
+        }
+    }
+    return light;
+}
+
+/// How far rays from receivers go, and what VPLs bring already.
+typedef struct PathLimits {
+    uint max_edges;      // of a path from the receiver to a light: 1 is direct light
+    float clamp_radius;  // R, m
+    uint light_samples;  // that each receiver takes of lights
+    uint path_count;     // rays that each receiver sends
+} PathLimits;
+
+/// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
+inline float remaining_weight(float t, float clamp_radius) {
+    const float ratio = t / clamp_radius;
+    return clamp_radius < INFINITY ? fmax(0.0f, 1.0f - ratio * ratio) : 1.0f;
+}
+
+/// A cosine-distributed ray of a receiver.
+inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, float rays_per_light_sample,
+                            float2 u) {
+    PathRay ray;
+    ray.origin = at->x;
+    ray.normal = at->n;
+    ray.direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
+    const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
+    ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine));
+    ray.pdf = rays_per_light_sample * cosine * M_1_PI_F;
+    return ray;
+}
+
+/// What one ray of a receiver brings.
+inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
+                               float2 u, uint4 keys) {
+    ReceivedLight light = nothing_received();
+    const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    // Where only near surfaces can bring light, the ray need not go farther.
+    const bool far = scene->info->has_specular || has_sampled_lights(scene);
+    const SurfaceHit hit =
+        trace_surface(scene, ray.origin, ray.direction, far ? INFINITY : limits->clamp_radius);
+    light.direct = ray.throughput * met_light(scene, &ray, &hit);
+    if (hit.t < 0.0f) {
+        return light;
+    }
+    const float weight = remaining_weight(hit.t, limits->clamp_radius);
+    if (weight > 0.0f || scene->info->has_specular) {
+        light.indirect = continued_light(scene, ray, hit, weight, limits->max_edges, keys);
+    }
+    return light;
+}
+
+/// All light of a receiver except what VPLs bring.
+inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
+                                    uint4 keys) {
+    ReceivedLight light = nothing_received();
+    if (limits->max_edges == 0 || scene->info->emitter_count == 0) {
+        return light;
+    }
+    for (uint path = 0; path < limits->path_count; ++path) {
+        const ReceivedLight found = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
+                                              random_uint4((uint4)(keys.y, keys.z, keys.w, path)));
+        light.direct += found.direct;
+        light.indirect += found.indirect;
+    }
+    const float scale = 1.0f / (float)max(limits->path_count, 1u);
+    light.direct = light.direct * scale +
+                   sampled_direct_light(scene, at, limits->light_samples, limits->path_count, keys.x);
+    light.indirect *= scale;
+    return light;
+}
+
+#endif

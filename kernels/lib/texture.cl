@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures, and parameters of materials that textures scale. host/scene/texture.h has the same arithmetic.
+#ifndef NEARLIGHT_LIB_TEXTURE
+#define NEARLIGHT_LIB_TEXTURE
+
+#include "lib/scene.cl"
+#include "lib/srgb_table.cl"
+
+/// What a parameter is at a point. A number takes from a texture the luminance of its colour, as in Mitsuba.
+typedef struct TextureValue {
+    float3 color;
+    float2 number;    // where the parameter is one number or two
+    float2 gradient;  // of the colour's luminance along u and v; 0 but for bitmaps with bilinear filter
+} TextureValue;
+
+/// The index of the texel that stands at place i of a row or column of n texels.
+inline int wrap_texel(int i, int n, uint wrap) {
+    if (wrap == NEARLIGHT_WRAP_CLAMP) {
+        return clamp(i, 0, n - 1);
+    }
+    const int period = wrap == NEARLIGHT_WRAP_MIRROR ? 2 * n : n;
+    i %= period;
+    i += i < 0 ? period : 0;
+    return i < n ? i : period - 1 - i;
+}
+
+inline float3 load_texel(const SceneView* scene, const global Texture* texture, int x, int y) {
+    const int width = (int)texture->width;
+    const int height = (int)texture->height;
+    const uint index =
+        (uint)(wrap_texel(y, height, texture->wrap_t) * width + wrap_texel(x, width, texture->wrap_s));
+    const global uint* words = scene->texels + texture->first_word;
+    if (texture->format == NEARLIGHT_TEXELS_HALF) {
+        return vload_half4(index, (const global half*)words).xyz;
+    }
+    const uint word = words[index];
+    const uint3 codes = (uint3)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u);
+    if (texture->format == NEARLIGHT_TEXELS_LINEAR8) {
+        return convert_float3(codes) / 255.0f;
+    }
+    return (float3)(kSrgbToLinear[codes.x], kSrgbToLinear[codes.y], kSrgbToLinear[codes.z]);
+}
+
+/// A coordinate near 0 where the texture looks the same, so that large coordinates lose no precision. One
+/// that is no finite number counts as 0.
+inline float reduce_coordinate(float s, uint wrap) {
+    if (!isfinite(s)) {
+        return 0.0f;
+    }
+    return wrap == NEARLIGHT_WRAP_CLAMP ? clamp(s, -1.0f, 2.0f) : s - 2.0f * floor(0.5f * s);
+}
+
+inline TextureValue look_up_bitmap(const SceneView* scene, const global Texture* texture, float s, float t) {
+    TextureValue value = {(float3)(0.0f), (float2)(0.0f), (float2)(0.0f)};
+    const bool nearest = texture->filter == NEARLIGHT_FILTER_NEAREST;
+    const float2 size = (float2)((float)texture->width, (float)texture->height);
+    const float x = reduce_coordinate(s, texture->wrap_s) * size.x - (nearest ? 0.0f : 0.5f);
+    const float y = (1.0f - reduce_coordinate(t, texture->wrap_t)) * size.y - (nearest ? 0.0f : 0.5f);
+    const int x0 = (int)floor(x);
+    const int y0 = (int)floor(y);
+    if (nearest) {
+        value.color = load_texel(scene, texture, x0, y0);
+        return value;
+    }
+    const float fx = x - (float)x0;
+    const float fy = y - (float)y0;
+    float2 step = (float2)(0.0f);  // change of luminance for a texel to the right and one down
+#pragma unroll 1
+    for (int i = 0; i < 4; ++i) {
+        const bool right = i & 1;
+        const bool down = i & 2;
+        const float wx = right ? fx : 1.0f - fx;
+        const float wy = down ? fy : 1.0f - fy;
+        const float3 texel = load_texel(scene, texture, x0 + (i & 1), y0 + (i >> 1));
+        value.color += wx * wy * texel;
+        step += luminance(texel) * (float2)(right ? wy : -wy, down ? wx : -wx);
+    }
+    step *= (float2)(size.x, -size.y);
+    value.gradient = (float2)(texture->u_scale * step.x + texture->v_shear * step.y,
+                              texture->u_shear * step.x + texture->v_scale * step.y);
+    return value;
+}
+
+inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) {
+    const Triangle triangle = scene->triangles[hit->triangle];
+    return (1.0f - hit->weights.x - hit->weights.y) * load3(scene->vertex_colors[triangle.v0]) +
+           hit->weights.x * load3(scene->vertex_colors[triangle.v1]) +
+           hit->weights.y * load3(scene->vertex_colors[triangle.v2]);
+}
+
+/// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
+/// other texture.
+inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
+    const global Texture* texture = scene->textures + index;
+    if (texture->kind != NEARLIGHT_TEXTURE_BITMAP) {
+        return (float3)(1.0f);
+    }
+    const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
+    const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
+    return look_up_bitmap(scene, texture, s, t).color;
+}
+
+/// The value of a parameter at the point.
+inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
+                            const SurfaceHit* hit) {
+    TextureValue texel = {(float3)(1.0f), (float2)(0.0f), (float2)(0.0f)};
+    float3 scale = load3(parameter->value);
+    for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
+        const global Texture* texture = scene->textures + parameter->texture;
+        const float s = texture->u_scale * hit->uv.x + texture->u_shear * hit->uv.y + texture->u_offset;
+        const float t = texture->v_shear * hit->uv.x + texture->v_scale * hit->uv.y + texture->v_offset;
+        if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
+            texel = look_up_bitmap(scene, texture, s, t);
+            break;
+        }
+        if (texture->kind == NEARLIGHT_TEXTURE_VERTEX_COLOR) {
+            texel.color = interpolated_color(scene, hit);
+            break;
+        }
+        const bool same = (s - floor(s) > 0.5f) == (t - floor(t) > 0.5f);
+        parameter = same ? &texture->color0 : &texture->color1;
+        scale *= load3(parameter->value);
+    }
+    texel.number = scale.xy * luminance(texel.color);
+    texel.gradient *= scale.x;
+    texel.color *= scale;
+    return texel;
+}
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// All light of receivers except what VPLs bring (lib/receiver_path.cl): direct light, and, if each receiver
+// sends rays, the remainder.
+//
+// One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Random numbers
+// are keyed by the receiver's position, so no split of the work changes the result. A receiver with
+// `surfaces` surfaces before it gets paths of at most max_edges − surfaces edges.
+
+#include "lib/receiver_path.cl"
+#include "lib/vpl.cl"
+
+inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
+    packet->r[lane] = light.x;
+    packet->g[lane] = light.y;
+    packet->b[lane] = light.z;
+}
+
+kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                           uint packet_count, uint light_samples, uint path_count, uint max_edges,
+                           float clamp_radius, uint seed, global IrradiancePacket* restrict direct,
+                           global IrradiancePacket* restrict indirect) {
+    const uint index = (uint)get_global_id(0);
+    const uint packet = index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    if (packet >= packet_count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const global ReceiverPacket* receiver = receivers + packet;
+    ReceiverPoint at;
+    at.x = receiver_position(receiver, lane);
+    at.n = receiver_normal(receiver, lane);
+    at.curve = receiver_curve(receiver, lane);
+    ReceivedLight light = nothing_received();
+    if (dot(at.n, at.n) > 0.0f) {
+        const uint surfaces = receiver_surfaces(receiver, lane);
+        const PathLimits limits = {max_edges > surfaces ? max_edges - surfaces : 0, clamp_radius,
+                                   light_samples, path_count};
+        light =
+            received_light(&scene, &at, &limits,
+                           random_uint4((uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed)));
+    }
+    store_light(direct + packet, lane, light.direct);
+    store_light(indirect + packet, lane, light.indirect);
+}

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Light through glass. A point light does not shine through it in a path tracer; emitters with a surface do."""
+from rows.row import table
+from scene_text import *
+
+
+def rows():
+    return table('glass', _scenes(), spp=1024)
+
+
+def _pane(material, at=(0.8, 2.0, 1.0), size=1.2, turned=None):
+    return rectangle(material, at=at, size=size, turned=turned or UP)
+
+
+def _slab(at=(0, 1, 2.2), size=(1.5, 1.5, 0.05)):
+    return shape('cube', bsdf('dielectric'), to_world=place(size, at))
+
+
+def _scenes():
+    thin, solid = bsdf('thindielectric'), bsdf('dielectric')
+    tinted = bsdf('thindielectric', specular_transmittance=rgb(0.9, 0.5, 0.2))
+    inside = perspective(to_world=INSIDE)
+    things = (rectangle(area(6), diffuse(0), at=(0, 2.9, 0), size=0.6, turned=DOWN),
+        box(diffuse(0.7, 0.4, 0.3), at=(0, 0.5, -1)))
+    shining = rectangle(area(2), diffuse(0), at=(0.6, 1.6, -2.9), size=0.5)
+    return {
+        'point-behind-pane': scene(*stage(), _pane(thin, at=(1, 1.8, 1)), point_light(at=(1.2, 2.8, 1.2)), depth=6),
+        'point-behind-slab': scene(*stage(), shape('cube', solid, to_world=place((1.2, 0.03, 1.2), (1, 1.8, 1))),
+            point_light(at=(1.2, 2.8, 1.2)), depth=6),
+        'point-beside-pane': scene(*stage(), rectangle(thin, at=(0, 0.8, 0.8), size=0.6), point_light(), depth=6),
+        'area-behind-pane': scene(*stage(), _pane(thin), lamp(), depth=6),
+        'area-behind-tinted-pane': scene(*stage(), _pane(tinted), lamp(), depth=6),
+        'area-behind-two-panes': scene(*stage(), _pane(tinted), _pane(thin, at=(0.8, 1.9, 1)), lamp(), depth=8),
+        'area-behind-slab': scene(*stage(), shape('cube', solid, to_world=place((1.2, 0.03, 1.2), (0.8, 2, 1))),
+            lamp(size=0.8), depth=8),
+        'area-behind-rough-pane': scene(*stage(), shape('cube', bsdf('roughdielectric', alpha=0.3),
+            to_world=place((1.2, 0.03, 1.2), (0.8, 2, 1))), lamp(size=0.8), depth=8),
+        'sky-behind-pane': scene(*stage(), _pane(thin, size=3), envmap(), depth=6),
+        'sky-behind-tinted-pane': scene(*stage(), _pane(tinted, size=3), envmap(), depth=6),
+        'sky-in-room-with-glass': scene(*room(diffuse(0.6), right=thin), envmap(), depth=6, camera=inside),
+        'bulb-in-glass': scene(*stage(sphere(solid, at=(0, 0.9, 0), radius=0.5), sphere(area(6), diffuse(0), at=(0, 0.9, 0),
+            radius=0.3)), depth=8),
+        'bulb-in-thin-glass': scene(*stage(sphere(thin, at=(0, 0.9, 0), radius=0.5),
+            sphere(area(6), diffuse(0), at=(0, 0.9, 0),
+            radius=0.3)), depth=8),
+        'point-in-glass': scene(*stage(sphere(solid, at=(0, 0.9, 0), radius=0.4)),
+            emitter('point', position=point(0, 0.9, 0), intensity=rgb(6)), point_light(2), depth=6),
+        'room-through-pane': scene(*room(diffuse(0.6), *things, rectangle(thin, at=(0, 1.5, 2), size=1.6)), depth=6,
+            camera=inside),
+        'room-through-slab': scene(*room(diffuse(0.6), *things, _slab(at=(0, 1.5, 2))), depth=8, camera=inside),
+        'room-through-slab-depth-3': scene(*room(diffuse(0.6), *things, shining, _slab(at=(0, 1.5, 2))), depth=3,
+            camera=inside),
+        'room-through-slab-depth-4': scene(*room(diffuse(0.6), *things, shining, _slab(at=(0, 1.5, 2))), depth=4,
+            camera=inside),
+        'glass-ball-caustic': scene(*stage(sphere(solid, at=(0, 0.8, 0), radius=0.5)), lamp(8, size=0.9), depth=8),
+        'glass-ball-in-room': scene(*room(diffuse(0.6), *things[:1], sphere(solid, at=(0, 0.7, -0.5), radius=0.6)),
+            depth=8, camera=inside),
+        'water': scene(floor(size=2), wall(), rectangle(bsdf('dielectric', int_ior='water'), at=(0, 0.4, 0), size=2.5,
+            turned=UP), box(diffuse(0.7, 0.3, 0.2), at=(0, 0.3, 0), size=0.3), lamp(8, size=0.9), depth=8),
+        'alpha-leaf-shadow': scene(*stage(),
+            _pane(bsdf('mask', bsdf('twosided', diffuse(0.2, 0.6, 0.2)), opacity=bitmap('leaf.png', raw=True)),
+            at=(0.5, 1.7, 0.8), size=0.7), point_light(), depth=5),
+        'half-mask-shadow': scene(*stage(), _pane(bsdf('mask', bsdf('twosided', diffuse(0.2, 0.6, 0.2)), opacity=0.5),
+            at=(0.5, 1.7, 0.8), size=0.7), point_light(), depth=5),
+        'alpha-leaf-in-room': scene(*room(diffuse(0.7), *things,
+            rectangle(bsdf('mask', bsdf('twosided', diffuse(0.2, 0.6, 0.2)), opacity=bitmap('leaf.png', raw=True)),
+            at=(0.6, 1.0, 0.8), size=0.5)), depth=6, camera=inside),
+        'null-shadow': scene(*stage(), _pane(bsdf('null'), at=(0.5, 1.7, 0.8), size=0.7), point_light(), depth=5),
+    }

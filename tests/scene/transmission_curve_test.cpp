@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expected values come from Mitsuba 3.9.1 (eval of `plastic` and `roughplastic` without specular reflection).
+#include "host/scene/transmission_curve.h"
+
+#include <gtest/gtest.h>
+
+#include "host/scene/material_model.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr double kPlasticEta = 1.49 / 1.000277;
+
+const float* curve_of(const Scene& scene, const Material& material) {
+    return scene.transmission_curves.data() + std::size_t{material.curve} * NEARLIGHT_CURVE_SIZE;
+}
+
+struct PlasticCase {
+    Coat coat;
+    double expected[6];  // π · D at the cosines i/63, seen head-on, with a reflectance of 0.5
+};
+
+TEST(TransmissionCurve, DiffusePartOfPlasticsIsMitsubas) {
+    const PlasticCase cases[] = {
+        {{kPlasticEta, 0, true, false}, {0.046474, 0.191328, 0.308343, 0.428746, 0.498682, 0.508507}},
+        {{kPlasticEta, 0, true, true}, {0.027005, 0.111176, 0.179172, 0.249135, 0.289774, 0.295482}},
+        {{kPlasticEta, 0.1, true, false}, {0.199837, 0.250002, 0.315944, 0.413169, 0.479574, 0.489583}},
+        {{kPlasticEta, 0.1, true, true}, {0.119268, 0.149208, 0.188563, 0.246589, 0.286221, 0.292195}},
+        {{kPlasticEta, 0.5, false, false}, {0.158551, 0.178231, 0.198137, 0.227173, 0.261188, 0.279032}},
+        {{kPlasticEta, 0.5, false, true}, {0.132234, 0.148647, 0.165249, 0.189465, 0.217835, 0.232717}},
+        {{1.9 / 1.000277, 0.02, false, false}, {0.112020, 0.187441, 0.279171, 0.379653, 0.443351, 0.454008}},
+        {{kPlasticEta, 0.7, true, false}, {0.242390, 0.253966, 0.266027, 0.283681, 0.301766, 0.312822}},
+        {{1.2 / 1.5, 0.3, true, false}, {0, 0, 0, 0.009984, 0.470103, 0.787176}},
+    };
+    const std::size_t rows[] = {1, 5, 10, 20, 40, 62};
+    for (const PlasticCase& c : cases) {
+        SCOPED_TRACE(c.coat.alpha);
+        Scene scene;
+        const Material material = plastic_material(scene, c.coat);
+        const float* curve = curve_of(scene, material);
+        const double inside = static_cast<double>(material.internal_reflectance);
+        const double color = 0.5 / (1 - inside * (c.coat.nonlinear ? 0.5 : 1.0)) / (c.coat.eta * c.coat.eta);
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double d = color * static_cast<double>(curve[rows[i]]) * static_cast<double>(curve[63]);
+            EXPECT_NEAR(d, c.expected[i], 0.002 * c.expected[i] + 1e-4) << rows[i];
+        }
+    }
+}
+
+TEST(TransmissionCurve, SmoothCoatsLetThroughWhatTheyDoNotReflect) {
+    const TransmissionCurve curve = smooth_coat_curve(1.5);
+    EXPECT_EQ(curve[0], 0.0f);
+    EXPECT_NEAR(curve[63], 0.96f, 1e-6f);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        EXPECT_NEAR(curve[i], 1.0 - dielectric_reflectance(static_cast<double>(i) / 63, 1.5), 1e-6);
+    }
+}
+
+TEST(TransmissionCurve, VeryFineMicrofacetsAreNearlySmooth) {
+    const TransmissionCurve smooth = smooth_coat_curve(1.5);
+    for (const bool beckmann : {false, true}) {
+        const TransmissionCurve fine = rough_coat_curve(1.5, 2e-3, beckmann);
+        for (std::size_t i = 4; i < smooth.size(); ++i) {
+            EXPECT_NEAR(fine[i], smooth[i], 2e-3f) << i;
+        }
+    }
+}
+
+TEST(TransmissionCurve, PrincipledHalvesGrazingLight) {
+    const TransmissionCurve curve = principled_curve();
+    EXPECT_EQ(curve[0], 0.5f);
+    EXPECT_EQ(curve[63], 1.0f);
+    Scene scene;
+    EXPECT_EQ(principled_material(scene, 1.5).curve, 1u);
+    EXPECT_EQ(principled_material(scene, 1.8).curve, 1u);  // equal rows are shared
+    EXPECT_EQ(scene.transmission_curves.size(), 2u * NEARLIGHT_CURVE_SIZE);
+}
+
+TEST(TransmissionCurve, RowZeroIsAllOnes) {
+    const Scene scene;
+    ASSERT_EQ(scene.transmission_curves.size(), std::size_t{NEARLIGHT_CURVE_SIZE});
+    for (const float value : scene.transmission_curves) {
+        EXPECT_EQ(value, 1.0f);
+    }
+}
+
+// The fits are good to 0.2 % and 0.6 % of the integral.
+TEST(TransmissionCurve, InternalReflectanceIsTheMeanFromInside) {
+    for (const double eta : {1.2, 1.33, 1.5, 1.8}) {
+        const double inside = mean_dielectric_reflectance(1.0 / eta);
+        EXPECT_NEAR(smooth_internal_reflectance(eta), inside, 0.008 * inside) << eta;
+    }
+}
+
+}  // namespace
+}  // namespace nearlight::core

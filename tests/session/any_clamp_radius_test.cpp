@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays of receivers bring back what the clamp radius takes away. So every sampler has the expectation of the
+// path tracer without a clamp radius, whatever the radius is.
+#include <gtest/gtest.h>
+
+#include "host/reference/path_tracer.h"
+#include "tests/session/convergence.h"
+#include "tests/session/rendering.h"
+#include "tests/session/variants.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+
+/// Of these radii, the first leaves almost all light to VPLs, and the second, as long as the scene is wide,
+/// leaves most of it to rays.
+constexpr std::array kRadii{0.02f, 2.0f};
+constexpr uint kRadiusSeeds = 24;
+
+/// Where three walls meet, under a lamp. Most of the light of the edges comes from nearby.
+Scene corner() {
+    Scene scene;
+    const uint white = add_material(scene, lambertian({0.8f, 0.8f, 0.8f}));
+    const uint red = add_material(scene, lambertian({0.7f, 0.2f, 0.1f}));
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = parameter_of(Vec3{5, 5, 6});
+    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);  // floor
+    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, white);   // back
+    add_quad(scene, {1, -1, -1}, {0, 0, 2}, {0, 2, 0}, red);     // on the side
+    add_quad(scene, {-0.6f, 0.9f, -0.6f}, {0.8f, 0, 0}, {0, 0, 0.8f}, add_material(scene, lamp));
+    set_camera(scene, {-0.6, 0.4, -0.9}, {1, -0.8, 1}, 60);
+    scene.camera.width = scene.camera.height = 16;
+    return scene;
+}
+
+/// A block on the corner's floor, of two sides and the top.
+void add_block(Scene& scene, Vec3 at, float size, uint material) {
+    add_quad(scene, at, {0, size, 0}, {size, 0, 0}, material);
+    add_quad(scene, at, {0, 0, size}, {0, size, 0}, material);
+    add_quad(scene, at + Vec3{0, size, 0}, {0, 0, size}, {size, 0, 0}, material);
+}
+
+Scene corner_with_metal() {
+    Scene scene = corner();
+    Material copper = conductor_material({0.2f, 0.92f, 1.1f}, {3.9f, 2.45f, 2.1f});
+    copper.roughness = parameter_of(0.3f);
+    add_block(scene, {0.2f, -1, 0.2f}, 0.5f, add_material(scene, copper));
+    return scene;
+}
+
+Scene corner_with_plastic_and_glass() {
+    Scene scene = corner();
+    Material plastic = plastic_material(scene, {.alpha = 0.2});
+    plastic.reflectance = parameter_of(Vec3{0.2f, 0.5f, 0.7f});
+    add_block(scene, {0.2f, -1, 0.2f}, 0.5f, add_material(scene, plastic));
+    const uint pane = add_material(scene, thin_dielectric_material(1.5));
+    add_quad(scene, {-0.3f, -0.9f, 0.0f}, {0, 1.2f, 0}, {0.9f, 0, -0.3f}, pane);
+    return scene;
+}
+
+class AnyClampRadius : public test::DeviceTest {
+  protected:
+    void expect_no_influence(const Scene& scene) {
+        const Image truth = trace_paths(scene, {.spp = 8192, .max_depth = 6, .seed = 31});
+        on_each_device([&](Device& device) {
+            Session session(device, scene);
+            for (const test::Variant& variant : test::all_variants()) {
+                if (variant.policy != Policy::paper) {
+                    for (const float radius : kRadii) {
+                        SCOPED_TRACE(variant.name() + ", radius " + std::to_string(radius));
+                        expect_right(session, variant, radius, truth);
+                    }
+                }
+            }
+        });
+    }
+
+  private:
+    static void expect_right(Session& session, const test::Variant& variant, float radius,
+                             const Image& truth) {
+        const RenderSettings settings{
+            .view = {.range = 2.0f, .clamp_radius = radius, .max_depth = 6},
+            .sampling = {.sampler = variant.sampler, .policy = variant.policy, .vpl_count = 1000},
+            .gather = {.samples_per_pixel = 8, .direct_samples_per_pixel = 32, .rays_per_pixel = 64}};
+        const std::vector<Image> renders = test::render_seeds(session, settings, 300, kRadiusSeeds);
+        for (const std::string layer : {"direct", "indirect"}) {
+            const test::Verdict verdict = test::judge_convergence(renders, truth, layer);
+            EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;
+            EXPECT_LT(verdict.relative_error, 0.015)
+                << layer << ": too noisy to tell anything, bias " << verdict.bias;
+        }
+    }
+};
+
+TEST_F(AnyClampRadius, InADiffuseCorner) {
+    expect_no_influence(corner());
+}
+TEST_F(AnyClampRadius, BesideMetal) {
+    expect_no_influence(corner_with_metal());
+}
+TEST_F(AnyClampRadius, BesidePlasticAndBehindGlass) {
+    expect_no_influence(corner_with_plastic_and_glass());
+}
+
+}  // namespace
+}  // namespace nearlight::core

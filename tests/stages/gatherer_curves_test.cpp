@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers that transmission curves weigh at both ends.
+#include "host/stages/gatherer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/base/math.h"
+#include "tests/stages/gatherer_variants.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/gather_scenes.h"
+#include "tests/support/uploaded_gather.h"
+
+namespace nearlight::core::test {
+namespace {
+
+constexpr uint kCurves = 3;
+
+/// Row 0 is all ones; the others differ and bend.
+std::vector<float> bent_curves() {
+    std::vector<float> curves;
+    for (uint row = 0; row < kCurves; ++row) {
+        for (int i = 0; i < NEARLIGHT_CURVE_SIZE; ++i) {
+            const float c = static_cast<float>(i) / (NEARLIGHT_CURVE_SIZE - 1);
+            curves.push_back(row == 0 ? 1.0f : (row == 1 ? 0.2f + 0.7f * c * c : 0.9f - 0.5f * std::sqrt(c)));
+        }
+    }
+    return curves;
+}
+
+double curve_at(const std::vector<float>& curves, uint row, double cosine) {
+    const double place = std::min(cosine, 1.0) * (NEARLIGHT_CURVE_SIZE - 1);
+    const int entry = std::min(static_cast<int>(place), NEARLIGHT_CURVE_SIZE - 2);
+    const float* of_entry = &curves[row * NEARLIGHT_CURVE_SIZE + static_cast<std::size_t>(entry)];
+    return std::lerp(double{of_entry[0]}, double{of_entry[1]}, place - entry);
+}
+
+/// Gives VPLs and receivers rows of curves. A whole packet has none.
+void choose_curves(GatherCase& data) {
+    for (std::size_t i = 0; i < data.vpls.size(); ++i) {
+        data.vpls[i].flags = NEARLIGHT_VPL_CLOSE | static_cast<uint>(i) % kCurves
+                                                       << NEARLIGHT_VPL_CURVE_SHIFT;
+    }
+    for (std::size_t p = 1; p < data.receivers.size(); ++p) {
+        for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            const uint surfaces_before = lane % 4;
+            data.receivers[p].surface[lane] = (lane / 5 + static_cast<uint>(p)) % kCurves |
+                                              surfaces_before << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+        }
+    }
+}
+
+/// The sum of visible pairs, with the curves of both ends.
+std::vector<IrradiancePacket> weighted_sums(const GatherCase& data, const std::vector<GatherPair>& pairs,
+                                            const std::vector<float>& curves) {
+    std::vector<IrradiancePacket> result(data.receivers.size());
+    for (std::size_t i = 0; i < data.receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        const std::size_t p = i / NEARLIGHT_PACKET_SIZE;
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        const ReceiverPoint receiver = receiver_at(data.receivers[p], lane);
+        const uint row = data.receivers[p].surface[lane] & NEARLIGHT_RECEIVER_CURVE_MASK;
+        double sum[3] = {0, 0, 0};
+        for (std::size_t v = 0; v < data.vpls.size(); ++v) {
+            const Vpl& vpl = data.vpls[v];
+            if (pairs[(p * data.vpls.size() + v) * NEARLIGHT_PACKET_SIZE + lane] != GatherPair::visible) {
+                continue;
+            }
+            const Vec3 direction = normalize(receiver.position - vpl.position);
+            const double term =
+                pair_term(vpl, receiver, data.clamp_radius).value / double{kPi} *
+                curve_at(curves, vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT, dot(vpl.normal, direction)) *
+                curve_at(curves, row, -dot(receiver.normal, direction));
+            sum[0] += term * vpl.power.x;
+            sum[1] += term * vpl.power.y;
+            sum[2] += term * vpl.power.z;
+        }
+        result[p].r[lane] = static_cast<float>(sum[0]);
+        result[p].g[lane] = static_cast<float>(sum[1]);
+        result[p].b[lane] = static_cast<float>(sum[2]);
+    }
+    return result;
+}
+
+class GathererCurvesTest : public DeviceTest {};
+
+TEST_F(GathererCurvesTest, CurvesWeighBothEnds) {
+    GatherCase data = room_of_boxes(40, 130, 6, 8);
+    choose_curves(data);
+    const std::vector<float> curves = bent_curves();
+    on_each_device([&](Device& device) {
+        const Buffer<float> rows(device, curves);
+        for (const Variant& variant : variants()) {
+            SCOPED_TRACE(variant.name);
+            Gatherer gatherer(device, variant.config);
+            Uploaded uploaded(device, data);
+            const std::vector<IrradiancePacket> plain = uploaded.gather(gatherer);
+            GatherInput<Vpl> input = uploaded.input();
+            input.curves = &rows;
+            const std::vector<GatherPair> pairs = gatherer.gather_recorded(input, uploaded.sums());
+            const std::vector<IrradiancePacket> recorded = uploaded.sums().light.download();
+            expect_close(recorded, weighted_sums(data, pairs, curves));
+            ASSERT_TRUE(gatherer.gather(input, uploaded.sums()));
+            expect_close(uploaded.sums().light.download(), recorded);
+            EXPECT_FALSE(same_bits(plain, recorded));
+        }
+    });
+}
+
+/// Rows without a curve are the plain gather, bit for bit.
+TEST_F(GathererCurvesTest, RowZeroDoesNotChangeABit) {
+    const GatherCase data = room_of_boxes(40, 130, 3, 9);
+    on_each_device([&](Device& device) {
+        const Buffer<float> rows(device, bent_curves());
+        for (const Variant& variant : variants()) {
+            SCOPED_TRACE(variant.name);
+            Gatherer gatherer(device, variant.config);
+            Uploaded uploaded(device, data);
+            const std::vector<IrradiancePacket> plain = uploaded.gather(gatherer);
+            GatherInput<Vpl> input = uploaded.input();
+            input.curves = &rows;
+            ASSERT_TRUE(gatherer.gather(input, uploaded.sums()));
+            EXPECT_TRUE(same_bits(uploaded.sums().light.download(), plain));
+        }
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core::test

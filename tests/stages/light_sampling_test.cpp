@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light sampling on the device (kernels/lib/light/): samples, their densities, and the combination with rays
+// that find lights by themselves.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "host/base/random.h"
+#include "host/reference/light_sampler.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/kernel_probe.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+using test::KernelProbe;
+using test::SceneOnDevice;
+
+class LightSamplingTest : public test::DeviceTest {};
+
+/// Takes samples at the receiver, and asks for the density of the direction of each by tracing it. `out` gets
+/// (density of the sample, density by light_pdf, radiance found ÷ radiance of the sample, 1 if visible).
+constexpr const char* kSampleProbe = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, global float4* out) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const float3 x = position.xyz;
+    const float3 n = normal.xyz;
+    const LightSample light = sample_light(&scene, x, n, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
+    const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
+    const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
+                                      : emitted_radiance(&scene, &hit, light.direction);
+    out[i] = (float4)(light.pdf, light_pdf(&scene, x, n, light.direction, &hit), found.y / light.radiance.y,
+                      is_black(light.radiance) ? 0.0f : (float)light_is_visible(&scene, x, &light));
+}
+)";
+
+/// Density by light_pdf of directions that are uniform over the sphere.
+constexpr const char* kDensityProbe = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, global float* out) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const float3 direction = square_to_cone(sample_2d(i, 0, 9), -1.0f);
+    const SurfaceHit hit = trace_surface(&scene, position.xyz, direction, INFINITY);
+    out[i] = light_pdf(&scene, position.xyz, normal.xyz, direction, &hit);
+}
+)";
+
+/// Irradiance by light samples combined with cosine-distributed rays.
+constexpr const char* kCombinedProbe = R"(
+#include "lib/receiver_path.cl"
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_samples, uint rays, uint count,
+                  global float4* out) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const float3 x = position.xyz;
+    const float3 n = normal.xyz;
+    const ReceiverPoint at = {x, n, 0};
+    float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, i);
+    for (uint ray = 0; ray < rays; ++ray) {
+        const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
+        const SurfaceHit hit = trace_surface(&scene, x, direction, INFINITY);
+        const float3 found = hit.t < 0.0f ? environment_radiance(&scene, direction)
+                                          : emitted_radiance(&scene, &hit, direction);
+        const float own = (float)rays * dot(n, direction) * M_1_PI_F;
+        const float other = (float)light_samples * light_pdf(&scene, x, n, direction, &hit);
+        sum += found * (M_PI_F / (float)rays * own / (own + other));
+    }
+    out[i] = (float4)(sum, 0.0f);
+}
+)";
+
+/// Lamps above and beside the origin, some behind others, and a sky with a bright part and a sun.
+Scene lamps_and_sky(bool with_sky) {
+    Scene scene;
+    const auto lamp = [&](Vec3 radiance) {
+        Material material = lambertian({0.5f, 0.5f, 0.5f});
+        material.emission = parameter_of(radiance);
+        return add_material(scene, material);
+    };
+    add_quad(scene, {-0.5f, -0.5f, 2}, {0, 1, 0}, {1, 0, 0}, lamp({3, 6, 9}));         // above, faces down
+    add_quad(scene, {1.5f, -1, 0.2f}, {0, 2, 0}, {0, 0, 1.5f}, lamp({1, 1, 0}));       // faces −X
+    add_triangle(scene, {-3, 0, 3}, {-2, 1, 1}, {-3, 2, 0}, lamp({8, 4, 4}));          // to the left
+    add_quad(scene, {-0.2f, -0.2f, -1}, {0, 0.4f, 0}, {0.4f, 0, 0}, lamp({9, 9, 9}));  // back side
+    if (with_sky) {
+        scene.environment = {.width = 4, .height = 2, .radiance = {}, .to_world = rotation(1, 2, 3, 50)};
+        scene.environment.radiance.assign(8, {0.1f, 0.1f, 0.2f});
+        scene.environment.radiance[1] = {5, 5, 4};
+        scene.environment.sun_direction = normalize(Vec3{1, -1, 2});
+        scene.environment.sun_half_angle = degrees_to_radians(4);
+        scene.environment.sun_radiance = {60, 50, 40};
+    }
+    return scene;
+}
+
+/// A hall of 40 × 10 × 3 m with 200 lamps below its ceiling, octahedra of 8 triangles, some much brighter
+/// than others.
+Scene hall_of_lamps() {
+    Scene scene;
+    const uint plaster = add_material(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    add_quad(scene, {-20, -5, 0}, {40, 0, 0}, {0, 10, 0}, plaster);
+    std::array<uint, 3> lamps{};
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        Material lamp = lambertian({0, 0, 0});
+        lamp.emission = parameter_of(Vec3{1, 0.9f, 0.8f} * (10.0f * static_cast<float>(1 + 2 * i)));
+        lamps[i] = add_material(scene, lamp);
+    }
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 c{-19.5f + 2.0f * static_cast<float>(i % 20), -4.5f + static_cast<float>(i / 20), 2.7f};
+        constexpr float r = 0.08f;
+        for (const float x : {-r, r}) {
+            for (const float y : {-r, r}) {
+                for (const float z : {-r, r}) {
+                    const bool swaps = x * y * z < 0;
+                    const Vec3 a = c + Vec3{x, 0, 0};
+                    const Vec3 b = c + Vec3{0, y, 0};
+                    add_triangle(scene, swaps ? b : a, swaps ? a : b, c + Vec3{0, 0, z},
+                                 lamps[static_cast<std::size_t>(i) % lamps.size()]);
+                }
+            }
+        }
+    }
+    return scene;
+}
+
+/// The same scene on the device without its tree of lights.
+void leave_out_tree(SceneOnDevice& scene) {
+    SceneInfo info = scene.buffers.host_info;
+    info.light_node_count = 0;
+    scene.buffers.info.upload(std::span(&info, 1));
+}
+
+using Float4 = std::array<float, 4>;
+constexpr Float4 kOrigin{0, 0, 0, 0};
+constexpr Float4 kUp{0, 0, 1, 0};
+
+TEST_F(LightSamplingTest, SamplesHaveTheDensityThatRaysAreTold) {
+    constexpr uint kCount = 4096;
+    on_each_device([&](Device& device) {
+        for (const bool with_sky : {false, true}) {
+            KernelProbe probe(device, kSampleProbe);
+            const SceneOnDevice lamps(probe.device(), lamps_and_sky(with_sky));
+            Buffer<Float4> out(probe.device(), kCount);
+            probe.kernel().launch(kCount, 8, lamps.buffers, kOrigin, kUp, kCount, out);
+            uint visible = 0;
+            uint different = 0;
+            for (const auto& [pdf, asked, ratio, is_visible] : out.download()) {
+                visible += is_visible > 0 ? 1 : 0;
+                different +=
+                    is_visible > 0 && (std::abs(pdf - asked) > 1e-3f * pdf || std::abs(ratio - 1) > 1e-5f)
+                        ? 1
+                        : 0;
+            }
+            EXPECT_GT(visible, kCount / 4);
+            EXPECT_LE(different, kCount / 500) << "more than samples at an edge";
+        }
+    });
+}
+
+TEST_F(LightSamplingTest, DensitiesIntegrateToTheShareOfSamplesThatAreOfUse) {
+    constexpr uint kCount = 1u << 18;
+    on_each_device([&](Device& device) {
+        for (const bool with_sky : {false, true}) {
+            KernelProbe densities(device, kDensityProbe);
+            KernelProbe samples(device, kSampleProbe);
+            const Scene scene = lamps_and_sky(with_sky);
+            Buffer<float> density(densities.device(), kCount);
+            densities.kernel().launch(kCount, 8, SceneOnDevice(densities.device(), scene).buffers, kOrigin,
+                                      kUp, kCount, density);
+            double integral = 0;
+            for (const float value : density.download()) {
+                integral += 4 * double(kPi) * value / kCount;
+            }
+            Buffer<Float4> out(samples.device(), kCount);
+            samples.kernel().launch(kCount, 8, SceneOnDevice(samples.device(), scene).buffers, kOrigin, kUp,
+                                    kCount, out);
+            double visible = 0;
+            for (const Float4& sample : out.download()) {
+                visible += sample[3] / kCount;
+            }
+            EXPECT_NEAR(integral, visible, 0.01);
+        }
+    });
+}
+
+TEST_F(LightSamplingTest, DensitiesOfTheLightTreeIntegrateToItsShareOfUse) {
+    constexpr uint kCount = 1u << 18;
+    on_each_device([&](Device& device) {
+        KernelProbe densities(device, kDensityProbe);
+        KernelProbe samples(device, kSampleProbe);
+        const SceneOnDevice hall(densities.device(), hall_of_lamps());
+        const SceneOnDevice same_hall(samples.device(), hall_of_lamps());
+        ASSERT_GT(hall.buffers.host_info.light_node_count, 0u);
+        for (const Float4& normal : {kUp, Float4{0, 0, 0, 0}, Float4{0.8f, 0, -0.6f, 0}}) {
+            const Float4 place{3.1f, 0.4f, 2.5f, 0};
+            Buffer<float> density(densities.device(), kCount);
+            densities.kernel().launch(kCount, 8, hall.buffers, place, normal, kCount, density);
+            double integral = 0;
+            double squares = 0;
+            for (const float value : density.download()) {
+                const double term = 4 * double(kPi) * value;
+                integral += term / kCount;
+                squares += term * term / kCount;
+            }
+            const double deviation = std::sqrt((squares - integral * integral) / kCount);
+            Buffer<Float4> out(samples.device(), kCount);
+            samples.kernel().launch(kCount, 8, same_hall.buffers, place, normal, kCount, out);
+            double visible = 0;
+            uint different = 0;
+            for (const auto& [pdf, asked, ratio, is_visible] : out.download()) {
+                visible += is_visible / kCount;
+                different += is_visible > 0 && std::abs(pdf - asked) > 2e-3f * pdf ? 1 : 0;
+            }
+            EXPECT_GT(visible, 0.3);
+            EXPECT_LT(deviation, 0.04);
+            EXPECT_NEAR(integral, visible, 4 * deviation);
+            EXPECT_LE(different, kCount / 500) << "more than samples at an edge";
+        }
+    });
+}
+
+/// Means and variances of one-sample estimates on the floor, with the tree and with the table of powers.
+TEST_F(LightSamplingTest, LightTreeHasTheSameMeanAndLessVariance) {
+    constexpr uint kCount = 1u << 16;
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, kCombinedProbe);
+        SceneOnDevice with_tree(probe.device(), hall_of_lamps());
+        SceneOnDevice by_power(probe.device(), hall_of_lamps());
+        leave_out_tree(by_power);
+        Buffer<Float4> out(probe.device(), kCount);
+        for (const Float4& place :
+             {Float4{0.3f, 0.2f, 0.01f, 0}, {-15, 3, 0.01f, 0}, {19, -4.8f, 0.01f, 0}}) {
+            const auto moments = [&](const SceneOnDevice& hall, const Float4& normal) {
+                probe.kernel().launch(kCount, 8, hall.buffers, place, normal, 1u, 0u, kCount, out);
+                double sum = 0;
+                double squares = 0;
+                for (const Float4& sample : out.download()) {
+                    sum += sample[1] / kCount;
+                    squares += double(sample[1]) * sample[1] / kCount;
+                }
+                return std::pair{sum, squares - sum * sum};
+            };
+            for (const Float4& normal : {kUp, Float4{0.6f, 0, 0.8f, 0}}) {
+                const auto [mean, variance] = moments(with_tree, normal);
+                const auto [power_mean, power_variance] = moments(by_power, normal);
+                EXPECT_NEAR(mean, power_mean, 5 * std::sqrt((variance + power_variance) / kCount));
+                EXPECT_LT(10 * variance, power_variance);
+            }
+        }
+    });
+}
+
+/// Any number of light samples and rays gives the same mean, that of the reference.
+TEST_F(LightSamplingTest, CombinationsWithRaysAgreeWithTheReference) {
+    constexpr uint kCount = 20'000;
+    Scene scene = lamps_and_sky(true);
+    add_point_light(scene, {0.3f, 0.2f, 1}, {0.5f, 0.5f, 0.5f});
+    const EmbreeScene embree(scene);
+    const LightSampler sampler(scene);
+    Pcg32 random(8);
+    double want = 0;
+    constexpr int kSamples = 200'000;
+    for (int s = 0; s < kSamples; ++s) {
+        const LightRandom u{random.uniform(), {random.uniform(), random.uniform()}};
+        const Point2 v{random.uniform(), random.uniform()};
+        const Vec3 direction = sample_cosine_hemisphere(v);
+        const BvhHit hit = embree.closest_hit({0, 0, 0}, direction, 0.0f, kInfinity);
+        want += (sampler.sampled_irradiance(embree, {0, 0, 0}, {0, 0, 1}, u).y +
+                 kPi * sampler.met_radiance(hit, {0, 0, 0}, direction, {0, 0, 1}).y) /
+                kSamples;
+    }
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, kCombinedProbe);
+        const SceneOnDevice lamps(probe.device(), scene);
+        Buffer<Float4> out(probe.device(), kCount);
+        for (const auto& [light_samples, rays] : {std::pair{1u, 1u}, {3u, 1u}, {1u, 4u}}) {
+            probe.kernel().launch(kCount, 8, lamps.buffers, kOrigin, kUp, light_samples, rays, kCount, out);
+            double have = 0;
+            for (const Float4& sum : out.download()) {
+                have += sum[1] / kCount;
+            }
+            EXPECT_NEAR(have, want, 0.01 * want) << light_samples << " samples, " << rays << " rays";
+        }
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core

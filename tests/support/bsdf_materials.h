@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials of every model, for tests of BSDFs.
+#pragma once
+
+#include <map>
+
+#include "tests/support/bsdf_probe.h"
+
+namespace nearlight::core::test {
+
+inline constexpr Vec3 kBase{0.8f, 0.4f, 0.2f};
+
+/// T = 1 − Schlick's weight / 2 as row 1 and the transmittance of a smooth boundary of index 1.5 as row 2.
+inline std::vector<float> make_curves() {
+    std::vector<float> curves(3 * NEARLIGHT_CURVE_SIZE, 1.0f);
+    for (int i = 0; i < NEARLIGHT_CURVE_SIZE; ++i) {
+        const double c = i / (NEARLIGHT_CURVE_SIZE - 1.0);
+        const double far = std::sqrt(1 - (1 - c * c) / (1.5 * 1.5));
+        const double p = (1.5 * c - far) / (1.5 * c + far);
+        const double s = (c - 1.5 * far) / (c + 1.5 * far);
+        curves[NEARLIGHT_CURVE_SIZE + i] = static_cast<float>(1 - 0.5 * std::pow(1 - c, 5));
+        curves[2 * NEARLIGHT_CURVE_SIZE + i] = static_cast<float>(1 - 0.5 * (p * p + s * s));
+    }
+    return curves;
+}
+
+inline Material make_metal(float alpha_x, float alpha_y, uint flags, Vec3 eta, Vec3 k) {
+    Material material = make_material(NEARLIGHT_BSDF_CONDUCTOR);
+    material.roughness = constant(Vec3{alpha_x, alpha_y, 0});
+    material.eta = eta;
+    material.k = k;
+    material.flags = flags;
+    return material;
+}
+
+inline Material make_glass(float alpha_x, float alpha_y, uint flags) {
+    Material material = make_material(NEARLIGHT_BSDF_DIELECTRIC);
+    material.roughness = constant(Vec3{alpha_x, alpha_y, 0});
+    material.flags = flags;
+    return material;
+}
+
+inline Material make_plastic(float alpha, uint flags) {
+    Material material = make_material(NEARLIGHT_BSDF_PLASTIC);
+    material.roughness = constant(alpha);
+    material.reflectance = constant(kBase);
+    material.internal_reflectance = 0.596811f;
+    material.curve = 2;
+    material.flags = flags;
+    return material;
+}
+
+inline Material make_principled(uint flags) {
+    Material material = make_material(NEARLIGHT_BSDF_PRINCIPLED);
+    material.flags = flags;
+    material.curve = 1;
+    material.reflectance = constant(kBase);
+    material.roughness = constant(0.6f);
+    material.sheen = constant(0.8f);
+    material.sheen_tint = constant(0.5f);
+    material.flatness = constant(0.5f);
+    material.spec_tint = constant(0.6f);
+    material.anisotropic = constant(0.3f);
+    if (flags & NEARLIGHT_MATERIAL_THIN) {
+        material.spec_trans = constant(0.4f);
+        material.transmission = constant(0.4f);
+    } else {
+        material.metallic = constant(0.4f);
+        material.spec_trans = constant(0.3f);
+        material.clearcoat = constant(0.9f);
+        material.clearcoat_gloss = constant(0.3f);
+    }
+    return material;
+}
+
+inline std::map<std::string, Material> make_materials() {
+    constexpr uint kBeckmann = NEARLIGHT_MATERIAL_BECKMANN;
+    const Vec3 eta{0.2f, 0.92f, 1.1f};
+    const Vec3 k{3.9f, 2.45f, 2.1f};
+    std::map<std::string, Material> materials;
+    Material diffuse = make_material(NEARLIGHT_BSDF_DIFFUSE);
+    diffuse.reflectance = constant(kBase);
+    materials["diffuse"] = diffuse;
+    materials["conductor_ggx"] = make_metal(0.15f, 0.4f, 0, eta, k);
+    materials["conductor_ggx"].specular = constant(Vec3{0.9f, 0.8f, 0.7f});
+    materials["conductor_beckmann"] = make_metal(0.15f, 0.4f, kBeckmann, eta, k);
+    materials["dielectric_ggx"] = make_glass(0.2f, 0.35f, 0);
+    materials["dielectric_ggx"].transmission = constant(kBase);
+    materials["dielectric_beckmann"] = make_glass(0.2f, 0.35f, kBeckmann);
+    materials["plastic"] = make_plastic(0, 0);
+    materials["plastic_nonlinear"] = make_plastic(0, NEARLIGHT_MATERIAL_NONLINEAR);
+    materials["rough_plastic"] = make_plastic(0.3f, 0);
+    materials["principled"] = make_principled(0);
+    materials["principled_thin"] = make_principled(NEARLIGHT_MATERIAL_THIN);
+    for (const float alpha : {0.1f, 0.3f, 1.0f}) {
+        for (const uint flags : {0u, kBeckmann}) {
+            const std::string name = (flags ? "beckmann " : "ggx ") + std::to_string(alpha);
+            materials["white metal " + name] = make_metal(alpha, alpha, flags, {0, 0, 0}, {1, 1, 1});
+            materials["white glass " + name] = make_glass(alpha, alpha, flags);
+        }
+    }
+    materials["white mirror"] = make_metal(0, 0, 0, {0, 0, 0}, {1, 1, 1});
+    materials["white smooth glass"] = make_glass(0, 0, 0);
+    materials["white pane"] = make_material(NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    materials["white null"] = make_material(NEARLIGHT_BSDF_NULL);
+    materials["white plastic"] = make_plastic(0, 0);
+    materials["white plastic"].reflectance = constant(1.0f);
+    return materials;
+}
+
+inline BsdfScene scene_of(const Material& material) {
+    BsdfScene scene;
+    scene.materials = {material};
+    scene.curves = make_curves();
+    return scene;
+}
+
+}  // namespace nearlight::core::test
