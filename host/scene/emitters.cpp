@@ -97,9 +97,14 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
 /// All lights, even those without power, with probabilities that are not yet filled in.
 std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
+    // A texture counts by its mean, which only steers the choice of lights.
+    std::vector<Vec3> mean_emission;
+    for (const Material& material : scene.materials) {
+        mean_emission.push_back(mean_value(scene, material.emission));
+    }
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& triangle = scene.triangles[i];
-        const Vec3 emission = scene.materials[triangle.material].emission.value;
+        const Vec3 emission = mean_emission[triangle.material];
         if (is_zero(emission)) {
             continue;
         }

@@ -169,10 +169,10 @@ Mesh ShapeMaker::load_file(const Object& shape) {
     }
 }
 
-Vec3 ShapeMaker::emission(const Object& shape) {
+Parameter ShapeMaker::emission(const Object& shape) {
     const std::vector<const Object*> emitters = shape.nested("emitter");
     if (emitters.empty()) {
-        return {0, 0, 0};
+        return parameter_of(0.0f);
     }
     const Object& emitter = *emitters.front();
     if (emitter.type != "area") {
@@ -182,8 +182,8 @@ Vec3 ShapeMaker::emission(const Object& shape) {
         fail(emitter.where, "an area light needs 'radiance'");
     }
     emitter.ignore({"sampling_weight"});
-    const Vec3 radiance = textures_.color(emitter, "radiance", {1, 1, 1}, true);
-    if (radiance.x < 0.0f || radiance.y < 0.0f || radiance.z < 0.0f) {
+    const Parameter radiance = textures_.emission(emitter, "radiance", {1, 1, 1});
+    if (radiance.value.x < 0.0f || radiance.value.y < 0.0f || radiance.value.z < 0.0f) {
         fail(emitter.where, "'radiance' should not be negative");
     }
     emitter.report_unused(notes_);

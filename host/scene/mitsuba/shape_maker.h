@@ -23,7 +23,7 @@ class ShapeMaker {
     void add_instance(const Object& instance);
     Mesh load(const Object& shape);
     Mesh load_file(const Object& shape);
-    Vec3 emission(const Object& shape);
+    Parameter emission(const Object& shape);
 
     Scene& scene_;
     NoteSink& notes_;

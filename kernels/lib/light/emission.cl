@@ -20,10 +20,11 @@ inline EmittedParticle emit_from_triangle(const SceneView* scene, const global E
                                           float2 u_position, float2 u_direction) {
     EmittedParticle particle;
     float3 normal;
-    const float3 point = triangle_point(scene, emitter->triangle, square_to_triangle(u_position), &normal);
+    const float2 place = square_to_triangle(u_position);
+    const float3 point = triangle_point(scene, emitter->triangle, place, &normal);
     particle.origin = offset_point(scene, point, normal);
     particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
-    particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
+    particle.flux = triangle_radiance(scene, emitter->triangle, place) * (M_PI_F * emitter->area);
     particle.from_delta = 0;
     return particle;
 }

@@ -52,7 +52,8 @@ inline LightSample sample_area_light(const SceneView* scene, const global Emitte
     LightSample sample;
     sample.target = offset_point(scene, point, normal);
     sample.direction = on_light.direction;
-    sample.radiance = on_light.pdf > 0.0f ? load3(emitter->radiance) : (float3)(0.0f);
+    sample.radiance = on_light.pdf > 0.0f ? triangle_radiance(scene, emitter->triangle, on_light.barycentrics)
+                                          : (float3)(0.0f);
     sample.pdf = on_light.pdf;
     sample.infinite = 0;
     sample.is_delta = 0;

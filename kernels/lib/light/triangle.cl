@@ -5,7 +5,7 @@
 
 #include "lib/light/spherical_triangle.cl"
 #include "lib/sampling.cl"
-#include "lib/scene.cl"
+#include "lib/texture.cl"
 
 /// Triangles that are seen under a smaller solid angle are sampled uniformly over their area, steradians.
 #define MIN_SOLID_ANGLE 1e-5f
@@ -39,7 +39,18 @@ inline float triangle_area(const SceneView* scene, uint triangle_id) {
 /// Radiance that a surface sends back along a ray that met it. Only the front emits.
 inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     (void)direction;  // emission is alike in all directions
-    return hit->front ? load3(scene->materials[hit->material].emission.value) : (float3)(0.0f);
+    return hit->front ? look_up(scene, &scene->materials[hit->material].emission, hit).color : (float3)(0.0f);
+}
+
+/// Radiance that the front of an emissive triangle sends from the point with the given weights of v1 and v2.
+inline float3 triangle_radiance(const SceneView* scene, uint triangle_id, float2 barycentrics) {
+    const global Parameter* emission = &scene->materials[scene->triangles[triangle_id].material].emission;
+    if (emission->texture < 0) {
+        return load3(emission->value);
+    }
+    const SurfaceHit point =
+        surface_at(scene, triangle_id, barycentrics, (float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), true);
+    return look_up(scene, emission, &point).color;
 }
 
 /// Weights of v1 and v2 where a ray from x meets the triangle's plane, moved into the triangle if rounding
