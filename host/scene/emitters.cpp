@@ -100,7 +100,8 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     // A texture counts by its mean, which only steers the choice of lights.
     std::vector<Vec3> mean_emission;
     for (const Material& material : scene.materials) {
-        mean_emission.push_back(mean_value(scene, material.emission));
+        const bool emits = !is_zero(material.emission.value);
+        mean_emission.push_back(emits ? mean_value(scene, material.emission) : Vec3{0, 0, 0});
     }
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& triangle = scene.triangles[i];

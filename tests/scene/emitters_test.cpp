@@ -19,7 +19,7 @@ Scene area_light_scene(Vec3 radiance) {
         scene.vertices.push_back({p, 0, {0, 0, 0}, 0});
     }
     scene.materials.resize(2, Material{});
-    scene.materials[1].emission.value = radiance;
+    scene.materials[1].emission = {radiance, -1};
     scene.triangles = {{0, 1, 2, 1}, {0, 1, 1, 1}, {0, 1, 3, 0}};
     return scene;
 }
