@@ -24,6 +24,14 @@ ReceiverPathSettings path_settings(const Picture& picture) {
             .seed = picture.seed};
 }
 
+/// A batch of the plan, which knows only places on the film, with what it takes to add up light.
+CameraBand with_light(CameraBand batch, const Picture& picture) {
+    batch.max_depth = picture.view.max_depth;
+    batch.min_weight = picture.settings.compensate ? kMinReceiverWeight : 0.0f;
+    batch.light_samples = per_sample(picture.settings.direct_samples_per_pixel, picture.settings);
+    return batch;
+}
+
 std::size_t pixels_per_band(const Picture& picture) {
     return static_cast<std::size_t>(picture.view.camera.width) * picture.plan.tile_rows_per_band *
            NEARLIGHT_TILE_SIZE;
@@ -134,7 +142,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
 
 std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
     const uint width = picture_.view.camera.width;
-    auto batches = picture_.plan.batches(index);
+    const auto batches = picture_.plan.batches(index);
     const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE;
     const uint row_count = std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE,
                                     picture_.view.camera.height - first_row);
@@ -146,10 +154,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
             return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
         };
-        batches[i].max_depth = picture_.view.max_depth;
-        batches[i].min_weight = picture_.settings.compensate ? kMinReceiverWeight : 0.0f;
-        batches[i].light_samples = per_sample(picture_.settings.direct_samples_per_pixel, picture_.settings);
-        if (!add_batch(batches[i], row_count, batch_progress)) {
+        if (!add_batch(with_light(batches[i], picture_), row_count, batch_progress)) {
             return std::nullopt;
         }
     }

@@ -61,9 +61,7 @@ inline void scatter(const SceneView* scene, EmittedParticle* particle, const Lan
     const bool is_unseen = sample.is_delta && particle->from_delta;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
     particle->direction = sample.wi;
-    particle->origin =
-        offset_point(scene, at->hit.position,
-                     dot(at->hit.geometric, sample.wi) > 0.0f ? at->hit.geometric : -at->hit.geometric);
+    particle->origin = ray_origin(scene, &at->hit, sample.wi);
     particle->from_delta = 0;
 }
 

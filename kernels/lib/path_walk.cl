@@ -26,7 +26,8 @@ inline float gather_radius(const SceneView* scene, const GatherRadius* law, floa
     if (law->at_unit_light < INFINITY) {
         const uint key =
             random_uint4((uint4)(as_uint(y.x), as_uint(y.y), as_uint(y.z), law->seed ^ 0x6a7be4u)).x;
-        const float light = luminance(direct_irradiance(scene, y, n, GATHER_LIGHT_SAMPLES, key));
+        const ReceiverPoint at = {y, n, 0};
+        const float light = luminance(sampled_direct_light(scene, &at, GATHER_LIGHT_SAMPLES, 0, key));
         for (uint level = 1; level < GATHER_LEVELS && radius * sqrt(light) > law->at_unit_light; ++level) {
             radius *= 0.5f;
         }

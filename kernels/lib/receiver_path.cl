@@ -11,7 +11,7 @@
 #define NEARLIGHT_LIB_RECEIVER_PATH
 
 #include "lib/bsdf/bsdf.cl"
-#include "lib/light/direct.cl"
+#include "lib/light/sample.cl"
 #include "lib/random.cl"
 
 /// A place that receives light by its Lambertian part.
@@ -46,7 +46,8 @@ inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* a
            (cosine * diffuse_transmission(scene, at->curve, cosine) / (light->pdf + of_rays));
 }
 
-/// The part of the direct light that light samples bring, if each receiver sends `path_count` rays too.
+/// The part of the direct light that light samples bring, if each receiver sends `path_count` rays too. Delta
+/// lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples bring all of it.
 inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
                                    uint path_count, uint seed) {
     float3 exact = (float3)(0.0f);
@@ -73,12 +74,6 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
         }
     }
     return exact + sum / (float)sample_count;
-}
-
-/// The point off a surface from which a ray in the given direction starts.
-inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
-    return offset_point(scene, hit->position,
-                        dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
 }
 
 /// What one light sample sends towards the viewer of a surface, if each surface also sends `path_ratio` rays

@@ -43,28 +43,4 @@ inline float2 square_to_triangle(float2 u) {
     return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
 }
 
-/// A microfacet normal of GGX as seen from `wo` (wo.z > 0), in the frame of the surface. [Heitz, Sampling the
-/// GGX Distribution of Visible Normals, JCGT 2018]
-inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
-    const float3 stretched = normalize((float3)(alpha * wo.x, alpha * wo.y, wo.z));
-    const float planar = stretched.x * stretched.x + stretched.y * stretched.y;
-    const float3 t1 = planar > 0.0f ? (float3)(-stretched.y, stretched.x, 0.0f) * rsqrt(planar)
-                                    : (float3)(1.0f, 0.0f, 0.0f);
-    const float3 t2 = cross(stretched, t1);
-    const float r = sqrt(u.x);
-    const float phi = 2.0f * M_PI_F * u.y;
-    const float p1 = r * cos(phi);
-    const float s = 0.5f * (1.0f + stretched.z);
-    const float p2 = (1.0f - s) * sqrt(fmax(0.0f, 1.0f - p1 * p1)) + s * r * sin(phi);
-    const float3 h = p1 * t1 + p2 * t2 + sqrt(fmax(0.0f, 1.0f - p1 * p1 - p2 * p2)) * stretched;
-    return normalize((float3)(alpha * h.x, alpha * h.y, fmax(0.0f, h.z)));
-}
-
-/// Smith's masking of GGX for a direction with the cosine `z`, which is the weight that remains when visible
-/// normals are sampled.
-inline float ggx_masking(float z, float alpha) {
-    const float cos2 = z * z;
-    return z > 0.0f ? 2.0f * z / (z + sqrt(alpha * alpha + (1.0f - alpha * alpha) * cos2)) : 0.0f;
-}
-
 #endif

@@ -128,4 +128,10 @@ inline float3 offset_point(const SceneView* scene, float3 position, float3 norma
     return position + ray_epsilon(position, scene->info->extent) * normal;
 }
 
+/// The point off a surface from which a ray in the given direction starts.
+inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+    return offset_point(scene, hit->position,
+                        dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
+}
+
 #endif

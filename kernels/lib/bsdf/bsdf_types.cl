@@ -4,13 +4,14 @@
 // A BSDF is D + S: D is its Lambertian part, S everything else (coat, metal, glass). VPLs stand for D alone
 // (docs/method.md). Files of this folder hold S of one model each, as four functions:
 //
-//     float3     MODEL_eval(bsdf, wo, wi, &pdf)  S(wo, wi) · |cosθi| without mirror images and refractions at
-//     a
-//                                                smooth surface; pdf: density of MODEL_sample, per steradian
-//     BsdfSample MODEL_sample(bsdf, wo, u, v)    a direction drawn from S. Its weight and density are set
-//     only
-//                                                where is_delta; other ones follow from MODEL_eval (bsdf.cl)
-//     float3     MODEL_albedo(bsdf, wo)          an estimate of ∫ S |cosθi| dωi, which only steers sampling
+//     float3     MODEL_eval(bsdf, wo, wi, &pdf)
+//         S(wo, wi) · |cosθi| without mirror images and refractions at a smooth surface;
+//         pdf: the density of MODEL_sample, per steradian
+//     BsdfSample MODEL_sample(bsdf, wo, u, v)
+//         a direction drawn from S. Its weight and density are set only where is_delta; other ones follow
+//         from MODEL_eval (bsdf.cl)
+//     float3     MODEL_albedo(bsdf, wo)
+//         an estimate of ∫ S |cosθi| dωi, which only steers sampling
 //
 // Directions are unit vectors in the frame of the surface, away from it. wo points to the viewer (the side
 // that a path comes from) and has wo.z > 0; wi.z < 0 where S lets light through. What a surface lets through

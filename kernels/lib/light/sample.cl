@@ -166,4 +166,34 @@ inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample
                : is_visible(scene, x, sample->target);
 }
 
+/// A sample for receivers that trace no rays of their own. Where the environment is chosen, half the samples
+/// follow the cosine, half the tables, and `pdf` is the density of the mixture.
+inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, float3 n, float2 choice,
+                                          float2 u) {
+    float probability;
+    const uint index = choose_light(scene, x, n, choice.x, &probability);
+    if (index == ~0u) {
+        return no_light(x);
+    }
+    LightSample light;
+    if (scene->emitters[index].type != NEARLIGHT_EMITTER_ENVIRONMENT) {
+        light = sample_emitter(scene, index, x, u);
+    } else {
+        if (choice.y < 0.5f) {
+            light.direction = to_world_frame(square_to_cosine_hemisphere(u), n);
+            const uint2 pixel = environment_pixel(scene, light.direction);
+            light.radiance = map_radiance(scene, light.direction);
+            light.pdf = environment_pixel_pdf(scene, pixel);
+        } else {
+            light.direction = sample_environment(scene, u, &light.pdf, &light.radiance);
+        }
+        light.pdf = 0.5f * (light.pdf + fmax(0.0f, dot(n, light.direction)) * M_1_PI_F);
+        light.target = x;
+        light.infinite = 1;
+        light.is_delta = 0;
+    }
+    light.pdf *= probability;
+    return light;
+}
+
 #endif
