@@ -72,6 +72,13 @@ inline SurfaceNumbers surface_numbers(uint key, uint step) {
     return numbers;
 }
 
+/// How many of `max_count` light samples a surface takes whose S reflects `specular`: fewer where its light
+/// weighs little in the pixel.
+inline uint light_sample_count(const CameraPath* path, float3 specular, uint max_count) {
+    const float weight = fmin(luminance(path->ray.throughput * specular), 1.0f);
+    return max(1u, (uint)ceil((float)max_count * weight));
+}
+
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
 /// branch 1 the reflection.
@@ -114,7 +121,8 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
             return WAY_RECEIVER;
         }
     }
-    return follow_specular(scene, path, hit, surface, branch, light_samples, numbers);
+    const uint samples = light_samples > 0 ? light_sample_count(path, specular, light_samples) : 0;
+    return follow_specular(scene, path, hit, surface, branch, samples, numbers);
 }
 
 /// Where a camera path ends, and what it saw on the way.

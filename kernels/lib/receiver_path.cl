@@ -144,12 +144,14 @@ inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* 
     return !is_black(ray->throughput);
 }
 
-/// From the third surface on, weak paths end by chance. Returns false where this one does.
-inline bool survives(PathRay* ray, uint surfaces, float first_weight, float u) {
-    if (surfaces < 3) {
-        return true;
-    }
-    const float survival = fmin(0.95f, max_component(ray->throughput) / first_weight);
+/// Paths end by chance at surfaces that send on less than this part of what the ray began with.
+#define FULL_PATH_WEIGHT 0.25f
+
+/// Ends weak paths by chance, before anything is spent on the light that their surface reflects. `albedo` is
+/// about what the surface reflects of all light. Returns false where this path ends.
+inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
+    const float part = max_component(ray->throughput * albedo) / first_weight;
+    const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(0.95f, part);
     if (!(u < survival)) {
         return false;
     }
@@ -173,10 +175,12 @@ inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hi
             surface.bsdf.diffuse *= diffuse_weight;
             parts = diffuse_weight > 0.0f ? parts : BSDF_S;
         }
+        if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
+            break;
+        }
         light += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1, random.w);
         if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
-                         (float2)(to_unit_float(random.y), to_unit_float(random.z))) ||
-            !survives(&ray, surfaces, first_weight, to_unit_float(more.z))) {
+                         (float2)(to_unit_float(random.y), to_unit_float(random.z)))) {
             break;
         }
         hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
