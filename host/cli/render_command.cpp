@@ -236,9 +236,10 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->type_name("R")
         ->capture_default_str();
     command
-        .add_option(
-            "--clamp-radius", options.clamp_radius,
-            "VPLs closer than R light a point as if they were at the distance R: scene units, or auto")
+        .add_option("--clamp-radius", options.clamp_radius,
+                    "VPLs closer than R light a point as if they were at the distance R, and rays bring back "
+                    "the rest: "
+                    "scene units, or auto, which chooses the radius of least noise")
         ->type_name("R")
         ->capture_default_str();
     command

@@ -46,6 +46,8 @@ struct VplSet {
     float close_fraction = 0.0f;      ///< share of the VPLs for the close range that was used
     /// If it is set, VPLs are to be gathered with the plan's radii, and local lights supply the rest.
     std::optional<LocalLightPlan> local{};
+    /// The clamp radius (m) that makes a picture with compensation least noisy, if a pilot chose one.
+    std::optional<float> clamp_radius{};
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);

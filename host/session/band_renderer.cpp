@@ -20,7 +20,7 @@ ReceiverPathSettings path_settings(const Picture& picture) {
     return {.light_samples = per_sample(settings.direct_samples_per_pixel, settings),
             .path_count = settings.compensate ? per_sample(settings.rays_per_pixel, settings) : 0,
             .max_edges = std::max(picture.view.max_depth, 1u) - 1,
-            .clamp_radius = picture.view.clamp_radius,
+            .clamp_radius = picture.clamp_radius,
             .seed = picture.seed};
 }
 
@@ -84,7 +84,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
          .vpl_count = vpls().count(),
          .receivers = buffers_.receivers,
          .bundles = {static_cast<uint>(packet_count(batch, width)), picture_.plan.run_packets(batch, width)},
-         .clamp_radius = picture_.view.clamp_radius,
+         .clamp_radius = picture_.clamp_radius,
          .threshold = picture_.settings.roulette,
          .seed = picture_.seed});
 }
@@ -103,7 +103,7 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                     .vpl_count = vpls().count(),
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
-                                    .clamp_radius = picture_.view.clamp_radius,
+                                    .clamp_radius = picture_.clamp_radius,
                                     .selection = selection ? &*selection : nullptr,
                                     .curves = scene_.curves_in_use()},
                                    buffers_.gathered, progress);

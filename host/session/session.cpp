@@ -10,6 +10,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/session/clamp_pilot.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -75,6 +76,10 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
 
 }  // namespace
 
+float clamp_radius_of(const View& view, const VplSet& vpls, bool compensate) {
+    return compensate ? vpls.clamp_radius.value_or(view.clamp_radius) : view.clamp_radius;
+}
+
 /// Kernels compile while the tree is built: compiling waits for the driver, building for memory.
 Session::Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options)
     : scene_(scene), pool_(devices, options.gather_kernel) {
@@ -107,6 +112,16 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
+        if (view.clamp_radius_is_open && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
+            set.clamp_radius = choose_clamp_radius({.stages = leader.bands,
+                                                    .scene = leader.scene,
+                                                    .view = pilot,
+                                                    .vpls = set.vpls,
+                                                    .max_edges = view.bounce_count() + 1,
+                                                    .rays_per_pixel = GatherSettings{}.rays_per_pixel,
+                                                    .seed = seed},
+                                                   view.clamp_radius);
+        }
         if (pool_.size() > 1) {
             set.vpls.keep_on_host();
         }
@@ -119,7 +134,12 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
     const Camera& camera = view.camera;
     const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
                                       settings.samples_per_pixel, pool_.leader().scene.divides_paths ? 2 : 1);
-    const Picture picture{.view = view, .settings = settings, .seed = seed, .plan = plan, .vpls = vpls};
+    const Picture picture{.view = view,
+                          .settings = settings,
+                          .clamp_radius = clamp_radius_of(view, vpls, settings.compensate),
+                          .seed = seed,
+                          .plan = plan,
+                          .vpls = vpls};
     GatherOutcome outcome;
     const auto take_band = [&](FinishedBand& band) {
         outcome.local_lights += band.local_lights;
@@ -155,7 +175,7 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
                               {.scene = leader.scene,
                                .bounce_count = view.bounce_count(),
                                .vpls = vpls.vpls.is_on(device) ? vpls.vpls : copy,
-                               .clamp_radius = view.clamp_radius},
+                               .clamp_radius = clamp_radius_of(view, vpls, settings.paths > 0)},
                               receivers, packets.size(),
                               {.direct_samples = settings.direct_samples, .paths = settings.paths}, seed,
                               light);

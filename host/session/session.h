@@ -35,6 +35,10 @@ struct GatherOutcome {
     bool interrupted = false;       ///< `progress` stopped it: rows are missing at the bottom
 };
 
+/// The clamp radius (m) that a picture of these VPLs is gathered with. The radius that a pilot chose for the
+/// set counts only if rays bring back what it takes away.
+float clamp_radius_of(const View& view, const VplSet& vpls, bool compensate);
+
 /// A scene on devices. After construction the tree is built and everything is uploaded; kernels compile until
 /// they are first launched. Views and VPLs are made on the first device, rows on all of them. Several devices
 /// of one type give the same bits as each of them alone. A device that fails is left out from then on, with a

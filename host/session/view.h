@@ -14,8 +14,11 @@ struct View {
     CloseRange close_range{};
     PilotView pilot;            ///< in the memory of the device that led when the view was chosen
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
-    uint max_depth = 8;         ///< maximum path length, as Mitsuba counts it
-    uint seed = 0;              ///< seed of the pilot view
+    /// Whether the settings left the clamp radius open. VPLs may then be gathered with a radius of their own
+    /// (VplSet::clamp_radius).
+    bool clamp_radius_is_open = false;
+    uint max_depth = 8;  ///< maximum path length, as Mitsuba counts it
+    uint seed = 0;       ///< seed of the pilot view
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 

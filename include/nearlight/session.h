@@ -40,7 +40,8 @@ class NEARLIGHT_API View {
     /// The distance in metres from the camera at which the close range ends.
     [[nodiscard]] float range() const;
     /// R of the bounded geometry term, in metres: VPLs nearer to a point than R light it as if they were at
-    /// the distance R.
+    /// the distance R. Where the settings left R open, a set of VPLs has a radius of its own, which a pilot
+    /// chose, and which counts if rays bring back what it takes away.
     [[nodiscard]] float clamp_radius() const;
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light.
     [[nodiscard]] std::uint32_t max_depth() const;

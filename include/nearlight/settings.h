@@ -44,7 +44,9 @@ struct ViewSettings {
     std::optional<int> width{};    ///< pixels; empty: the scene's
     std::optional<int> height{};   ///< pixels; empty: the scene's
     std::optional<float> range{};  ///< range, m; empty: the close range holds nine tenths of what is seen
-    std::optional<float> clamp_radius{};  ///< R of the bounded geometry term, m; empty: range / 20
+    /// R of the bounded geometry term, m. Empty takes range / 20, and from there Session::sample() lets a
+    /// pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.
+    std::optional<float> clamp_radius{};
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
     /// the scene's, or 8 if the scene has none.
     std::optional<std::uint32_t> max_depth{};

@@ -5,6 +5,7 @@
 
 #include "host/reference/path_tracer.h"
 #include "tests/session/convergence.h"
+#include "tests/session/corner_scene.h"
 #include "tests/session/rendering.h"
 #include "tests/session/variants.h"
 #include "tests/support/device_fixture.h"
@@ -20,22 +21,6 @@ using namespace small_scenes;
 constexpr std::array kRadii{0.02f, 2.0f};
 constexpr uint kRadiusSeeds = 24;
 
-/// Where three walls meet, under a lamp. Most of the light of the edges comes from nearby.
-Scene corner() {
-    Scene scene;
-    const uint white = add_material(scene, lambertian({0.8f, 0.8f, 0.8f}));
-    const uint red = add_material(scene, lambertian({0.7f, 0.2f, 0.1f}));
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{5, 5, 6});
-    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);  // floor
-    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, white);   // back
-    add_quad(scene, {1, -1, -1}, {0, 0, 2}, {0, 2, 0}, red);     // on the side
-    add_quad(scene, {-0.6f, 0.9f, -0.6f}, {0.8f, 0, 0}, {0, 0, 0.8f}, add_material(scene, lamp));
-    set_camera(scene, {-0.6, 0.4, -0.9}, {1, -0.8, 1}, 60);
-    scene.camera.width = scene.camera.height = 16;
-    return scene;
-}
-
 /// A block on the corner's floor, of two sides and the top.
 void add_block(Scene& scene, Vec3 at, float size, uint material) {
     add_quad(scene, at, {0, size, 0}, {size, 0, 0}, material);
@@ -44,7 +29,7 @@ void add_block(Scene& scene, Vec3 at, float size, uint material) {
 }
 
 Scene corner_with_metal() {
-    Scene scene = corner();
+    Scene scene = test::corner();
     Material copper = conductor_material({0.2f, 0.92f, 1.1f}, {3.9f, 2.45f, 2.1f});
     copper.roughness = parameter_of(0.3f);
     add_block(scene, {0.2f, -1, 0.2f}, 0.5f, add_material(scene, copper));
@@ -52,7 +37,7 @@ Scene corner_with_metal() {
 }
 
 Scene corner_with_plastic_and_glass() {
-    Scene scene = corner();
+    Scene scene = test::corner();
     Material plastic = plastic_material(scene, {.alpha = 0.2});
     plastic.reflectance = parameter_of(Vec3{0.2f, 0.5f, 0.7f});
     add_block(scene, {0.2f, -1, 0.2f}, 0.5f, add_material(scene, plastic));
@@ -96,7 +81,7 @@ class AnyClampRadius : public test::DeviceTest {
 };
 
 TEST_F(AnyClampRadius, InADiffuseCorner) {
-    expect_no_influence(corner());
+    expect_no_influence(test::corner());
 }
 TEST_F(AnyClampRadius, BesideMetal) {
     expect_no_influence(corner_with_metal());

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clamp radius that a pilot chooses gives about the least noise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/session/corner_scene.h"
+#include "tests/session/rendering.h"
+#include "tests/support/device_fixture.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr float kPilotRange = 2.0f;
+constexpr float kPilotStart = kPilotRange / 20;  // the radius that the pilot starts from
+constexpr uint kNoiseSeeds = 16;
+
+RenderSettings pilot_settings(std::optional<float> radius, uint vpl_count) {
+    return {.view = {.range = kPilotRange, .clamp_radius = radius, .max_depth = 5},
+            .sampling = {.vpl_count = vpl_count},
+            .gather = {.samples_per_pixel = 4, .direct_samples_per_pixel = 64, .rays_per_pixel = 16},
+            .seed = 7};
+}
+
+/// The variance of the indirect light of a picture over seeds, relative to its square, on the mean over
+/// pixels and channels.
+double radius_noise(Session& session, float radius, uint vpl_count) {
+    const std::vector<Image> images =
+        test::render_seeds(session, pilot_settings(radius, vpl_count), 100, kNoiseSeeds);
+    const std::size_t first = static_cast<std::size_t>(images.front().find_channel("indirect.R"));
+    const std::size_t channels = images.front().channels.size();
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < images.front().values.size(); i += channels) {
+        double mean = 0.0;
+        double squares = 0.0;
+        for (const Image& image : images) {
+            mean += image.values[i] / double{kNoiseSeeds};
+            squares += image.values[i] * double{image.values[i]} / double{kNoiseSeeds};
+        }
+        if (mean > 0.0) {
+            sum += (squares - mean * mean) / (mean * mean);
+            ++count;
+        }
+    }
+    return sum / static_cast<double>(count);
+}
+
+class ClampPilotTest : public test::DeviceTest {};
+
+TEST_F(ClampPilotTest, TheChoiceIsAmongTheLeastNoisy) {
+    const Scene scene = test::corner();
+    on_each_device([&](Device& device) {
+        Session session(device, scene);
+        for (const uint vpl_count : {60u, 1000u}) {
+            const float chosen =
+                test::render_image(session, pilot_settings(std::nullopt, vpl_count)).report.clamp_radius;
+            std::map<float, double> noises;
+            for (const float multiple : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
+                noises[multiple * kPilotStart] = radius_noise(session, multiple * kPilotStart, vpl_count);
+            }
+            const auto by_noise = [](const auto& a, const auto& b) { return a.second < b.second; };
+            const auto [least, greatest] = std::minmax_element(noises.begin(), noises.end(), by_noise);
+            ASSERT_TRUE(noises.contains(chosen)) << chosen;
+            EXPECT_LT(noises.at(chosen), 1.4 * least->second)
+                << vpl_count << " VPLs: chosen " << chosen << ", least noisy " << least->first;
+            EXPECT_GT(greatest->second, 2 * least->second) << "no radius is wrong here";
+        }
+    });
+}
+
+TEST_F(ClampPilotTest, AGivenRadiusStays) {
+    const Scene scene = test::corner();
+    Session session(*devices().front(), scene);
+    const RenderSettings settings = pilot_settings(0.07f, 60);
+    const View view = session.look(settings.view, 1);
+    const VplSet vpls = session.sample(view, settings.sampling, 1);
+    EXPECT_FALSE(vpls.clamp_radius);
+    EXPECT_EQ(clamp_radius_of(view, vpls, true), 0.07f);
+}
+
+TEST_F(ClampPilotTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
+    const Scene scene = test::corner();
+    Session session(*devices().front(), scene);
+    RenderSettings settings = pilot_settings(std::nullopt, 60);
+    settings.gather.compensate = false;
+    EXPECT_FLOAT_EQ(test::render_image(session, settings).report.clamp_radius, kPilotStart);
+}
+
+}  // namespace
+}  // namespace nearlight::core
