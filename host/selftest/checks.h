@@ -69,6 +69,12 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result);
 /// be the light of all VPLs.
 void check_roulette(Device& device, CheckResult& result);
 
+// bsdf_checks.cpp: models of surfaces against those of the path tracer, in double precision.
+
+/// A case is the value of D or of S of a material for two directions, or the value along a direction that the
+/// kernel drew, which must be the sample's weight times its density.
+void check_bsdfs(Device& device, CheckResult& result);
+
 // light_checks.cpp: stages that need a whole scene: direct light, light tracing, Metropolis chains and camera
 // pass.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests ask of the BSDF of a point (kernels/bsdf_probe.cl).
+// What checks ask of the BSDF of a point (kernels/bsdf_probe.cl).
 #ifndef NEARLIGHT_SHARED_BSDF_QUERY_H
 #define NEARLIGHT_SHARED_BSDF_QUERY_H
 

@@ -8,8 +8,7 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
-#include "host/cl/kernel.h"
-#include "kernels/shared/bsdf_query.h"
+#include "host/stages/bsdf_probe.h"
 
 namespace nearlight::core::test {
 
@@ -39,19 +38,6 @@ inline Parameter constant(Vec3 value) {
 inline Parameter constant(float value) {
     return {{value, value, value}, -1};
 }
-
-/// A scene for the kernel, without trees or lights. As made, it is one triangle in the plane z = 0, with its
-/// front up, u along x and v along y, and without normals.
-struct BsdfScene {
-    std::vector<Vertex> vertices{
-        {{0, 0, 0}, 0, {0, 0, 0}, 0}, {{1, 0, 0}, 1, {0, 0, 0}, 0}, {{0, 1, 0}, 0, {0, 0, 0}, 1}};
-    std::vector<Triangle> triangles{{0, 1, 2, 0}};
-    std::vector<Material> materials;
-    std::vector<Texture> textures;
-    std::vector<uint> texels;
-    std::vector<float> curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
-    std::vector<Vec3> vertex_colors;
-};
 
 /// The query for a viewer and a direction of light at the middle of triangle 0.
 inline BsdfQuery make_query(Vec3 wo, Vec3 wi, uint parts, uint mode = kRadiance) {
@@ -87,33 +73,5 @@ inline Vec3 random_direction(Pcg32& random) {
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
-
-class BsdfProbe {
-  public:
-    explicit BsdfProbe(Device& device)
-        : device_(&device), kernel_(Program(device, "bsdf_probe.cl"), "bsdf_probe") {}
-
-    std::vector<BsdfAnswer> ask(const BsdfScene& scene, std::span<const BsdfQuery> queries) {
-        Buffer<BsdfAnswer> answers(*device_, queries.size());
-        kernel_.launch_items(queries.size(), upload<Vertex>(scene.vertices),
-                             upload<Triangle>(scene.triangles), upload<Material>(scene.materials),
-                             upload<Texture>(scene.textures), upload<uint>(scene.texels),
-                             upload<float>(scene.curves), upload<Vec3>(scene.vertex_colors),
-                             upload<BsdfQuery>(queries), answers, static_cast<uint>(queries.size()));
-        return answers.download();
-    }
-    BsdfAnswer ask(const BsdfScene& scene, const BsdfQuery& query) {
-        return ask(scene, std::span(&query, 1))[0];
-    }
-
-  private:
-    template <typename T>
-    Buffer<T> upload(std::span<const T> values) {
-        return Buffer<T>(*device_, values);
-    }
-
-    Device* device_;
-    Kernel kernel_;
-};
 
 }  // namespace nearlight::core::test
