@@ -2,9 +2,9 @@
 // Camera pass: follows camera paths by the part S of surfaces (coats, metals, glass) to receivers, which are
 // the Lambertian parts D of surfaces, and adds up the light of lamps that it meets or finds in S on the way.
 //
-// Receivers are in this order: packet = ((tile · sample_count) + sample) · branch_count + branch, where tile
-// = row of tiles × tiles_x + column, counted from the first tile row of the band, and lane = row within the
-// tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or 2) receivers. At the first surface
+// Packets of receivers are in the order of shared/packet_order.h, where rows of tiles count from the first of
+// the band, and lane = row within the tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or
+// 2) receivers. At the first surface
 // with two ways on (D and S, or glass), branch 0 takes D or the refraction and branch 1 S or the reflection,
 // each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
 // chance. Branch 1 of a sample that never divides is absent. A receiver of little weight is absent too: its
@@ -14,6 +14,7 @@
 #include "lib/camera.cl"
 #include "lib/close_range.cl"
 #include "lib/receiver_path.cl"
+#include "shared/packet_order.h"
 
 #define MAX_CHAIN 24
 #define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
@@ -304,29 +305,30 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
 }
 
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
-                        const global CloseRange* restrict close_range, uint first_tile_row,
-                        uint tile_row_count, uint first_sample, uint sample_count, uint sequence_length,
-                        uint branch_count, uint max_edges, uint light_samples, float min_weight, uint seed,
+                        const global CloseRange* restrict close_range, PacketOrder order, uint first_tile_row,
+                        uint tile_row_count, uint first_sample, uint sequence_length, uint max_edges,
+                        uint light_samples, float min_weight, uint seed,
                         global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
-    const uint sample = index / NEARLIGHT_PACKET_SIZE % sample_count;
-    const uint tile = index / NEARLIGHT_PACKET_SIZE / sample_count;
-    const uint tiles_x = tiles_across(camera->width);
-    if (tile >= tiles_x * tile_row_count) {
+    const uint sample = index / NEARLIGHT_PACKET_SIZE % order.sample_count;
+    const uint tile = index / NEARLIGHT_PACKET_SIZE / order.sample_count;
+    const uint column = tile % order.tile_columns;
+    const uint row = tile / order.tile_columns;
+    if (row >= tile_row_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = tile % tiles_x * NEARLIGHT_TILE_SIZE + lane % NEARLIGHT_TILE_SIZE;
-    const uint y = (first_tile_row + tile / tiles_x) * NEARLIGHT_TILE_SIZE + lane / NEARLIGHT_TILE_SIZE;
+    const uint x = column * NEARLIGHT_TILE_SIZE + lane % NEARLIGHT_TILE_SIZE;
+    const uint y = (first_tile_row + row) * NEARLIGHT_TILE_SIZE + lane / NEARLIGHT_TILE_SIZE;
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
-        start_path(camera, x, y, first_sample + sample, sequence_length, branch_count, seed);
+        start_path(camera, x, y, first_sample + sample, sequence_length, order.branch_count, seed);
     const CameraLimits limits = {max_edges, light_samples, min_weight};
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;
-    for (uint branch = 0; branch < branch_count; ++branch) {
+    for (uint branch = 0; branch < order.branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
             receiver = follow_path(&scene, camera, close_range, &limits, &path, branch, &first);
@@ -334,7 +336,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         } else if (branch == 1) {
             leave_to_branch_0(&receiver);
         }
-        const uint packet = (tile * sample_count + sample) * branch_count + branch;
+        const uint packet = packet_at(order, column, row, sample, branch);
         store_receiver(&receiver, receivers + packet, lane,
                        vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + lane);
     }

@@ -8,6 +8,7 @@
 
 #include "lib/math.cl"
 #include "shared/film_layers.h"
+#include "shared/packet_order.h"
 
 inline void add_to_sum(global float* sum, float3 v) {
     sum[0] += v.x;
@@ -35,18 +36,19 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global IrradiancePacket* restrict direct,
                      const global IrradiancePacket* restrict gathered,
                      const global IrradiancePacket* restrict indirect, uint width, uint row_count,
-                     uint sample_count, uint branch_count, global float* restrict sums) {
+                     PacketOrder order, global float* restrict sums) {
     const uint index = (uint)get_global_id(0);
     if (index >= width * row_count) {
         return;
     }
     const uint x = index % width;
     const uint y = index / width;
-    const uint tile = y / NEARLIGHT_TILE_SIZE * tiles_across(width) + x / NEARLIGHT_TILE_SIZE;
     const uint lane = y % NEARLIGHT_TILE_SIZE * NEARLIGHT_TILE_SIZE + x % NEARLIGHT_TILE_SIZE;
     global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
-    for (uint i = 0; i < sample_count * branch_count; ++i) {
-        const uint packet = tile * sample_count * branch_count + i;
+    for (uint i = 0; i < order.sample_count * order.branch_count; ++i) {
+        const uint branch = i % order.branch_count;
+        const uint packet = packet_at(order, x / NEARLIGHT_TILE_SIZE, y / NEARLIGHT_TILE_SIZE,
+                                      i / order.branch_count, branch);
         const global ReceiverPacket* receiver = receivers + packet;
         const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);
@@ -60,7 +62,7 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         // Only light has the filter's weights. Surfaces are averaged over where the samples lie, so that no
         // layer of them overshoots where the filter is negative.
         add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
-        if (i % branch_count != 0) {
+        if (branch != 0) {
             continue;  // geometry layers come from branch 0 only
         }
         add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,

@@ -98,11 +98,14 @@ inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bu
 ///
 /// With thresholds, a pair is left out if its light, squared, would be less than the receiver's number in
 /// `thresholds` (64 · packet + lane) with nothing in the way.
+///
+/// With strata, a bundle asks only about its own, and `strata` says which that is (stratum_of() in
+/// lib/bundle.cl); VPLs are then counted within the stratum. Groups are for a single stratum.
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks, const global Vpl* vpls,
     const global ReceiverPacket* packets, const global GatherParams* launch_params,
-    const global float* thresholds, const global float* curves, global IrradiancePacket* sums,
-    global IrradiancePacket* group_sums,
+    const global float* thresholds, const global float* curves, const global uint* strata,
+    global IrradiancePacket* sums, global IrradiancePacket* group_sums,
     volatile global uint* next_beam GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     Receivers receivers;
     BeamBounds bounds;
@@ -113,7 +116,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
     const uint count = (params.end_bundle - params.first_bundle) * BEAMS_PER_BUNDLE;
     for (uint item = atomic_inc(next_beam); item < count; item = atomic_inc(next_beam)) {
         const uint index = params.first_bundle + item / BEAMS_PER_BUNDLE;
-        const Bundle bundle = bundle_at(index, params.packet_count, params.run_packets);
+        const Bundle bundle = bundle_at(index, params.packet_count);
         const uint first = item % BEAMS_PER_BUNDLE * GATHER_BEAM_WIDTH;
         if (first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
             continue;
@@ -125,25 +128,24 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
         if (params.has_curves) {
             load_curves(&receivers, packets, &bundle, first);
         }
-        const uint end = GATHER_END(index, &params);
+        const Stratum stratum = gather_stratum(index, &params, strata);
+        const uint end = min(params.end_vpl, GATHER_COUNT(index, &params, &stratum));
         for (uint chunk = params.first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
             clear(&sum);
             clear(&squares);
             for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
-                const uint i = GATHER_VPL(index, &params, k);
-                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, &params, k);
+                const uint i = GATHER_VPL(index, &params, &stratum, k);
+                const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, &params, &stratum, k);
                 connect(&segments, vpls + i, &receivers, params.clamp_radius_squared);
                 if (params.has_thresholds) {
                     leave_out_small(&segments, &receivers, gather_square_scale(vpls + i, scale));
                 }
 #ifdef GATHER_RECORD
-                record_open(record, i, params.recorded_vpls, &bundle, first, receivers.order, &segments,
-                            true);
+                record_open(record, i, params.vpl_count, &bundle, first, receivers.order, &segments, true);
 #endif
                 trace_segments(&segments, &bounds, nodes, blocks);
 #ifdef GATHER_RECORD
-                record_open(record, i, params.recorded_vpls, &bundle, first, receivers.order, &segments,
-                            false);
+                record_open(record, i, params.vpl_count, &bundle, first, receivers.order, &segments, false);
 #endif
                 if (params.has_curves) {
                     weigh_by_curves(&segments, vpls + i, &receivers, curves);

@@ -35,18 +35,18 @@ inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum)
 }
 
 /// One work-item gathers one receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
-/// thresholds and launches are those of gather_packets.
+/// thresholds, strata and launches are those of gather_packets.
 kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
                         const global Vpl* vpls, const global ReceiverPacket* receivers,
                         const global GatherParams* launch_params, const global float* thresholds,
-                        const global float* curves, global IrradiancePacket* sums,
+                        const global float* curves, const global uint* strata, global IrradiancePacket* sums,
                         global IrradiancePacket* group_sums GATHER_LIST_PARAMETERS GATHER_RECORD_PARAMETERS) {
     const GatherParams params = *launch_params;
     const uint item = (uint)get_global_id(0);
     const uint lane = item % NEARLIGHT_PACKET_SIZE;
     const uint index = params.first_bundle + item / NEARLIGHT_PACKET_SIZE / NEARLIGHT_BUNDLE_PACKETS;
     const uint member = item / NEARLIGHT_PACKET_SIZE % NEARLIGHT_BUNDLE_PACKETS;
-    const Bundle bundle = bundle_at(index, params.packet_count, params.run_packets);
+    const Bundle bundle = bundle_at(index, params.packet_count);
     if (index >= params.end_bundle || member >= bundle.count) {
         return;
     }
@@ -57,20 +57,21 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
     const uint curve = receiver_curve(from, lane);
     global IrradiancePacket* to = sums + packet;
     float3 total = params.first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
-    const uint end = GATHER_END(index, &params);
+    const Stratum stratum = gather_stratum(index, &params, strata);
+    const uint end = min(params.end_vpl, GATHER_COUNT(index, &params, &stratum));
     const uint chunk_size = gather_chunk_size(params.group_size);
     const float threshold = params.has_thresholds ? thresholds[packet * NEARLIGHT_PACKET_SIZE + lane] : 0.0f;
     for (uint chunk = params.first_vpl; chunk < end; chunk += chunk_size) {
         float3 sum = (float3)0.0f;
         float3 squares = (float3)0.0f;
         for (uint k = chunk; k < min(chunk + chunk_size, end); ++k) {
-            const uint i = GATHER_VPL(index, &params, k);
+            const uint i = GATHER_VPL(index, &params, &stratum, k);
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
             const float term =
                 geometry_term(segment, load3(vpl->normal), normal, params.clamp_radius_squared);
-            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, &params, k);
+            const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, &params, &stratum, k);
             const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < threshold);
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
@@ -81,10 +82,10 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             sum += scale * (gather_squared(vpl) ? weight * weight : weight);
             squares += scale * scale * (weight * weight);
 #ifdef GATHER_RECORD
-            record[gather_record_index(packet, i, params.recorded_vpls, lane)] = !open ? 0
-                                                                                 : visible
-                                                                                     ? GATHER_RECORD_VISIBLE
-                                                                                     : GATHER_RECORD_OCCLUDED;
+            record[gather_record_index(packet, i, params.vpl_count, lane)] = !open ? 0
+                                                                             : visible
+                                                                                 ? GATHER_RECORD_VISIBLE
+                                                                                 : GATHER_RECORD_OCCLUDED;
 #endif
         }
         total += params.group_size != 0 ? squares : sum;

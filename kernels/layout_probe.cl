@@ -5,6 +5,7 @@
 #include "shared/bsdf_query.h"
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"
+#include "shared/packet_order.h"
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);

@@ -45,11 +45,10 @@ struct DeviceSegments {
     /// The VPLs that each bundle asks about; empty for a threshold of 0, where every bundle asks about all
     /// VPLs.
     [[nodiscard]] std::optional<VplSelection> select(float threshold) {
-        const auto count = static_cast<uint>(receivers.count());
         return threshold > 0.0f ? std::optional(roulette.select({.vpls = vpls,
                                                                  .vpl_count = vpls.count(),
                                                                  .receivers = receivers,
-                                                                 .bundles = {count, std::max(count, 1u)},
+                                                                 .packet_count = receivers.count(),
                                                                  .clamp_radius = clamp_radius,
                                                                  .threshold = threshold,
                                                                  .seed = 0}))

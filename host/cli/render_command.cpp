@@ -217,7 +217,10 @@ void add_sampler_options(CLI::App& command, RenderOptions& options) {
     }
     add_choice(command, "--policy", sampling.policy, policies, policy_help)
         ->default_str(to_string(sampling.policy));
-    command.add_option("--vpls", sampling.vpl_count, "Target number of VPLs (virtual point lights)")
+    command
+        .add_option("--vpls", sampling.vpl_count,
+                    "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
+                    "together")
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
@@ -313,6 +316,13 @@ void add_render_command(CommandLine& line) {
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
+    command
+        .add_option(
+            "--strata", options->settings.gather.strata,
+            "Parts of the set of VPLs. Samples of a pixel take turns to ask about one part each, which "
+            "counts for all; 1: each sample asks about all VPLs (default: as many as --spp)")
+        ->check(CLI::Range(1u, 65536u))
+        ->type_name("N");
     command
         .add_option("--direct-samples", options->settings.gather.direct_samples_per_pixel,
                     "Shadow rays per pixel to area and environment lights")

@@ -44,6 +44,8 @@ Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& setting
     metadata["nearlight:policy"] =
         settings.sampling.sampler == SamplerKind::close_range ? to_string(settings.sampling.policy) : "none";
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
+    metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.clamp_radius;
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
@@ -78,6 +80,8 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
     json["policy"] = settings.sampling.sampler == SamplerKind::close_range
                          ? nlohmann::ordered_json(to_string(settings.sampling.policy))
                          : nullptr;
+    json["samples_per_pixel"] = settings.gather.samples_per_pixel;
+    json["strata"] = settings.gather.strata_or_auto();
     json["passes"] = report.passes;
     json["vpls"] = {{"requested", settings.sampling.vpl_count}, {"close", report.close_vpls},
                     {"distant", report.distant_vpls},           {"sparse", report.sparse_vpls},

@@ -125,6 +125,7 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
                          .policy = method.policy.value_or(SamplingSettings{}.policy),
                          .vpl_count = vpls},
             .gather = {.samples_per_pixel = settings_.samples_per_pixel,
+                       .strata = 1,
                        .compensate = false,
                        .indirect_only = true},
             .seed = seed};

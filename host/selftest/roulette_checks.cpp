@@ -16,7 +16,6 @@ namespace {
 constexpr float kRouletteRadius = 0.05f;
 constexpr float kThreshold = 2.0f;
 constexpr uint kSeeds = 100;
-constexpr uint kRunPackets = 5;  // per run: a bundle of 4 and a bundle of 1
 /// Number of standard errors that chance does not reach in thousands of cases.
 constexpr double kMaxDeviations = 5.5;
 
@@ -40,7 +39,7 @@ struct RouletteCase {
         return {.vpls = vpl_buffer,
                 .vpl_count = vpls.size(),
                 .receivers = receiver_buffer,
-                .bundles = {static_cast<uint>(receivers.size()), kRunPackets},
+                .packet_count = receivers.size(),
                 .clamp_radius = kRouletteRadius,
                 .threshold = kThreshold,
                 .seed = seed};
@@ -55,7 +54,7 @@ RouletteCase make_case(Device& device) {
     for (std::size_t i = 0; i < data.vpls.size(); ++i) {
         data.vpls[i].power = Vec3{0.5f, 1.0f, 2.0f} * (1.0f + static_cast<float>(i % 7));
     }
-    data.receivers = make_camera_receivers(scene, bvh, 40, 32);
+    data.receivers = make_camera_receivers(scene, bvh, 40, 24);
     data.tree = upload_tree(device, bvh);
     data.vpl_buffer = {device, data.vpls};
     data.receiver_buffer = {device, data.receivers};
@@ -64,7 +63,7 @@ RouletteCase make_case(Device& device) {
 
 /// Compares how often each bundle chose each VPL, and its weight, with the probabilities.
 void check_choices(Device& device, const RouletteCase& data, CheckResult& result) {
-    const BundleLayout layout = data.task(0).bundles;
+    const BundleLayout layout = data.input(nullptr).bundles();
     std::vector<uint> chosen(layout.bundle_count() * data.vpls.size());
     std::vector<float> chosen_weights(chosen.size());
     Roulette roulette(device);

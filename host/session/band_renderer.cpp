@@ -70,40 +70,42 @@ const VplBuffer& BandRenderer::vpls() const {
 }
 
 /// Selects VPLs by Russian roulette if the settings ask for it. Returns nothing otherwise: every bundle then
-/// asks about all VPLs.
-std::optional<VplSelection> BandRenderer::select_vpls(const CameraBand& batch) {
+/// asks about all VPLs of its stratum.
+std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const VplStrata& strata) {
     if (!(picture_.settings.roulette > 0.0f)) {
         return std::nullopt;
     }
     if (!stages_.roulette) {
         stages_.roulette.emplace(stages_.device);
     }
-    const uint width = picture_.view.camera.width;
-    return stages_.roulette->select(
-        {.vpls = vpls().buffer(),
-         .vpl_count = vpls().count(),
-         .receivers = buffers_.receivers,
-         .bundles = {static_cast<uint>(packet_count(batch, width)), picture_.plan.run_packets(batch, width)},
-         .clamp_radius = picture_.clamp_radius,
-         .threshold = picture_.settings.roulette,
-         .seed = picture_.seed});
+    return stages_.roulette->select({.vpls = vpls().buffer(),
+                                     .vpl_count = vpls().count(),
+                                     .receivers = buffers_.receivers,
+                                     .packet_count = packets,
+                                     .strata = &strata,
+                                     .clamp_radius = picture_.clamp_radius,
+                                     .threshold = picture_.settings.roulette,
+                                     .seed = picture_.seed});
 }
 
 /// Gathers the light of VPLs for a batch's receivers. Returns false if cancelled.
 bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& progress) {
     const uint width = picture_.view.camera.width;
     const std::size_t packets = packet_count(batch, width);
+    const VplStrata strata(stages_.device, picture_.plan.strata,
+                           picture_.plan.strata_of_bundles(batch, picture_.seed));
     if (picture_.vpls.local) {
-        return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets,
+        return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets, strata,
                                          buffers_.gathered, progress);
     }
-    const std::optional<VplSelection> selection = select_vpls(batch);
+    const std::optional<VplSelection> selection = select_vpls(packets, strata);
     return stages_.gatherer.gather({.tree = scene_.tree,
                                     .vpls = vpls().buffer(),
                                     .vpl_count = vpls().count(),
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
                                     .clamp_radius = picture_.clamp_radius,
+                                    .strata = &strata,
                                     .selection = selection ? &*selection : nullptr,
                                     .curves = scene_.curves_in_use()},
                                    buffers_.gathered, progress);

@@ -72,7 +72,7 @@ class BandRenderer {
     void trace_receivers(std::size_t packets);
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
-    std::optional<VplSelection> select_vpls(const CameraBand& batch);
+    std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
     [[nodiscard]] const VplBuffer& vpls() const;
 
     BandStages& stages_;

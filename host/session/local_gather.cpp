@@ -10,7 +10,8 @@ void LocalGather::set_vpls(const DeviceScene& scene, const VplBuffer& vpls, cons
 }
 
 bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                      std::size_t packet_count, GatherSums<Vpl>& sums, const GatherProgress& progress) {
+                      std::size_t packet_count, const VplStrata& strata, GatherSums<Vpl>& sums,
+                      const GatherProgress& progress) {
     GatherSums<Vpl> part(*device_, packet_count);
     sums.light.fill_zero();
     std::uint64_t pairs_before = 0;
@@ -22,6 +23,7 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
                                                .receivers = receivers,
                                                .packet_count = packet_count,
                                                .clamp_radius = group.radius,
+                                               .strata = &strata,
                                                .curves = scene.curves_in_use()},
                                               part, [&](std::uint64_t done, std::uint64_t) {
                                                   return !progress || progress(pairs_before + done,

@@ -18,10 +18,11 @@ class LocalGather {
     /// Sets the VPLs of a picture, which must be of all depths and in Morton order.
     void set_vpls(const DeviceScene& scene, const VplBuffer& vpls, const LocalLightPlan& plan);
 
-    /// Writes the irradiance of the receivers in the first packet_count packets to sums.light. Returns false
-    /// if cancelled.
+    /// Writes the irradiance of the receivers in the first packet_count packets to sums.light. Bundles ask
+    /// about their strata of the VPLs of each radius. Returns false if cancelled.
     bool run(Gatherer& gatherer, const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-             std::size_t packet_count, GatherSums<Vpl>& sums, const GatherProgress& progress);
+             std::size_t packet_count, const VplStrata& strata, GatherSums<Vpl>& sums,
+             const GatherProgress& progress);
 
     /// The number of local lights that were made since set_vpls().
     [[nodiscard]] std::size_t light_count() const { return light_count_; }

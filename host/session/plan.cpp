@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/base/random.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr std::size_t kBandsPerDevice = 30;
 /// A band on a single device has at least 1/kMinPart of a batch's receivers, which keeps the device busy.
 /// Several devices may get smaller bands.
 constexpr std::size_t kMinPart = 8;
+constexpr uint kStrataStream = 0x57a7a5u;
 
 /// The number of receivers per batch: enough work to keep the device busy, but little enough for memory and
 /// for a smooth progress bar.
@@ -23,10 +26,26 @@ std::size_t receivers_per_batch(const Device& device) {
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
 }
 
-/// The number of samples of a tile that fill a bundle, or all samples if they do not. The samples in a batch
-/// are a multiple of it.
-uint samples_per_bundle(uint samples_per_pixel, uint branch_count) {
-    return std::min(samples_per_pixel, NEARLIGHT_BUNDLE_PACKETS / branch_count);
+/// The number of consecutive samples of a tile that share a bundle. Those of a tile go through the tree
+/// faster together than those of several tiles, but only samples of one stratum can.
+uint samples_per_bundle(const PictureSize& picture) {
+    const uint run = picture.strata == 1 ? picture.samples_per_pixel
+                     : picture.samples_per_pixel % picture.strata == 0
+                         ? picture.samples_per_pixel / picture.strata
+                         : 1;
+    return run % 4 == 0 ? 4 : run % 2 == 0 ? 2 : 1;
+}
+
+/// Sets what a bundle holds: four samples of one tile, two of two tiles or one of four tiles.
+void set_bundles(const PictureSize& picture, RenderPlan& plan) {
+    plan.bundle_samples = samples_per_bundle(picture);
+    const uint tiles = NEARLIGHT_BUNDLE_PACKETS / plan.bundle_samples;
+    plan.bundle_columns = std::min(tiles, 2u);
+    plan.bundle_rows = tiles / plan.bundle_columns;
+}
+
+std::size_t whole_bundles(std::size_t rows, uint bundle_rows) {
+    return std::max<std::size_t>(rows / bundle_rows, 1) * bundle_rows;
 }
 
 }  // namespace
@@ -41,47 +60,61 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
                           .first_sample = sample,
                           .sample_count = std::min(samples_per_batch, samples_per_pixel - sample),
                           .samples_per_pixel = samples_per_pixel,
-                          .branch_count = branch_count});
+                          .branch_count = branch_count,
+                          .bundle_columns = bundle_columns,
+                          .bundle_rows = bundle_rows,
+                          .bundle_samples = bundle_samples});
     }
     return result;
 }
 
-uint RenderPlan::run_packets(const CameraBand& batch, uint width) const {
-    const uint tile_packets = batch.sample_count * branch_count;
-    return samples_per_pixel * branch_count < NEARLIGHT_BUNDLE_PACKETS ? tile_packets * tiles_across(width)
-                                                                       : tile_packets;
+std::vector<uint> RenderPlan::strata_of_bundles(const CameraBand& batch, uint seed) const {
+    const uint first = Pcg32(seed, kStrataStream).next() % strata;
+    std::vector<uint> result;
+    for (uint sample = 0; sample < batch.sample_count; sample += bundle_samples) {
+        const std::uint64_t done = std::uint64_t{batch.first_sample} + sample;
+        const auto turn = static_cast<uint>(done * strata / samples_per_pixel);
+        result.insert(result.end(), branch_count, (first + turn) % strata);
+    }
+    return result;
 }
 
 std::size_t RenderPlan::max_packets(uint width) const {
     return packet_count({.tile_row_count = tile_rows_per_band,
                          .sample_count = samples_per_batch,
-                         .branch_count = branch_count},
+                         .branch_count = branch_count,
+                         .bundle_columns = bundle_columns,
+                         .bundle_rows = bundle_rows,
+                         .bundle_samples = bundle_samples},
                         width);
 }
 
-RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
-                     uint branch_count) {
+RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& picture) {
     std::size_t budget = std::numeric_limits<std::size_t>::max();
     for (const Device* device : devices) {
         budget = std::min(budget, receivers_per_batch(*device));
     }
-    const std::size_t per_row_sample =
-        std::size_t{tiles_across(width)} * NEARLIGHT_PACKET_SIZE * branch_count;
     RenderPlan plan;
-    plan.tile_row_count = tiles_across(height);
-    plan.samples_per_pixel = samples_per_pixel;
-    plan.branch_count = branch_count;
-    const uint bundled = samples_per_bundle(samples_per_pixel, branch_count);
-    const std::size_t fitting = std::max<std::size_t>(budget / per_row_sample / bundled, 1) * bundled;
-    plan.samples_per_batch = static_cast<uint>(std::min<std::size_t>(fitting, samples_per_pixel));
-    plan.tile_rows_per_band = static_cast<uint>(std::clamp<std::size_t>(
-        budget / (per_row_sample * plan.samples_per_batch), 1, std::max(plan.tile_row_count, 1u)));
-    const std::size_t min_rows =
-        devices.size() > 1 ? 1 : budget / kMinPart / (per_row_sample * plan.samples_per_batch) + 1;
+    plan.tile_row_count = tiles_across(picture.height);
+    plan.samples_per_pixel = picture.samples_per_pixel;
+    plan.branch_count = picture.branch_count;
+    plan.strata = picture.strata;
+    set_bundles(picture, plan);
+    const std::size_t columns =
+        (tiles_across(picture.width) + plan.bundle_columns - 1) / plan.bundle_columns * plan.bundle_columns;
+    const std::size_t per_row_sample = columns * NEARLIGHT_PACKET_SIZE * plan.branch_count;
+    const std::size_t fitting =
+        budget / (per_row_sample * plan.bundle_rows) / plan.bundle_samples * plan.bundle_samples;
+    plan.samples_per_batch =
+        static_cast<uint>(std::clamp<std::size_t>(fitting, plan.bundle_samples, plan.samples_per_pixel));
+    const std::size_t per_row = per_row_sample * plan.samples_per_batch;
+    const std::size_t max_rows = std::min<std::size_t>(budget / per_row, std::max(plan.tile_row_count, 1u));
+    const std::size_t min_rows = devices.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
     const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
-    plan.tile_rows_per_band =
-        static_cast<uint>(std::min<std::size_t>(std::max(wanted_rows, min_rows), plan.tile_rows_per_band));
-    plan.tile_rows_in_first = static_cast<uint>(std::min<std::size_t>(min_rows, plan.tile_rows_per_band));
+    plan.tile_rows_per_band = static_cast<uint>(
+        whole_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), plan.bundle_rows));
+    plan.tile_rows_in_first = static_cast<uint>(
+        std::min<std::size_t>(whole_bundles(min_rows, plan.bundle_rows), plan.tile_rows_per_band));
     return plan;
 }
 

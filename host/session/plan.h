@@ -21,6 +21,10 @@ struct RenderPlan {
     uint samples_per_batch = 1;
     uint samples_per_pixel = 1;
     uint branch_count = 1;
+    uint strata = 1;          ///< of the set of VPLs
+    uint bundle_columns = 1;  ///< tiles in a bundle, side by side
+    uint bundle_rows = 1;     ///< tiles in a bundle, one below the other
+    uint bundle_samples = 1;  ///< consecutive samples of each of these tiles in a bundle
 
     [[nodiscard]] uint band_count() const {
         const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
@@ -28,10 +32,10 @@ struct RenderPlan {
     }
     /// The batches of band `index`, in the order to render them.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
-    /// The number of consecutive packets in a batch that Russian roulette may decide about together
-    /// (BundleLayout): those of a tile, whose samples are divided so that bundles stay whole, or, if a tile's
-    /// packets do not fill a bundle, those of a row of tiles.
-    [[nodiscard]] uint run_packets(const CameraBand& batch, uint width) const;
+    /// The strata of the first bundles of a batch, which repeat after these (VplStrata). A pixel's samples
+    /// take one stratum after another, in runs of equal length if the number of samples allows it; `seed`
+    /// decides the first of them.
+    [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBand& batch, uint seed) const;
     /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets(uint width) const;
 };
@@ -40,9 +44,17 @@ struct RenderPlan {
 inline constexpr std::size_t kBytesPerReceiver =
     (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
 
+/// What a plan divides.
+struct PictureSize {
+    uint width = 0;
+    uint height = 0;
+    uint samples_per_pixel = 1;
+    uint branch_count = 1;
+    uint strata = 1;
+};
+
 /// Makes one plan for all devices. Its batches fit each device, and there are enough bands for faster devices
-/// to take more.
-RenderPlan make_plan(std::span<const Device* const> devices, uint width, uint height, uint samples_per_pixel,
-                     uint branch_count);
+/// to take more. Bands and batches are cut so that all bundles are whole and the same for every plan.
+RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& picture);
 
 }  // namespace nearlight::core

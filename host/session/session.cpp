@@ -132,8 +132,12 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
                               const RowSink& sink, const GatherFraction& progress) {
     const Camera& camera = view.camera;
-    const RenderPlan plan = make_plan(pool_.plain_devices(), camera.width, camera.height,
-                                      settings.samples_per_pixel, pool_.leader().scene.divides_paths ? 2 : 1);
+    const RenderPlan plan =
+        make_plan(pool_.plain_devices(), {.width = camera.width,
+                                          .height = camera.height,
+                                          .samples_per_pixel = settings.samples_per_pixel,
+                                          .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
+                                          .strata = settings.strata_or_auto()});
     const Picture picture{.view = view,
                           .settings = settings,
                           .clamp_radius = clamp_radius_of(view, vpls, settings.compensate),

@@ -4,6 +4,7 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
+#include "kernels/shared/packet_order.h"
 
 namespace nearlight::core {
 
@@ -15,6 +16,9 @@ struct CameraBand {
     uint sample_count = 1;
     uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
     uint branch_count = 1;       ///< 2 if camera paths may divide, else 1
+    uint bundle_columns = 1;     ///< tiles that stand together in the order of packets, side by side
+    uint bundle_rows = 1;        ///< and one below the other
+    uint bundle_samples = 1;     ///< consecutive samples that stand together; divides sample_count
     uint max_depth = 8;          ///< maximum number of edges of a path from the camera to a light
     /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
     /// part; at least 1.
@@ -23,7 +27,10 @@ struct CameraBand {
     float min_weight = 0.0f;
 };
 
-/// The number of receiver packets in a band: tiles × samples × branches.
+/// The order of the receiver packets of a band.
+PacketOrder packet_order(const CameraBand& band, uint image_width);
+/// The number of receiver packets in a band: tiles × samples × branches, with tiles filled up to whole
+/// bundles.
 std::size_t packet_count(const CameraBand& band, uint image_width);
 
 class CameraPass {
@@ -31,7 +38,7 @@ class CameraPass {
     explicit CameraPass(Device& device);
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
-    /// kernels/camera_pass.cl states.
+    /// kernels/shared/packet_order.h states.
     void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);

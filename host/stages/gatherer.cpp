@@ -72,7 +72,8 @@ Gatherer::Gatherer(Device& device, const GatherConfig& config)
       launch_pairs_(std::clamp(static_cast<double>(config_.first_launch_pairs), 1.0, kMaxLaunchPairs)),
       params_(device, 1),
       next_beam_(device, 1),
-      no_numbers_(device, 0) {
+      no_numbers_(device, 0),
+      whole_set_(device) {
     kernel_of(false, false);
 }
 
@@ -107,7 +108,7 @@ Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part&
     const std::uint64_t chunk = chunk_of(input);
     const std::uint64_t chunk_pairs = chunk * kBundleSize;
     Part part = done;
-    if (done.end_vpl >= input.vpl_count) {
+    if (done.end_vpl >= input.asked_count()) {
         const std::size_t bundles =
             std::clamp<std::uint64_t>(pair_budget / chunk_pairs, 1, device_->tunables().launch_bundles);
         part.first_bundle = done.end_bundle;
@@ -117,19 +118,19 @@ Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part&
     const std::uint64_t chunks = pair_budget / (chunk_pairs * (part.end_bundle - part.first_bundle));
     part.first_vpl = part.end_vpl;
     part.end_vpl = std::min<std::uint64_t>(
-        input.vpl_count, part.first_vpl + chunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
+        input.asked_count(), part.first_vpl + chunk * std::clamp<std::uint64_t>(chunks, 1, 1u << 20u));
     return part;
 }
 
-/// Launches the kernel for one part. If `lists` is null, all bundles ask about all VPLs.
+/// Launches the kernel for one part. If `lists` is null, all bundles ask about all VPLs of their strata.
 template <typename Source, typename... More>
 void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Part& part,
                       const VplLists* lists, GatherSums<Source>& sums, const More&... more) {
     const BundleLayout layout = input.bundles();
     const GatherParams params{.first_vpl = static_cast<uint>(part.first_vpl),
                               .end_vpl = static_cast<uint>(part.end_vpl),
+                              .vpl_count = static_cast<uint>(input.vpl_count),
                               .packet_count = layout.packet_count,
-                              .run_packets = layout.run_packets,
                               .first_bundle = static_cast<uint>(part.first_bundle),
                               .end_bundle = static_cast<uint>(part.end_bundle),
                               .clamp_radius_squared = input.clamp_radius * input.clamp_radius,
@@ -137,11 +138,11 @@ void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Pa
                               .has_thresholds = input.thresholds != nullptr ? 1u : 0u,
                               .first_listed_bundle = lists != nullptr ? lists->first_bundle : 0,
                               .list_stride = lists != nullptr ? lists->stride : 0,
-                              .recorded_vpls = static_cast<uint>(input.vpl_count),
                               .has_curves = input.curves != nullptr ? 1u : 0u,
+                              .strata = strata_of(input).count,
+                              .stratum_period = strata_of(input).period,
                               .pad0 = 0,
-                              .pad1 = 0,
-                              .pad2 = 0};
+                              .pad1 = 0};
     params_.upload(std::span(&params, 1));
     if (lists != nullptr) {
         launch_with(kernel, input, part, sums, lists->vpls, lists->weights, lists->lengths, more...);
@@ -158,7 +159,7 @@ void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, con
                                const auto& triangles, const auto&... rest) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, input.receivers, params_,
                       input.thresholds != nullptr ? *input.thresholds : no_numbers_,
-                      input.curves != nullptr ? *input.curves : no_numbers_,
+                      input.curves != nullptr ? *input.curves : no_numbers_, strata_of(input).of_bundles,
                       input.group_size == 0 ? sums.light : sums.squares, sums.groups, rest...);
     };
     if (config_.kernel == GatherKernel::rays) {
@@ -177,9 +178,9 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, 
                               Course& course) {
     Part part;
     part.end_bundle = first_bundle;
-    part.end_vpl = input.vpl_count;
+    part.end_vpl = input.asked_count();
     device_->finish();  // what was sent before must not count as time of the first launch
-    while (part.end_bundle < end_bundle || part.end_vpl < input.vpl_count) {
+    while (part.end_bundle < end_bundle || part.end_vpl < input.asked_count()) {
         part = next_part(input, part, end_bundle, static_cast<std::uint64_t>(course.budget));
         const Stopwatch watch;
         launch(kernel, input, part, lists, sums);
@@ -204,8 +205,9 @@ bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, co
     if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
         throw Error(ErrorKind::failure, "gather_packets needs a wide tree: upload the tree for that kernel");
     }
-    if (input.selection != nullptr && input.group_size != 0) {
-        throw Error(ErrorKind::invalid_argument, "a gather that sums by groups takes no selection of VPLs");
+    if ((input.selection != nullptr || input.strata != nullptr) && input.group_size != 0) {
+        throw Error(ErrorKind::invalid_argument,
+                    "a gather that sums by groups takes neither strata nor a selection of VPLs");
     }
     const std::size_t bundle_count = input.bundles().bundle_count();
     Kernel& kernel = kernel_of(input.selection != nullptr, recording);
@@ -224,7 +226,7 @@ bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, co
 template <typename Source>
 bool Gatherer::gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                       const GatherProgress& progress) {
-    Course course{progress, std::uint64_t{input.packet_count} * input.vpl_count * NEARLIGHT_PACKET_SIZE,
+    Course course{progress, std::uint64_t{input.packet_count} * input.asked_count() * NEARLIGHT_PACKET_SIZE,
                   launch_pairs_};
     const bool whole = for_each_run(
         input, false, [&](Kernel& kernel, std::size_t first, std::size_t end, const VplLists* lists) {
@@ -243,7 +245,7 @@ std::vector<GatherPair> Gatherer::gather_recorded(const GatherInput<Vpl>& input,
     Buffer<std::uint8_t> record(*device_, pairs);
     record.fill_zero();
     for_each_run(input, true, [&](Kernel& kernel, std::size_t first, std::size_t end, const VplLists* lists) {
-        launch(kernel, input, {first, end, 0, input.vpl_count}, lists, sums, record);
+        launch(kernel, input, {first, end, 0, input.asked_count()}, lists, sums, record);
         return true;
     });
     std::vector<GatherPair> result(pairs);

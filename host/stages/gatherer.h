@@ -14,6 +14,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_tree.h"
 #include "host/stages/vpl_selection.h"
+#include "host/stages/vpl_strata.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -50,7 +51,10 @@ struct GatherInput {
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
-    /// The VPLs that each bundle asks about; null means all of them. Cannot be combined with groups.
+    /// The strata that bundles ask about; null means the whole set. Cannot be combined with groups.
+    const VplStrata* strata = nullptr;
+    /// The VPLs of its stratum that each bundle asks about; null means all of them. Cannot be combined with
+    /// groups.
     const VplSelection* selection = nullptr;
     /// The number of consecutive VPLs in each group that is summed by itself; 0 makes one sum over all VPLs.
     uint group_size = 0;
@@ -64,11 +68,13 @@ struct GatherInput {
     [[nodiscard]] std::size_t group_count() const {
         return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
     }
-    /// The packets that are gathered together. Without a selection, the result does not depend on it.
-    [[nodiscard]] BundleLayout bundles() const {
-        const auto count = static_cast<uint>(packet_count);
-        return selection != nullptr ? selection->bundles : BundleLayout{count, std::max(count, 1u)};
+    /// The maximum number of VPLs that a bundle asks about.
+    [[nodiscard]] std::size_t asked_count() const {
+        return strata != nullptr ? strata->max_size(vpl_count) : vpl_count;
     }
+    /// The packets that are gathered together. Without strata and selection, the result does not depend on
+    /// it.
+    [[nodiscard]] BundleLayout bundles() const { return {static_cast<uint>(packet_count)}; }
 };
 
 /// The result of a gather of VPLs or importons, in packets of 64 receivers.
@@ -94,7 +100,7 @@ using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t tota
 /// What became of one (receiver, VPL) pair.
 enum class GatherPair : std::uint8_t {
     /// No ray was traced: a cosine is not positive (that of an absent receiver is 0), a value is not finite,
-    /// the VPL is not in the bundle's list, or its light is below the threshold.
+    /// the VPL is not in the bundle's stratum or list, or its light is below the threshold.
     culled = 0,
     visible = 1,
     occluded = 2,
@@ -107,11 +113,12 @@ class Gatherer {
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
     /// light[p] = Σ_i power_i/π · T·T·max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
-    /// vpl_count), for each packet p of [0, packet_count). Sums are formed in a fixed order, so their bits
+    /// vpl_count), for each packet p of [0, packet_count). With strata, the sum is over the stratum of the
+    /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits
     /// depend neither on the division into launches nor on the number of threads. Pairs that contain NaN or
     /// infinity contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums
-    /// then cover only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with a
-    /// selection.
+    /// then cover only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with
+    /// strata or a selection.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});
@@ -131,6 +138,10 @@ class Gatherer {
     template <typename Source>
     [[nodiscard]] Part next_part(const GatherInput<Source>& input, const Part& done, std::size_t end_bundle,
                                  std::uint64_t pair_budget) const;
+    template <typename Source>
+    [[nodiscard]] const VplStrata& strata_of(const GatherInput<Source>& input) const {
+        return input.strata != nullptr ? *input.strata : whole_set_;
+    }
     template <typename Source, typename... More>
     void launch(Kernel& kernel, const GatherInput<Source>& input, const Part& part, const VplLists* lists,
                 GatherSums<Source>& sums, const More&... more);
@@ -150,6 +161,7 @@ class Gatherer {
     Buffer<GatherParams> params_;  ///< parameters of a launch
     Buffer<uint> next_beam_;       ///< the queue of one launch of gather_packets: a single counter
     Buffer<float> no_numbers_;     ///< in place of thresholds or curves
+    VplStrata whole_set_;          ///< in place of strata
     // All kernels but the plain one are made when they are first needed. Their order is: plain, recording,
     // with lists, recording with lists.
     std::array<std::optional<Kernel>, 4> kernels_;

@@ -21,11 +21,11 @@ Roulette::Roulette(Device& device)
     : device_(&device),
       program_(device, "roulette.cl"),
       bounds_kernel_(program_, "roulette_bounds"),
-      choose_kernel_(program_, "roulette_choose") {}
+      choose_kernel_(program_, "roulette_choose"),
+      whole_set_(device) {}
 
 VplSelection Roulette::select(const RouletteTask& task) {
-    return {.bundles = task.bundles,
-            .max_bundles = max_bundles(task.vpl_count),
+    return {.max_bundles = max_bundles(strata_of(task).max_size(task.vpl_count)),
             .lists = [this, task](std::size_t first_bundle, std::size_t end_bundle) -> const VplLists& {
                 return choose(task, first_bundle, end_bundle);
             }};
@@ -33,24 +33,27 @@ VplSelection Roulette::select(const RouletteTask& task) {
 
 const VplLists& Roulette::choose(const RouletteTask& task, std::size_t first_bundle, std::size_t end_bundle) {
     const std::size_t bundles = end_bundle - first_bundle;
-    const std::size_t entries = bundles * task.vpl_count;
+    const VplStrata& strata = strata_of(task);
+    const auto stride = static_cast<uint>(strata.max_size(task.vpl_count));
+    const std::size_t entries = bundles * stride;
     if (bounds_.count() < entries || lists_.lengths.count() < bundles) {
         bounds_ = Buffer<float>(*device_, entries);
         lists_.vpls = Buffer<uint>(*device_, entries);
         lists_.weights = Buffer<float>(*device_, entries);
         lists_.lengths = Buffer<uint>(*device_, bundles);
     }
-    const BundleLayout& layout = task.bundles;
-    const auto vpl_count = lists_.stride = static_cast<uint>(task.vpl_count);
+    const auto vpl_count = static_cast<uint>(task.vpl_count);
+    const auto packet_count = static_cast<uint>(task.packet_count);
+    lists_.stride = stride;
     const auto first = lists_.first_bundle = static_cast<uint>(first_bundle);
     const auto end = static_cast<uint>(end_bundle);
     const uint run = device_->tunables().roulette_run;
-    bounds_kernel_.launch_items(bundles * ((task.vpl_count + run - 1) / run), task.vpls, vpl_count, run,
-                                task.receivers, layout.packet_count, layout.run_packets, first, end,
-                                task.clamp_radius * task.clamp_radius, bounds_);
-    choose_kernel_.launch_items(bundles, bounds_, vpl_count, task.receivers, layout.packet_count,
-                                layout.run_packets, first, end, task.threshold, task.seed, lists_.vpls,
-                                lists_.weights, lists_.lengths);
+    bounds_kernel_.launch_items(bundles * ((stride + run - 1) / run), task.vpls, vpl_count, strata.count,
+                                strata.of_bundles, strata.period, stride, run, task.receivers, packet_count,
+                                first, end, task.clamp_radius * task.clamp_radius, bounds_);
+    choose_kernel_.launch_items(bundles, bounds_, vpl_count, strata.count, strata.of_bundles, strata.period,
+                                stride, task.receivers, packet_count, first, end, task.threshold, task.seed,
+                                lists_.vpls, lists_.weights, lists_.lengths);
     return lists_;
 }
 

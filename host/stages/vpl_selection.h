@@ -23,7 +23,6 @@ struct VplLists {
 };
 
 struct VplSelection {
-    BundleLayout bundles;         ///< the division of the receivers into bundles
     std::size_t max_bundles = 1;  ///< maximum number of bundles in a call of `lists`
     /// Returns the lists of bundles [first_bundle, end_bundle), at most max_bundles of them. They are valid
     /// until the next call.

@@ -62,7 +62,12 @@ struct SamplingSettings {
 
 /// How to make pixels from VPLs and emitters.
 struct GatherSettings {
-    std::uint32_t samples_per_pixel = 4;
+    std::uint32_t samples_per_pixel = 16;
+    /// The number of strata into which the set of VPLs is divided. The samples of a pixel take turns: each
+    /// asks about the VPLs of one stratum, which then count for the whole set, so that `vpl_count` is what
+    /// the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes as many strata as
+    /// there are samples.
+    std::optional<std::uint32_t> strata{};
     std::uint32_t direct_samples_per_pixel = 64;  ///< samples towards area lights and the environment
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
     /// other ways than Lambertian. Without them, the picture lacks that light.
@@ -72,6 +77,8 @@ struct GatherSettings {
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;
+
+    [[nodiscard]] std::uint32_t strata_or_auto() const { return strata.value_or(samples_per_pixel); }
 };
 
 /// How to make a picture: a view, VPLs for it and a gather, in one pass or several.

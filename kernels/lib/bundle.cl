@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which packets form a bundle: those that are gathered together and that, with Russian roulette, ask about
-// the same VPLs. host/base/receiver_bundles.h does the same on the host, and says why.
+// Which packets form a bundle: those that are gathered together and that ask about the same VPLs.
+// host/base/receiver_bundles.h does the same on the host.
 #ifndef NEARLIGHT_LIB_BUNDLE
 #define NEARLIGHT_LIB_BUNDLE
 
@@ -11,15 +11,32 @@ typedef struct Bundle {
     uint first, count;
 } Bundle;
 
-/// The bundle with the number `index`, of packets that come in runs of `run_packets`. The last run may be
-/// incomplete.
-inline Bundle bundle_at(uint index, uint packet_count, uint run_packets) {
-    const uint run_bundles = (run_packets + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;
-    const uint offset = index % run_bundles * NEARLIGHT_BUNDLE_PACKETS;
-    const uint first = index / run_bundles * run_packets + offset;
+/// The bundle with the number `index`. The last one may be incomplete.
+inline Bundle bundle_at(uint index, uint packet_count) {
+    const uint first = index * NEARLIGHT_BUNDLE_PACKETS;
     const uint there = first < packet_count ? packet_count - first : 0;
-    const Bundle bundle = {first, min(min(run_packets - offset, there), (uint)NEARLIGHT_BUNDLE_PACKETS)};
+    const Bundle bundle = {first, min(there, (uint)NEARLIGHT_BUNDLE_PACKETS)};
     return bundle;
+}
+
+/// The VPLs that a bundle may ask about: every `step`-th of the set from `first` on, `count` in all. Each of
+/// them counts `step` times, so that every stratum has the expectation of the whole set.
+typedef struct Stratum {
+    uint first, step, count;
+} Stratum;
+
+/// The stratum of a bundle. `strata` has the strata of the bundles 0 to period − 1, which repeat; it is not
+/// read if there is only one.
+inline Stratum stratum_of(uint bundle, uint vpl_count, uint stratum_count, const global uint* strata,
+                          uint period) {
+    const uint first = stratum_count > 1 ? strata[bundle % period] : 0;
+    const Stratum stratum = {first, stratum_count,
+                             first < vpl_count ? (vpl_count - first - 1) / stratum_count + 1 : 0};
+    return stratum;
+}
+
+inline uint vpl_of_stratum(const Stratum* stratum, uint k) {
+    return stratum->first + k * stratum->step;
 }
 
 #endif

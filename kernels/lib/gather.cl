@@ -26,25 +26,29 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #define GATHER_RECORD_PARAMETERS
 #endif
 
-// With GATHER_LISTS defined, each bundle of packets asks about a list of VPLs instead of all of them
+// With GATHER_LISTS defined, each bundle of packets asks about a list of VPLs instead of all of its stratum
 // (host/stages/vpl_selection.h). The argument `k` of these macros is a place in that list, or without lists
-// the index of a VPL.
+// in the stratum.
 #ifdef GATHER_LISTS
 #define GATHER_LIST_PARAMETERS \
     , const global uint *listed_vpls, const global float *list_weights, const global uint *list_lengths
 inline size_t gather_list(uint bundle, const GatherParams* params) {
     return (size_t)(bundle - params->first_listed_bundle) * params->list_stride;
 }
-#define GATHER_END(bundle, params) \
-    min((params)->end_vpl, list_lengths[(bundle) - (params)->first_listed_bundle])
-#define GATHER_VPL(bundle, params, k) listed_vpls[gather_list(bundle, params) + (k)]
-#define GATHER_WEIGHT(bundle, params, k) list_weights[gather_list(bundle, params) + (k)]
+#define GATHER_COUNT(bundle, params, stratum) \
+    ((void)(stratum), list_lengths[(bundle) - (params)->first_listed_bundle])
+#define GATHER_VPL(bundle, params, stratum, k) listed_vpls[gather_list(bundle, params) + (k)]
+#define GATHER_WEIGHT(bundle, params, stratum, k) list_weights[gather_list(bundle, params) + (k)]
 #else
 #define GATHER_LIST_PARAMETERS
-#define GATHER_END(bundle, params) ((params)->end_vpl)
-#define GATHER_VPL(bundle, params, k) (k)
-#define GATHER_WEIGHT(bundle, params, k) 1.0f
+#define GATHER_COUNT(bundle, params, stratum) ((stratum)->count)
+#define GATHER_VPL(bundle, params, stratum, k) vpl_of_stratum(stratum, k)
+#define GATHER_WEIGHT(bundle, params, stratum, k) ((float)(stratum)->step)
 #endif
+
+inline Stratum gather_stratum(uint bundle, const GatherParams* params, const global uint* strata) {
+    return stratum_of(bundle, params->vpl_count, params->strata, strata, params->stratum_period);
+}
 
 /// The number of VPLs that are summed by themselves: `group_size`, or GATHER_CHUNK where that is 0.
 inline uint gather_chunk_size(uint group_size) {

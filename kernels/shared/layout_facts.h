@@ -7,7 +7,7 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include bsdf_query.h, types.h and film_layers.h.
+/// place where it expands must include bsdf_query.h, film_layers.h, packet_order.h and types.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -67,6 +67,9 @@
     SIZE(GatherParams)                              \
     OFFSET(GatherParams, group_size)                \
     OFFSET(GatherParams, has_curves)                \
+    OFFSET(GatherParams, stratum_period)            \
+    SIZE(PacketOrder)                               \
+    OFFSET(PacketOrder, bundle_samples)             \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, filter_weight)             \
     OFFSET(CameraVertex, traced)                    \

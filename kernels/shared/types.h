@@ -278,18 +278,19 @@ typedef struct ImportancePacket {
 /// One launch of a gather (gather_packets.cl, gather_rays.cl): which receivers ask about which VPLs or
 /// importons, and what is summed.
 typedef struct GatherParams {
-    uint first_vpl, end_vpl;        // range of VPLs in the set, or in each bundle's list
+    uint first_vpl, end_vpl;        // range of VPLs in each bundle's stratum, or in its list
+    uint vpl_count;                 // VPLs of the whole set
     uint packet_count;              // packets of receivers
-    uint run_packets;               // packets of a run, from which bundles are formed (lib/bundle.cl)
     uint first_bundle, end_bundle;  // range of bundles of this launch
     float clamp_radius_squared;     // square of the clamp radius, m²
     uint group_size;                // VPLs that are summed by themselves; 0: all VPLs make one sum
     uint has_thresholds;            // 1: pairs below the threshold of their receiver are left out
     uint first_listed_bundle;       // first bundle with a list, where bundles have lists of VPLs
     uint list_stride;               // entries from one bundle's list to the next
-    uint recorded_vpls;             // VPLs for each packet of the record, where there is one
     uint has_curves;                // 1: some surface has a transmission curve
-    uint pad0, pad1, pad2;
+    uint strata;                    // strata of the set; 1: every bundle asks about the whole set
+    uint stratum_period;            // bundles after which their strata repeat
+    uint pad0, pad1;
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends

@@ -2,7 +2,7 @@
 // The same seed gives the same bits, however the picture is cut into bands and batches.
 #include <gtest/gtest.h>
 
-#include <utility>
+#include <tuple>
 
 #include "host/scene/material_model.h"
 #include "host/session/plan.h"
@@ -49,19 +49,23 @@ class Determinism : public test::DeviceTest {};
 TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
     on_each_device([](Device& device) {
         // These are the samplers whose work on the picture differs; close-range sampling also runs with
-        // roulette.
-        for (const auto& [sampler, roulette] :
-             {std::pair{SamplerKind::close_range, 0.0f}, std::pair{SamplerKind::close_range, 2.0f},
-              std::pair{SamplerKind::local, 0.0f}}) {
+        // roulette, and with strata that samples take turns to ask about, or not.
+        for (const auto& [sampler, roulette, strata] : {std::tuple{SamplerKind::close_range, 0.0f, 6u},
+                                                        {SamplerKind::close_range, 0.0f, 1u},
+                                                        {SamplerKind::close_range, 2.0f, 3u},
+                                                        {SamplerKind::close_range, 2.0f, 6u},
+                                                        {SamplerKind::local, 0.0f, 6u}}) {
             RenderSettings settings = terrace_settings(1, sampler);
             settings.gather.roulette = roulette;
+            settings.gather.strata = strata;
             const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
             for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
                 DeviceEntry entry = device.entry();
                 entry.max_allocation_bytes = largest;  // 60 000 receivers do not fit: the picture is cut
                 Device small(entry, device.options());
                 EXPECT_EQ(test::render_image(small, terrace(), settings).report.image_hash, whole)
-                    << to_string(sampler) << ", roulette " << roulette << ", " << largest;
+                    << to_string(sampler) << ", roulette " << roulette << ", " << strata << " strata, "
+                    << largest;
             }
         }
     });
@@ -87,7 +91,8 @@ TEST_F(Determinism, PlansAreReallyCut) {
         DeviceEntry entry = device.entry();
         entry.max_allocation_bytes = std::size_t{5} << 17u;
         const Device small(entry, device.options());
-        const RenderPlan plan = make_plan(std::vector{&small}, 100, 60, 6, 2);
+        const RenderPlan plan = make_plan(
+            std::vector{&small}, {.width = 100, .height = 60, .samples_per_pixel = 6, .branch_count = 2});
         EXPECT_TRUE(plan.band_count() > 1 || plan.batches(0).size() > 1);
     });
 }

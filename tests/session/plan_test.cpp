@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "tests/support/device_fixture.h"
@@ -33,8 +37,12 @@ TEST_F(PlanTest, EveryRowHasEverySampleOnce) {
         for (const uint height : {1u, 8u, 9u, 60u, 480u, 1081u, 5000u}) {
             for (const uint samples : {1u, 3u, 64u, 1000u}) {
                 SCOPED_TRACE(testing::Message() << height << " rows, " << samples << " samples");
-                expect_all_once(make_plan(std::vector{&device}, 640, height, samples, 2));
-                expect_all_once(make_plan(std::vector{&device, &device}, 33, height, samples, 1));
+                for (const uint strata : {1u, 3u, samples}) {
+                    const PictureSize wide{640, height, samples, 2, strata};
+                    const PictureSize narrow{33, height, samples, 1, strata};
+                    expect_all_once(make_plan(std::vector{&device}, wide));
+                    expect_all_once(make_plan(std::vector{&device, &device}, narrow));
+                }
             }
         }
     });
@@ -42,11 +50,58 @@ TEST_F(PlanTest, EveryRowHasEverySampleOnce) {
 
 TEST_F(PlanTest, FirstBandIsShort) {
     on_each_device([](Device& device) {
-        const RenderPlan plan = make_plan(std::vector{&device}, 640, 480, 4, 2);
+        const RenderPlan plan = make_plan(std::vector{&device}, {640, 480, 4, 2, 1});
         EXPECT_EQ(plan.batches(1).front().first_tile_row, plan.batches(0).front().tile_row_count);
         if (device.is_cpu()) {  // other devices may need all rows for full load
             EXPECT_EQ(plan.batches(0).front().tile_row_count, 1u);
             EXPECT_GT(plan.batches(1).front().tile_row_count, 1u);
+        }
+    });
+}
+
+/// How often each stratum is asked about by the samples of a pixel, over all batches of the first band.
+std::vector<uint> times_asked(const RenderPlan& plan, uint seed) {
+    std::vector<uint> times(plan.strata);
+    for (const CameraBand& batch : plan.batches(0)) {
+        for (const uint stratum : plan.strata_of_bundles(batch, seed)) {
+            times.at(stratum) += plan.bundle_samples;
+        }
+    }
+    return times;
+}
+
+TEST_F(PlanTest, SamplesShareStrataEvenly) {
+    on_each_device([](Device& device) {
+        for (const auto& [samples, strata] :
+             {std::pair{1u, 1u}, {16u, 1u}, {16u, 2u}, {16u, 4u}, {16u, 16u}, {1024u, 64u}, {6u, 3u}}) {
+            for (const uint branches : {1u, 2u}) {
+                const RenderPlan plan =
+                    make_plan(std::vector{&device}, {640, 480, samples, branches, strata});
+                EXPECT_EQ(times_asked(plan, 3), std::vector<uint>(strata, branches * samples / strata))
+                    << samples << " samples, " << strata << " strata";
+                EXPECT_EQ(plan.bundle_samples * plan.bundle_columns * plan.bundle_rows,
+                          uint{NEARLIGHT_BUNDLE_PACKETS});
+            }
+        }
+    });
+}
+
+// Where samples cannot share the strata evenly, chance makes up for it: over many seeds, each stratum is
+// asked about equally often.
+TEST_F(PlanTest, SeedsShareStrataEvenly) {
+    constexpr uint kPictures = 4000;
+    on_each_device([](Device& device) {
+        for (const auto& [samples, strata] : {std::pair{1u, 4u}, {6u, 4u}, {5u, 16u}}) {
+            const RenderPlan plan = make_plan(std::vector{&device}, {64, 48, samples, 1, strata});
+            std::vector<double> times(strata);
+            for (uint seed = 0; seed < kPictures; ++seed) {
+                const std::vector<uint> asked = times_asked(plan, seed);
+                std::ranges::transform(asked, times, times.begin(), std::plus<double>());
+            }
+            const double expected = double{kPictures} * samples / strata;
+            for (const double count : times) {
+                EXPECT_NEAR(count, expected, 5 * std::sqrt(expected));
+            }
         }
     });
 }

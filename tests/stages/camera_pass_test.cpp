@@ -147,7 +147,7 @@ TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
     });
 }
 
-/// Rows and samples may be divided in any way.
+/// Rows and samples may be divided in any way, and stored in any order.
 TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
     Scene scene = open_room();
     scene.materials[0] = coated(scene, {0.5f, 0.5f, 0.5f}, {.alpha = 0.2});
@@ -155,21 +155,21 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
     on_each_ray_tree([&](Device& device) {
         Shooting shooting(device, scene, 37, 29);
         constexpr uint kSamples = 6;
-        const uint tiles_x = 5;
         const GBuffer whole = shooting.shoot_all(kSamples, 2);
-        for (const auto& [first_row, rows, first_sample, samples] :
-             {std::array<uint, 4>{0, 4, 0, 6}, {1, 2, 0, 6}, {3, 1, 2, 3}, {0, 4, 5, 1}}) {
-            const GBuffer part = shooting.shoot({.first_tile_row = first_row,
-                                                 .tile_row_count = rows,
-                                                 .first_sample = first_sample,
-                                                 .sample_count = samples,
-                                                 .samples_per_pixel = kSamples,
-                                                 .branch_count = 2,
-                                                 .max_depth = kManyEdges});
-            for (std::size_t p = 0; p < part.receivers.size(); ++p) {
-                const std::size_t tile = p / (2 * samples) + first_row * tiles_x;
-                const std::size_t sample = p / 2 % samples + first_sample;
-                const std::size_t same = (tile * kSamples + sample) * 2 + p % 2;
+        const PacketOrder order{5, kSamples, 2, 1, 1, 1};
+        for (const auto& [row, rows, sample, samples, bundle_columns, bundle_rows, together] :
+             {std::array<uint, 7>{0, 4, 0, 6, 1, 1, 1},
+              {1, 2, 0, 6, 2, 1, 2},
+              {3, 1, 2, 3, 1, 1, 3},
+              {2, 2, 1, 4, 2, 2, 1},
+              {0, 3, 5, 1, 2, 2, 1}}) {
+            const CameraBand band{row, rows,           sample,      samples,  kSamples,
+                                  2,   bundle_columns, bundle_rows, together, kManyEdges};
+            const GBuffer part = shooting.shoot(band);
+            for (uint i = 0; i < 5 * rows * samples * 2; ++i) {
+                const uint x = i / 2 / samples % 5, y = i / 2 / samples / 5, s = i / 2 % samples;
+                const uint p = packet_at(packet_order(band, 37), x, y, s, i % 2);
+                const uint same = packet_at(order, x, y + row, s + sample, i % 2);
                 ASSERT_EQ(std::memcmp(&part.receivers[p], &whole.receivers[same], sizeof(ReceiverPacket)), 0);
                 ASSERT_EQ(std::memcmp(&part.vertices[p * NEARLIGHT_PACKET_SIZE],
                                       &whole.vertices[same * NEARLIGHT_PACKET_SIZE],

@@ -68,7 +68,7 @@ class RouletteTest : public DeviceTest {
             const VplSelection selection = roulette.select({.vpls = vpls,
                                                             .vpl_count = data.vpls.size(),
                                                             .receivers = receivers,
-                                                            .bundles = layout,
+                                                            .packet_count = data.receivers.size(),
                                                             .clamp_radius = data.clamp_radius,
                                                             .threshold = kThreshold,
                                                             .seed = seed});
@@ -90,8 +90,8 @@ class RouletteTest : public DeviceTest {
 };
 
 TEST_F(RouletteTest, ChoosesInProportionToTheBound) {
-    const GatherCase data = room_of_boxes(40, 300, 20, 21);
-    const BundleLayout layout{20, 5};  // bundles of 4 and of 1
+    const GatherCase data = room_of_boxes(40, 300, 31, 21);
+    const BundleLayout layout{31};  // the last bundle has 3 packets
     ASSERT_EQ(layout.bundle_count(), 8u);
     on_each_device([&](Device& device) {
         const Choices choices = choose_often(device, data, layout);
@@ -173,43 +173,6 @@ TEST_F(RouletteTest, SameBitsForAnyDivision) {
             EXPECT_TRUE(same_bits(whole, Uploaded(device, data).gather(step_by_step, kThreshold, 5)));
             whole.erase(whole.begin(), whole.end() - 2);
             EXPECT_TRUE(same_bits(whole, Uploaded(device, last).gather(gatherer, kThreshold, 5)));
-        }
-    });
-}
-
-std::vector<IrradiancePacket> gather_runs(Device& device, Gatherer& gatherer, const GatherCase& data,
-                                          std::span<const ReceiverPacket> packets, uint run_packets) {
-    GatherCase part = data;
-    part.receivers.assign(packets.begin(), packets.end());
-    return Uploaded(device, part).gather(gatherer, kThreshold, 0, run_packets);
-}
-
-// The layout is cut as a picture's plan cuts it: between tiles, and within tiles after whole bundles of
-// samples.
-TEST_F(RouletteTest, SameBitsForAnyBandAndBatch) {
-    constexpr uint kRun = 6;
-    constexpr uint kFirstBatch = NEARLIGHT_BUNDLE_PACKETS;
-    const GatherCase data = room_of_boxes(40, 300, 6 * kRun, 23);
-    const std::span<const ReceiverPacket> packets(data.receivers);
-    on_each_device([&](Device& device) {
-        Gatherer gatherer(device);
-        const auto whole = gather_runs(device, gatherer, data, packets, kRun);
-        auto bands = gather_runs(device, gatherer, data, packets.first(kRun), kRun);
-        const auto rest = gather_runs(device, gatherer, data, packets.subspan(kRun), kRun);
-        bands.insert(bands.end(), rest.begin(), rest.end());
-        EXPECT_TRUE(same_bits(bands, whole));
-        EXPECT_FALSE(same_bits(gather_runs(device, gatherer, data, packets, 0), whole));
-        for (const bool first : {true, false}) {
-            std::vector<ReceiverPacket> batch;
-            std::vector<IrradiancePacket> expected;
-            for (std::size_t i = 0; i < packets.size(); ++i) {
-                if ((i % kRun < kFirstBatch) == first) {
-                    batch.push_back(packets[i]);
-                    expected.push_back(whole[i]);
-                }
-            }
-            const uint run = first ? kFirstBatch : kRun - kFirstBatch;
-            EXPECT_TRUE(same_bits(gather_runs(device, gatherer, data, batch, run), expected));
         }
     });
 }

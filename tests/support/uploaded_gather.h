@@ -37,22 +37,29 @@ class Uploaded {
         EXPECT_TRUE(gatherer.gather(input(), sums_));
         return sums_.light.download();
     }
-    /// The light of the VPLs that the roulette chooses. Bundles are formed within runs of `run_packets`
-    /// packets; 0: within all packets.
-    std::vector<IrradiancePacket> gather(Gatherer& gatherer, float threshold, uint seed,
-                                         uint run_packets = 0) {
-        const VplSelection selection = select(threshold, seed, run_packets);
+    /// The light of the VPLs of their strata.
+    std::vector<IrradiancePacket> gather(Gatherer& gatherer, const VplStrata& strata) {
         GatherInput<Vpl> task = input();
+        task.strata = &strata;
+        EXPECT_TRUE(gatherer.gather(task, sums_));
+        return sums_.light.download();
+    }
+    /// The light of the VPLs that the roulette chooses.
+    std::vector<IrradiancePacket> gather(Gatherer& gatherer, float threshold, uint seed,
+                                         const VplStrata* strata = nullptr) {
+        const VplSelection selection = select(threshold, seed, strata);
+        GatherInput<Vpl> task = input();
+        task.strata = strata;
         task.selection = &selection;
         EXPECT_TRUE(gatherer.gather(task, sums_));
         return sums_.light.download();
     }
-    [[nodiscard]] VplSelection select(float threshold, uint seed, uint run_packets = 0) {
-        const auto count = static_cast<uint>(receivers_.count());
+    [[nodiscard]] VplSelection select(float threshold, uint seed, const VplStrata* strata = nullptr) {
         return roulette_.select({.vpls = vpls_,
                                  .vpl_count = vpls_.count(),
                                  .receivers = receivers_,
-                                 .bundles = {count, run_packets > 0 ? run_packets : std::max(count, 1u)},
+                                 .packet_count = receivers_.count(),
+                                 .strata = strata,
                                  .clamp_radius = clamp_radius_,
                                  .threshold = threshold,
                                  .seed = seed});
