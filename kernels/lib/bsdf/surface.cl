@@ -333,6 +333,9 @@ inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, Surf
         material = resolve_step(scene, hit, s, material, &value, &turn, &u);
         if (!material) {
             s->bsdf.model = NEARLIGHT_BSDF_NULL;
+            if (dot(s->wo, s->frame.n) < 0.0f) {
+                turn_over(s);
+            }
             return;
         }
     }
