@@ -34,7 +34,7 @@ def _veils():
     leaf = bsdf('mask', bsdf('twosided', green), opacity=bitmap('leaf.png', raw=True))
     half = bsdf('mask', bsdf('twosided', green), opacity=0.5)
     blend = bsdf('blendbsdf', bsdf('null'), bsdf('twosided', green), weight=0.3)
-    sun = emitter('sunsky', to_world=TO_SKY, sun_direction=vector(0.8, 0.7, 0.1), turbidity=3.0, sun_aperture=3.0)
+    sun = emitter('sunsky', to_world=TO_SKY, sun_direction=vector(0.8, 0.7, 0.1), turbidity=3.0, sun_aperture=20.0)
     steel = bsdf('roughconductor', material='Cr', alpha=0.25)
     def under(veil, depth=6):
         return scene(*stage(), _pane(veil), lamp(size=0.8), depth=depth)
@@ -43,7 +43,6 @@ def _veils():
         'area-behind-half-mask': under(half),
         'area-behind-blend': under(blend),
         'area-behind-blend-of-panes': under(bsdf('blendbsdf', thin, half, weight=0.5)),
-        'area-behind-bumped-mask': under(bsdf('bumpmap', bitmap('hills.png', raw=True), half, scale=1.0)),
         'area-behind-pane-depth-2': under(thin, depth=2),
         'area-behind-pane-depth-3': under(thin, depth=3),
         'area-behind-mask-in-front-of-pane-depth-4': scene(*stage(), _pane(thin), _pane(half, at=(0.8, 1.8, 1)),
