@@ -14,6 +14,14 @@ using namespace small_scenes;
 
 constexpr float kGlassClampRadius = 0.15f;
 
+/// VPLs behind veils that the camera looks through have some bounces too many (docs/method.md, "Depth"),
+/// which a larger limit makes too weak to see.
+void expect_glass_agreement(Device& device, const Scene& scene, SamplerKind sampler) {
+    for (const bool compensate : {false, true}) {
+        test::expect_agreement(device, scene, sampler, kGlassClampRadius, compensate, 14);
+    }
+}
+
 class GlassAgreement : public test::DeviceTest {};
 
 /// A closed room of 2 × 2 × 2 with a block on its floor. Panes and masks hang under the ceiling, and a second
@@ -75,30 +83,23 @@ Scene clear_glass() {
 }
 
 TEST_F(GlassAgreement, CompleteWithALampBehindVeils) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, lamp_behind_veils(), SamplerKind::close_range, kGlassClampRadius);
-    });
+    on_each_device(
+        [](Device& d) { expect_glass_agreement(d, lamp_behind_veils(), SamplerKind::close_range); });
 }
 TEST_F(GlassAgreement, InstantRadiosityWithALampBehindVeilsOverMetal) {
     on_each_device([](Device& d) {
-        test::expect_agreement(d, lamp_behind_veils_over_metal(), SamplerKind::instant_radiosity,
-                               kGlassClampRadius, true);
+        expect_glass_agreement(d, lamp_behind_veils_over_metal(), SamplerKind::instant_radiosity);
     });
 }
 TEST_F(GlassAgreement, LocalWithALampBehindVeils) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, lamp_behind_veils(), SamplerKind::local, kGlassClampRadius, true);
-    });
+    on_each_device([](Device& d) { expect_glass_agreement(d, lamp_behind_veils(), SamplerKind::local); });
 }
 TEST_F(GlassAgreement, CompleteThroughClearGlass) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, clear_glass(), SamplerKind::close_range, kGlassClampRadius);
-    });
+    on_each_device([](Device& d) { expect_glass_agreement(d, clear_glass(), SamplerKind::close_range); });
 }
 TEST_F(GlassAgreement, InstantRadiosityThroughClearGlass) {
-    on_each_device([](Device& d) {
-        test::expect_agreement(d, clear_glass(), SamplerKind::instant_radiosity, kGlassClampRadius);
-    });
+    on_each_device(
+        [](Device& d) { expect_glass_agreement(d, clear_glass(), SamplerKind::instant_radiosity); });
 }
 
 }  // namespace
