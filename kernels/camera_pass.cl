@@ -26,6 +26,7 @@ typedef struct CameraPath {
     float3 traced;   // indirect light of a path that is traced to its end
     uint key;        // key of the random sequence
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
+    uint mode;       // BSDF_CAMERA until a surface scatters the path, then BSDF_RADIANCE
     float t_min;     // where the first surface may lie on the ray
     float t_max;
     float filter_weight;
@@ -52,6 +53,12 @@ inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
     path->ray.throughput *= 1.0f / (second ? p : 1.0f - p);
     return second;
 }
+
+/// How a surface asks lights.
+typedef struct LightQuota {
+    uint samples;
+    uint max_veils;  // that a shadow ray may pass
+} LightQuota;
 
 /// The random numbers of a path at one surface.
 typedef struct SurfaceNumbers {
@@ -84,13 +91,13 @@ inline uint light_sample_count(const CameraPath* path, float3 specular, uint max
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
 /// branch 1 the reflection.
 inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                            const SurfaceBsdf* surface, uint branch, uint light_samples,
+                            const SurfaceBsdf* surface, uint branch, LightQuota quota,
                             const SurfaceNumbers* numbers) {
-    if (light_samples == 0) {
+    if (quota.samples == 0) {
         return WAY_END;
     }
-    path->emitted += path->ray.throughput *
-                     reflected_light(scene, hit, surface, BSDF_S, light_samples, numbers->light_seed);
+    path->emitted += path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, quota.samples,
+                                                            quota.max_veils, numbers->light_seed);
     float choice = numbers->lobe;
     const float reflected = reflection_probability(surface, numbers->direction);
     if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
@@ -101,13 +108,16 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
     if (!scatter_ray(scene, &path->ray, hit, surface, BSDF_S, choice, numbers->direction)) {
         return WAY_END;
     }
-    path->ray.pdf /= (float)light_samples;
+    if (path->ray.veils == 0) {
+        path->ray.pdf /= (float)quota.samples;
+        path->mode = path->ray.pdf > 0.0f ? BSDF_RADIANCE : path->mode;
+    }
     return WAY_ON;
 }
 
 /// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
 inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                           const SurfaceBsdf* surface, uint branch, uint light_samples,
+                           const SurfaceBsdf* surface, uint branch, LightQuota quota,
                            const SurfaceNumbers* numbers, float3* albedo) {
     const float3 wo = world_to_frame(&surface->frame, surface->wo);
     *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
@@ -122,8 +132,10 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
             return WAY_RECEIVER;
         }
     }
-    const uint samples = light_samples > 0 ? light_sample_count(path, specular, light_samples) : 0;
-    return follow_specular(scene, path, hit, surface, branch, samples, numbers);
+    if (quota.samples > 0) {
+        quota.samples = light_sample_count(path, specular, quota.samples);
+    }
+    return follow_specular(scene, path, hit, surface, branch, quota, numbers);
 }
 
 /// Where a camera path ends, and what it saw on the way.
@@ -159,11 +171,10 @@ inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint s
     const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
                                                 : middle_of_pixel(x, y);
     const CameraRay ray = camera_ray(camera, film.position, sample_2d(sample, 1, pixel_key));
-    path.ray.origin = ray.origin;
+    begin_ray(&path.ray, ray.origin, ray.direction, 0.0f);
     path.ray.direction = ray.direction;
     path.ray.throughput = (float3)(1.0f);
-    path.ray.normal = ray.direction;
-    path.ray.pdf = 0.0f;
+    path.mode = BSDF_CAMERA;
     path.t_min = ray.t_min;
     path.t_max = ray.t_max;
     path.emitted = path.traced = (float3)(0.0f);
@@ -190,6 +201,15 @@ typedef struct CameraLimits {
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
     float min_weight;    // the light of receivers that weigh less than this is traced at once
 } CameraLimits;
+
+/// What the surface at a step may ask of lights. One that paths must not leave reflects no light of lamps,
+/// but it shows in the other layers.
+inline LightQuota quota_at(const CameraLimits* limits, uint step) {
+    const bool is_last = step + 1 >= limits->max_edges;
+    const LightQuota quota = {is_last ? 0 : limits->light_samples,
+                              is_last ? 0 : limits->max_edges - step - 2};
+    return quota;
+}
 
 /// Adds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
 /// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
@@ -259,13 +279,10 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
             receiver.vertex.flags = path->flags;
         }
         const SurfaceNumbers numbers = surface_numbers(path->key, step);
-        const SurfaceBsdf surface =
-            surface_bsdf(scene, &hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
+        const SurfaceBsdf surface = surface_bsdf(scene, &hit, path->ray.direction, path->mode, numbers.model);
         float3 albedo;
-        // A surface that paths must not leave reflects no light of lamps, but it shows in the other layers.
-        const uint light_samples = step + 1 < limits->max_edges ? limits->light_samples : 0;
         const uint way =
-            follow_surface(scene, path, &hit, &surface, branch, light_samples, &numbers, &albedo);
+            follow_surface(scene, path, &hit, &surface, branch, quota_at(limits, step), &numbers, &albedo);
         const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
         if (way == WAY_RECEIVER && is_weak) {
             trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1);

@@ -67,6 +67,7 @@ Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, d
                        bool complete) {
     Metadata metadata = reference_identity(settings, scene);
     metadata["nearlight:samplesPerPixel"] = settings.spp;
+    metadata["nearlight:glass"] = glass_name(scene.clear_glass);
     metadata["nearlight:samplesPerBatch"] = settings.batch_size;
     metadata["nearlight:complete"] = complete ? 1 : 0;
     metadata["renderTimeSeconds"] = static_cast<float>(seconds);
@@ -107,6 +108,7 @@ nlohmann::ordered_json to_json(const ReferenceOptions& options, const Scene& sce
             {"indirect_only", settings.indirect_only},
             {"pixel_centers", settings.pixel_centers},
             {"filter", to_string(scene.camera.filter.kind)},
+            {"glass", glass_name(scene.clear_glass)},
             {"seed", settings.seed},
             {"seconds",
              {{"load", outcome.load_seconds},
@@ -227,6 +229,7 @@ void add_reference_command(CommandLine& line) {
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
     add_filter_option(command, options->scene.filter);
+    add_glass_option(command, options->scene.clear_glass);
     command.add_flag("--resume", options->resume,
                      "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, "
                      "size and options must be the same");

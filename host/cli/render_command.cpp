@@ -172,7 +172,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             files.open(started.width, started.height,
-                       render_metadata(hash.get(), settings, started, view, devices));
+                       render_metadata(hash.get(), options.scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
@@ -185,8 +185,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     bar.clear();
     files.commit(total.seconds());
     if (global.json) {
-        print_json(render_json(options.scene.file.string(), options.picture.outputs, settings,
-                               options.session.bvh_quality, report, load_seconds, first_rows, devices));
+        print_json(render_json(options.scene, options.picture.outputs, settings, options.session.bvh_quality,
+                               report, load_seconds, first_rows, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {
@@ -310,6 +310,7 @@ void add_render_command(CommandLine& line) {
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
     add_filter_option(command, options->scene.filter);
+    add_glass_option(command, options->scene.clear_glass);
     command
         .add_option("--spp", options->settings.gather.samples_per_pixel,
                     "Camera samples per pixel, for antialiasing")

@@ -36,8 +36,9 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
 
 }  // namespace
 
-Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
-                         const View& view, const std::vector<std::unique_ptr<Device>>& devices) {
+Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
+                         const RenderReport& report, const View& view,
+                         const std::vector<std::unique_ptr<Device>>& devices) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
     metadata["nearlight:sampler"] = to_string(settings.sampling.sampler);
@@ -49,6 +50,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& setting
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.clamp_radius;
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
+    metadata["nearlight:glass"] = glass_name(scene.clear_glass);
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
     metadata["nearlight:filter"] = to_string(view.scene_camera.filter.kind);
@@ -68,12 +70,12 @@ void FirstRows::note(const Stopwatch& since_begin) {
     }
 }
 
-nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
+nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
                                    double load_seconds, const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
-    json["scene"] = scene_file;
+    json["scene"] = scene.file.string();
     json["width"] = report.width;
     json["height"] = report.height;
     json["sampler"] = to_string(settings.sampling.sampler);
@@ -90,6 +92,7 @@ nlohmann::ordered_json render_json(const std::string& scene_file, const std::vec
     json["range"] = report.range;
     json["clamp_radius"] = report.clamp_radius;
     json["compensate"] = settings.gather.compensate;
+    json["glass"] = glass_name(scene.clear_glass);
     json["max_depth"] = report.max_depth;
     json["filter"] = to_string(report.filter);
     json["seed"] = settings.seed;

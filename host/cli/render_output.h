@@ -9,14 +9,16 @@
 
 #include "host/base/stopwatch.h"
 #include "host/cl/device.h"
+#include "host/cli/scene_options.h"
 #include "host/image/image_io.h"
 #include "host/session/render.h"
 
 namespace nearlight::core {
 
 /// The EXR's attributes `nearlight:…` and those of its camera.
-Metadata render_metadata(std::uint64_t scene_hash, const RenderSettings& settings, const RenderReport& report,
-                         const View& view, const std::vector<std::unique_ptr<Device>>& devices);
+Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
+                         const RenderReport& report, const View& view,
+                         const std::vector<std::unique_ptr<Device>>& devices);
 
 /// The time of the first finished rows of the picture.
 struct FirstRows {
@@ -28,7 +30,7 @@ struct FirstRows {
 };
 
 /// The object that `render --json` prints.
-nlohmann::ordered_json render_json(const std::string& scene_file, const std::vector<std::string>& outputs,
+nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
                                    double load_seconds, const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices);

@@ -37,6 +37,23 @@ void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter) {
         ->type_name("NAME");
 }
 
+void add_glass_option(CLI::App& command, bool& clear_glass) {
+    command
+        .add_option_function<std::string>(
+            "--glass", [&clear_glass](const std::string& text) { clear_glass = text == "clear"; },
+            "refract: as in Mitsuba, solid glass casts shadows and caustics, and hides point lights, spots "
+            "and "
+            "directional lights as panes and masks do; clear: shadow rays of all lights go straight through "
+            "glass, panes and masks, with their transmittance")
+        ->check(CLI::IsMember({"refract", "clear"}))
+        ->type_name("refract|clear")
+        ->default_str("refract");
+}
+
+std::string glass_name(bool clear_glass) {
+    return clear_glass ? "clear" : "refract";
+}
+
 void add_bvh_option(CLI::App& command, BvhQuality& quality) {
     command
         .add_option_function<std::string>(
@@ -72,6 +89,7 @@ Scene load_scene(const SceneOptions& options) {
     if (options.filter) {
         scene.camera.filter = default_filter(*options.filter);
     }
+    scene.clear_glass = options.clear_glass;
     return scene;
 }
 

@@ -18,6 +18,7 @@ struct SceneOptions {
     std::vector<std::string> definitions;  ///< "name=value"
     bool strict = false;
     std::optional<FilterKind> filter;  ///< reconstruction filter; empty: the scene's
+    bool clear_glass = false;
 };
 
 /// Adds the positional SCENE, -D and --strict.
@@ -28,6 +29,11 @@ void add_shared_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds --filter NAME. Any other name throws Error(ErrorKind::invalid_argument).
 void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter);
 
+/// Adds --glass refract|clear.
+void add_glass_option(CLI::App& command, bool& clear_glass);
+/// What --glass was, for metadata and JSON.
+std::string glass_name(bool clear_glass);
+
 /// Adds --bvh fast|quality; `quality` has the default.
 void add_bvh_option(CLI::App& command, BvhQuality& quality);
 
@@ -35,7 +41,7 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality);
 /// '='.
 LoadOptions load_options(const SceneOptions& options);
 
-/// Reads the scene, with the filter that the options say, and logs its notes as warnings.
+/// Reads the scene, with the filter and the glass that the options say, and logs its notes as warnings.
 Scene load_scene(const SceneOptions& options);
 
 }  // namespace nearlight::core

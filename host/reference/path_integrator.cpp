@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/path_integrator.h"
 
+#include "host/reference/shadow_ray.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
@@ -25,10 +26,15 @@ struct PathIntegrator::Walk {
     Vec3d throughput{1, 1, 1};
     double index = 1;  ///< refractive index relative to the camera's
     int vertices = 0;
-    // How the last vertex drew the ray's direction: its normal, and the density with the chance of the part;
-    // without a density, as for the camera and delta directions, light sampling cannot have found the same.
+    bool was_scattered = false;  ///< by other than mirrors and glass
+    // How the last vertex that did not let the path pass straight on drew the ray's direction: its place and
+    // normal, and the density with the chance of the part; without a density, as for the camera and delta
+    // directions, light sampling cannot have found the same.
+    Vec3 scattered_at;
     Vec3 normal{0, 0, 1};
     double density = 0;
+    double passed = 0;  ///< distance from that vertex to the last veil
+    int veils = 0;      ///< passed since then
 };
 
 struct PathIntegrator::VertexRandom {
@@ -80,8 +86,10 @@ void PathIntegrator::add_emission(const Walk& walk, const BvhHit& hit, PathLight
         return;
     }
     double weight = 1;
-    if (walk.density > 0) {
-        const double other = lights_.pdf(walk.ray.origin, walk.normal, walk.ray.direction, hit);
+    if (walk.density > 0 && walk.veils <= NEARLIGHT_MAX_VEILS) {
+        BvhHit seen = hit;
+        seen.t += static_cast<float>(walk.passed);
+        const double other = lights_.pdf(walk.scattered_at, walk.normal, walk.ray.direction, seen);
         weight = walk.density / (walk.density + other);
     }
     Vec3d& layer = walk.stage == Walk::Stage::beyond ? light.indirect : light.direct;
@@ -96,10 +104,18 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     }
     const Vec3d direction = as_double(pick.direction);
     const BsdfValue value = bsdf.eval(direction);
+    if (is_zero(value.sum())) {
+        return {};
+    }
+    const int max_veils = max_depth_ > 0 ? max_depth_ - walk.vertices - 2 : NEARLIGHT_MAX_VEILS;
+    const ShadowRay shadow =
+        shadow_ray(scene_, embree_, beside(surface, pick.direction), pick, max_veils, lights_.extent());
     const bool base_only = only_diffuse(walk);
     Vec3d sum;
     if (pick.is_delta) {
         sum = (base_only ? value.diffuse : value.sum()) / pick.density;
+    } else if (base_only && shadow.veils > 0) {
+        sum = value.diffuse / pick.density;  // veils end the paths of a clamped picture
     } else {
         const double diffuse_chance = base_only ? 1 : bsdf.diffuse_chance();
         sum = value.diffuse / (pick.density + diffuse_chance * bsdf.diffuse_pdf(direction));
@@ -107,10 +123,7 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
             sum += value.specular / (pick.density + bsdf.specular_chance() * bsdf.specular_pdf(direction));
         }
     }
-    if (is_zero(sum) || !LightSampler::is_visible(embree_, beside(surface, pick.direction), pick)) {
-        return {};
-    }
-    return walk.throughput * sum * as_double(pick.radiance);
+    return walk.throughput * sum * as_double(pick.radiance) * shadow.transmittance;
 }
 
 void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
@@ -124,23 +137,38 @@ void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface,
     layer += scattered(walk, surface, bsdf, lights_.sample(position, normal, random));
 }
 
-/// Goes on by one part of the BSDF. Returns false where the path ends.
-bool PathIntegrator::scatter(Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
-                             const VertexRandom& random) const {
-    const SurfaceDraw draw = only_diffuse(walk) ? bsdf.sample_diffuse(random.direction)
-                                                : bsdf.sample(random.part, random.direction);
-    walk.throughput *= draw.weight;
+/// Notes at the start of the next ray how its direction was drawn.
+void PathIntegrator::leave(Walk& walk, const SurfaceDraw& draw, Vec3 normal) {
+    walk.scattered_at = walk.ray.origin;
+    walk.normal = normal;
     walk.density = draw.is_delta ? 0 : draw.pdf;
-    walk.index *= draw.eta;
-    walk.normal = as_float(bsdf.normal());
-    const Vec3 direction = normalize(as_float(draw.wi));
-    walk.ray = {beside(surface, direction), direction};
+    walk.was_scattered = walk.was_scattered || !draw.is_delta;
+    walk.passed = 0;
+    walk.veils = 0;
     if (walk.stage == Walk::Stage::chain) {
         walk.stage = draw.is_diffuse ? Walk::Stage::receiver : Walk::Stage::chain;
     } else {
         walk.stage = Walk::Stage::beyond;
     }
+}
+
+/// Goes on by one part of the BSDF at the end of a ray of the given length. Returns false where the path
+/// ends.
+bool PathIntegrator::scatter(Walk& walk, double distance, const Surface& surface, const SurfaceBsdf& bsdf,
+                             const VertexRandom& random) const {
+    const SurfaceDraw draw = only_diffuse(walk) ? bsdf.sample_diffuse(random.direction)
+                                                : bsdf.sample(random.part, random.direction);
+    walk.throughput *= draw.weight;
+    walk.index *= draw.eta;
+    const Vec3 direction = draw.is_straight ? walk.ray.direction : normalize(as_float(draw.wi));
+    walk.ray = {beside(surface, direction), direction};
     ++walk.vertices;
+    if (draw.is_straight) {
+        walk.passed += distance;
+        ++walk.veils;
+    } else {
+        leave(walk, draw, as_float(bsdf.normal()));
+    }
     double survival = 1;
     if (walk.vertices >= kSureVertices) {
         // Radiance is larger inside glass by the square of the index, and no less important for it.
@@ -197,7 +225,8 @@ PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
         }
         const VertexRandom random = vertex_random(batch, sample, walk.vertices);
         const Surface surface = surface_at(scene_, hit, walk.ray.direction);
-        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(walk.ray.direction)), random.material);
+        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(walk.ray.direction)), random.material,
+                               walk.was_scattered ? Transport::radiance : Transport::camera);
         if (walk.stage == Walk::Stage::chain && bsdf.has_diffuse() && random.part < bsdf.diffuse_chance()) {
             note_receiver(walk, surface, bsdf, light.camera);
         }
@@ -209,7 +238,7 @@ PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
             walk.throughput *= std::min(1.0f, ratio * ratio);
         }
         add_sampled_light(walk, surface, bsdf, random.light, light);
-        if (!scatter(walk, surface, bsdf, random)) {
+        if (!scatter(walk, static_cast<double>(hit.t), surface, bsdf, random)) {
             return light;
         }
     }

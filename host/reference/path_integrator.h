@@ -22,8 +22,9 @@ struct PathLight {
 
 /// Estimates the radiance that arrives along camera rays. Its expectation is that of Mitsuba 3's integrator
 /// `path`: at every vertex one light is sampled and one direction is drawn from the BSDF, weighted by the
-/// balance heuristic [Veach and Guibas 1995]; every surface counts for the depth and blocks shadow rays.
-/// Each of the parts D and S of a BSDF is combined with light sampling by itself.
+/// balance heuristic [Veach and Guibas 1995]; every surface counts for the depth. Shadow rays pass straight
+/// through veils (shadow_ray.h), as paths do, which keep the density of the vertex before. Each of the parts
+/// D and S of a BSDF is combined with light sampling by itself.
 ///
 /// With a clamp radius R, a receiver gets its direct light and, of every other point y, only what y reflects
 /// by D, with the geometry term bounded to 1/max(r², R²).
@@ -46,7 +47,8 @@ class PathIntegrator {
                            const LightRandom& random, PathLight& light) const;
     [[nodiscard]] Vec3d scattered(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                   const LightPick& pick) const;
-    [[nodiscard]] bool scatter(Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+    static void leave(Walk& walk, const SurfaceDraw& draw, Vec3 normal);
+    [[nodiscard]] bool scatter(Walk& walk, double distance, const Surface& surface, const SurfaceBsdf& bsdf,
                                const VertexRandom& random) const;
     void note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                        CameraPath& path) const;

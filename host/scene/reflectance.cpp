@@ -179,6 +179,17 @@ bool passes_straight(const Scene& scene, const Material& material) {
     });
 }
 
+uint veils_of(const Scene& scene) {
+    const bool thin = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return passes_straight(scene, material); });
+    const bool glass = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return lets_through(scene, material); });
+    if (scene.clear_glass && glass) {
+        return NEARLIGHT_VEILS_CLEAR;
+    }
+    return thin ? NEARLIGHT_VEILS_THIN : NEARLIGHT_VEILS_NONE;
+}
+
 bool lets_through(const Scene& scene, const Material& material) {
     return passes_straight(scene, material) || any_of_tree(scene, material, [](const Material& m) {
                return m.model == NEARLIGHT_BSDF_DIELECTRIC ||

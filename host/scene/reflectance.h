@@ -25,6 +25,8 @@ bool has_specular(const Scene& scene, const Material& material);
 bool reflects_back(const Scene& scene, const Material& material);
 /// Whether light may pass without a change of direction: a thin pane, a mask, or nothing at all.
 bool passes_straight(const Scene& scene, const Material& material);
+/// What lets light pass straight through somewhere in the scene: one of NEARLIGHT_VEILS_….
+uint veils_of(const Scene& scene);
 /// Whether light may reach the other side, straight or not.
 bool lets_through(const Scene& scene, const Material& material);
 

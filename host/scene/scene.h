@@ -93,6 +93,9 @@ struct Scene {
     std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
     EnvironmentLight environment;
     SceneCamera camera;
+    /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights
+    /// pass too (docs/method.md, "Clear glass").
+    bool clear_glass = false;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say
     int samples_per_pixel = 0;  ///< 0: the file does not say
     std::vector<Note> notes;    ///< approximations and oddities

@@ -89,6 +89,9 @@ std::uint64_t scene_hash(const Scene& scene) {
     add_camera(hasher, scene.camera);
     hasher.add(scene.max_depth);
     hasher.add(scene.samples_per_pixel);
+    if (scene.clear_glass) {
+        hasher.add(true);
+    }
     return hasher.hash64();
 }
 

@@ -103,7 +103,7 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
                 scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
             .light_node_count = static_cast<uint>(emitters.light_tree.size()),
-            .pad0 = 0};
+            .veils = veils_of(scene)};
 }
 
 /// Uploads everything but the tree.

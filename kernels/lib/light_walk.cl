@@ -55,14 +55,16 @@ inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, u
 
 /// Sends the particle on from where it landed. Light of a point or a direction that mirrors and glass send on
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
-/// through them, and nearlight converges to the same picture.
+/// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
+/// straight through veils.
 inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u, float2 v) {
     const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
-    const bool is_unseen = sample.is_delta && particle->from_delta;
+    const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
+    const bool is_unseen = sample.is_delta && particle->from_delta && !passes;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
     particle->direction = sample.wi;
     particle->origin = ray_origin(scene, &at->hit, sample.wi);
-    particle->from_delta = 0;
+    particle->from_delta = particle->from_delta && passes;
 }
 
 #endif

@@ -12,6 +12,7 @@
 
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/sample.cl"
+#include "lib/light/shadow.cl"
 #include "lib/random.cl"
 
 /// A place that receives light by its Lambertian part.
@@ -46,16 +47,17 @@ inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* a
            (cosine * diffuse_transmission(scene, at->curve, cosine) / (light->pdf + of_rays));
 }
 
-/// The part of the direct light that light samples bring, if each receiver sends `path_count` rays too. Delta
-/// lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples bring all of it.
+/// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
+/// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
+/// bring all of it.
 inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                   uint path_count, uint seed) {
+                                   uint path_count, uint max_veils, uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);
         const float3 arriving = weighted_irradiance(scene, at, &light, 0.0f);
-        if (!is_black(arriving) && light_is_visible(scene, at->x, &light)) {
-            exact += arriving;
+        if (!is_black(arriving)) {
+            exact += arriving * light_transmittance(scene, at->x, &light, max_veils);
         }
     }
     if (!has_sampled_lights(scene)) {
@@ -69,37 +71,39 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
         const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
                                                  : sample_light_or_cosine(scene, at->x, at->n, choice, u);
         const float3 arriving = weighted_irradiance(scene, at, &light, path_ratio);
-        if (!is_black(arriving) && light_is_visible(scene, at->x, &light)) {
-            sum += arriving;
+        if (!is_black(arriving)) {
+            sum += arriving * light_transmittance(scene, at->x, &light, max_veils);
         }
     }
     return exact + sum / (float)sample_count;
 }
 
-/// What one light sample sends towards the viewer of a surface, if each surface also sends `path_ratio` rays
-/// for each light sample.
+/// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
+/// surface also sends `path_ratio` rays for each light sample.
 inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                               const LightSample* light, uint parts, float path_ratio) {
+                               const LightSample* light, uint parts, float path_ratio, uint max_veils) {
     if (is_black(light->radiance)) {
         return (float3)(0.0f);
     }
     float pdf;
     const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf) * light->radiance;
-    if (is_black(value) || !light_is_visible(scene, ray_origin(scene, hit, light->direction), light)) {
+    if (is_black(value)) {
         return (float3)(0.0f);
     }
     const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
-    return value / (light->pdf + of_rays);
+    const float3 origin = ray_origin(scene, hit, light->direction);
+    return value / (light->pdf + of_rays) * light_transmittance(scene, origin, light, max_veils);
 }
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
-/// from lights, as far as light samples bring it: rays that follow the BSDF bring the rest.
+/// from lights or through at most `max_veils` veils, as far as light samples bring it: rays that follow the
+/// BSDF bring the rest.
 inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                              uint parts, uint sample_count, uint seed) {
+                              uint parts, uint sample_count, uint max_veils, uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
-        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f);
+        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
@@ -108,27 +112,43 @@ inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, con
     for (uint s = 0; s < sample_count; ++s) {
         const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
                                                sample_2d(s, 1, seed));
-        sum += reflected_sample(scene, hit, surface, &light, parts, 1.0f / (float)sample_count);
+        sum += reflected_sample(scene, hit, surface, &light, parts, 1.0f / (float)sample_count, max_veils);
     }
     return exact + sum / (float)sample_count;
 }
 
-/// A ray on its way, and what multiple importance sampling must know of where it began.
+/// A ray on its way, and what multiple importance sampling must know of the point that scattered it, which
+/// lies before the origin where the ray has passed straight through veils.
 typedef struct PathRay {
     float3 origin, direction;
     float3 throughput;
-    float3 normal;  // at the origin
+    float3 scattered_at;
+    float3 normal;  // where it was scattered
     float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
+    float passed;   // distance from scattered_at to the last veil
+    uint veils;     // passed since then
 } PathRay;
 
-/// Radiance that lights send straight along the ray, weighted against light samples of its origin.
+/// Sets where the ray was scattered to where it starts.
+inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
+    ray->origin = ray->scattered_at = origin;
+    ray->normal = normal;
+    ray->pdf = pdf;
+    ray->passed = 0.0f;
+    ray->veils = 0;
+}
+
+/// Radiance that lights send straight along the ray, weighted against light samples of where it was
+/// scattered.
 inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
     const float3 radiance = hit->t < 0.0f ? environment_radiance(scene, ray->direction)
                                           : emitted_radiance(scene, hit, ray->direction);
-    if (is_black(radiance) || !(ray->pdf > 0.0f)) {
+    if (is_black(radiance) || !(ray->pdf > 0.0f) || ray->veils > NEARLIGHT_MAX_VEILS) {
         return radiance;
     }
-    const float of_lights = light_pdf(scene, ray->origin, ray->normal, ray->direction, hit);
+    SurfaceHit seen = *hit;
+    seen.t += hit->t < 0.0f ? 0.0f : ray->passed;
+    const float of_lights = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
     return radiance * (ray->pdf / (ray->pdf + of_lights));
 }
 
@@ -138,9 +158,14 @@ inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* 
     const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
     ray->throughput *= sample.weight;
     ray->direction = sample.wi;
-    ray->origin = ray_origin(scene, hit, sample.wi);
-    ray->normal = surface->frame.n;
-    ray->pdf = sample.is_delta ? 0.0f : sample.pdf;
+    if (sample.is_straight) {
+        ray->origin = ray_origin(scene, hit, sample.wi);
+        ray->passed += hit->t;
+        ++ray->veils;
+    } else {
+        begin_ray(ray, ray_origin(scene, hit, sample.wi), surface->frame.n,
+                  sample.is_delta ? 0.0f : sample.pdf);
+    }
     return !is_black(ray->throughput);
 }
 
@@ -161,11 +186,11 @@ inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_wei
 
 /// Light over at least one surface, from a ray that has met `hit`. `hit` is the first of them, and its
 /// Lambertian part counts with the weight `diffuse_weight`. The whole path from the receiver to a light has
-/// at most `max_edges` edges.
-inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit, float diffuse_weight,
-                              uint max_edges, uint4 keys) {
+/// at most `max_edges` edges. Light that came straight through veils is direct light.
+inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
+                                     float diffuse_weight, uint max_edges, uint4 keys) {
     const float first_weight = max_component(ray.throughput);
-    float3 light = (float3)(0.0f);
+    ReceivedLight light = nothing_received();
     for (uint surfaces = 1; surfaces < max_edges; ++surfaces) {
         const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
         const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
@@ -178,13 +203,19 @@ inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hi
         if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
             break;
         }
-        light += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1, random.w);
+        light.indirect += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1,
+                                                           max_edges - surfaces - 1, random.w);
         if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
                          (float2)(to_unit_float(random.y), to_unit_float(random.z)))) {
             break;
         }
         hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
-        light += ray.throughput * met_light(scene, &ray, &hit);
+        const float3 met = ray.throughput * met_light(scene, &ray, &hit);
+        if (ray.veils == surfaces) {
+            light.direct += met;
+        } else {
+            light.indirect += met;
+        }
         if (hit.t < 0.0f) {
             break;
         }
@@ -210,12 +241,10 @@ inline float remaining_weight(float t, float clamp_radius) {
 inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, float rays_per_light_sample,
                             float2 u) {
     PathRay ray;
-    ray.origin = at->x;
-    ray.normal = at->n;
     ray.direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine));
-    ray.pdf = rays_per_light_sample * cosine * M_1_PI_F;
+    begin_ray(&ray, at->x, at->n, rays_per_light_sample * cosine * M_1_PI_F);
     return ray;
 }
 
@@ -234,7 +263,9 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     }
     const float weight = remaining_weight(hit.t, limits->clamp_radius);
     if (weight > 0.0f || scene->info->has_specular) {
-        light.indirect = continued_light(scene, ray, hit, weight, limits->max_edges, keys);
+        const ReceivedLight beyond = continued_light(scene, ray, hit, weight, limits->max_edges, keys);
+        light.direct += beyond.direct;
+        light.indirect = beyond.indirect;
     }
     return light;
 }
@@ -253,8 +284,9 @@ inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint*
         light.indirect += found.indirect;
     }
     const float scale = 1.0f / (float)max(limits->path_count, 1u);
-    light.direct = light.direct * scale +
-                   sampled_direct_light(scene, at, limits->light_samples, limits->path_count, keys.x);
+    light.direct =
+        light.direct * scale + sampled_direct_light(scene, at, limits->light_samples, limits->path_count,
+                                                    limits->max_edges - 1, keys.x);
     light.indirect *= scale;
     return light;
 }

@@ -26,6 +26,9 @@ typedef struct Parameter {
 #define NEARLIGHT_BSDF_THIN_DIELECTRIC 4u  // a pane of glass, both faces at once; S only
 #define NEARLIGHT_BSDF_PRINCIPLED 5u       // Disney's model [Burley 2012, 2015]
 #define NEARLIGHT_BSDF_NULL 6u             // lets everything through, as if there were no surface
+// A face of a smooth glass body that does not turn light. Kernels make it of a dielectric under --glass
+// clear; no Material has it.
+#define NEARLIGHT_BSDF_CLEAR_GLASS 7u
 // Models that stand for others. A kernel resolves them at each hit until it is left with one from above.
 #define NEARLIGHT_BSDF_MASK 16u       // child[0] with probability reflectance.x (the opacity), otherwise null
 #define NEARLIGHT_BSDF_BLEND 17u      // child[1] with probability reflectance.x, otherwise child[0]

@@ -330,8 +330,13 @@ typedef struct SceneInfo {
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
     uint light_node_count;     // 0: no tree of lights, they are chosen by power
-    uint pad0;
+    uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
 } SceneInfo;
+#define NEARLIGHT_VEILS_NONE 0u   // nothing
+#define NEARLIGHT_VEILS_THIN 1u   // thin panes, masks and `null`
+#define NEARLIGHT_VEILS_CLEAR 2u  // smooth glass bodies too (--glass clear)
+/// A shadow ray passes at most this many veils; rays that follow BSDFs pass any number.
+#define NEARLIGHT_MAX_VEILS 16
 
 #ifdef __cplusplus
 #define NEARLIGHT_CHECK_SHARED(Type, bytes)                                      \

@@ -93,6 +93,15 @@ TEST_F(Render, AnUnknownTreeIsAnsweredWithTheKnownOnes) {
     EXPECT_FALSE(std::filesystem::exists(output_));
 }
 
+TEST_F(Render, GlassIsInJsonAndInTheFile) {
+    NEARLIGHT_NEEDS_DEVICE();
+    EXPECT_EQ(rendered("", folder_ / "plain.exr")["glass"], "refract");
+    EXPECT_EQ(rendered("--glass clear", output_)["glass"], "clear");
+    EXPECT_EQ(read_metadata(folder_ / "plain.exr").at("nearlight:glass"), Metadata::mapped_type{"refract"});
+    EXPECT_EQ(read_metadata(output_).at("nearlight:glass"), Metadata::mapped_type{"clear"});
+    EXPECT_EQ(render("--glass red", output_).exit_code, 2);
+}
+
 TEST_F(Render, PassesAreCountedInJsonAndInTheFile) {
     NEARLIGHT_NEEDS_DEVICE();
     const nlohmann::json plain = rendered("", folder_ / "plain.exr");

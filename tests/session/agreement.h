@@ -19,13 +19,13 @@ inline constexpr int kAgreementSize = 32;
 /// Compares the layers direct and indirect of several seeds with a path-traced picture, as convergence.h
 /// explains. If rays of receivers compensate for the clamp radius, the path tracer has none.
 inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
-                             bool compensate) {
+                             bool compensate, uint max_depth = 6) {
     SCOPED_TRACE(compensate ? "compensated" : "clamped");
     constexpr uint kSeeds = 24;
     const Image truth = trace_paths(scene, {.width = kAgreementSize,
                                             .height = kAgreementSize,
                                             .spp = 512,
-                                            .max_depth = 6,
+                                            .max_depth = static_cast<int>(max_depth),
                                             .clamp_radius = compensate ? 0.0f : clamp_radius,
                                             .seed = 9});
     Session session(device, scene);
@@ -33,7 +33,7 @@ inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sam
         .view = {.width = kAgreementSize,
                  .height = kAgreementSize,
                  .clamp_radius = clamp_radius,
-                 .max_depth = 6},
+                 .max_depth = max_depth},
         .sampling = {.sampler = sampler, .vpl_count = 1000},
         .gather = {.samples_per_pixel = 4, .direct_samples_per_pixel = 64, .compensate = compensate}};
     const std::vector<Image> renders = render_seeds(session, settings, 100, kSeeds);

@@ -27,6 +27,7 @@ const SpecularModel* specular_model(const BsdfParameters& parameters) {
         case NEARLIGHT_BSDF_DIELECTRIC:
             return &kDielectricModel;
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
+        case NEARLIGHT_BSDF_CLEAR_GLASS:
             return &kThinDielectricModel;
         case NEARLIGHT_BSDF_PRINCIPLED:
             return parameters.thin ? &kPrincipledThinModel : &kPrincipledModel;

@@ -22,8 +22,10 @@ struct BsdfParameters {
     Vec3d specular{1, 1, 1};          ///< tint of what S reflects
     Vec3d transmission{1, 1, 1};      ///< tint of what S lets through; principled: x is diffuse transmission
     double alpha_x = 0, alpha_y = 0;  ///< principled: alpha_x is the roughness
-    Vec3d eta{1, 1, 1};  ///< conductor: real index; otherwise x is the index beyond ÷ on the viewer's side
-    Vec3d k;             ///< conductor: imaginary index
+    /// Conductor: real index; otherwise x is the index beyond ÷ on the viewer's side, but for clear glass
+    /// that of the body ÷ outside.
+    Vec3d eta{1, 1, 1};
+    Vec3d k;  ///< conductor: imaginary index
     double metallic = 0, anisotropic = 0, spec_trans = 0, spec_tint = 0, sheen = 0, sheen_tint = 0,
            flatness = 0, clearcoat = 0, clearcoat_gloss = 0;
     std::span<const float> curve;  ///< rough plastic: T at equidistant cosines from 0 to 1
@@ -37,10 +39,11 @@ struct BsdfRandom {
 /// A direction drawn from a BSDF.
 struct BsdfDraw {
     Vec3d wi{0, 0, 1};
-    Vec3d weight;           ///< BSDF · |cosθi| ÷ density; 0: nothing could be drawn
-    double pdf = 0;         ///< density per steradian; 0 where the direction is a delta one
-    double eta = 1;         ///< index on wi's side ÷ index on wo's
-    bool is_delta = false;  ///< a mirror image, a refraction, or straight on
+    Vec3d weight;              ///< BSDF · |cosθi| ÷ density; 0: nothing could be drawn
+    double pdf = 0;            ///< density per steradian; 0 where the direction is a delta one
+    double eta = 1;            ///< index on wi's side ÷ index on wo's
+    bool is_delta = false;     ///< a mirror image, a refraction, or straight on
+    bool is_straight = false;  ///< light passes straight on, as shadow rays do
 };
 
 /// S of one model. Directions are unit vectors in the local frame, away from the surface; wo.z > 0 is the

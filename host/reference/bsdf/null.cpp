@@ -14,7 +14,7 @@ double pdf_null(const BsdfParameters&, Vec3d, Vec3d) {
 }
 
 BsdfDraw sample_null(const BsdfParameters&, Vec3d wo, BsdfRandom) {
-    return {.wi = -wo, .weight = {1, 1, 1}, .is_delta = true};
+    return {.wi = -wo, .weight = {1, 1, 1}, .is_delta = true, .is_straight = true};
 }
 
 Vec3d estimate_null(const BsdfParameters&, Vec3d) {

@@ -46,7 +46,7 @@ BsdfRandom even_random(int index) {
 
 SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, double choice,
                          Transport transport)
-    : frame_(front_frame(surface)), transport_(transport) {
+    : frame_(front_frame(surface)), scales_radiance_(transport != Transport::flux && !scene.clear_glass) {
     const Material* material = surface.material;
     const BsdfFrame flat = frame_;
     for (int step = 0; step < NEARLIGHT_MAX_BSDF_NESTING; ++step) {
@@ -72,6 +72,11 @@ SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, d
             turn_normal(bumped_normal(scene, surface, m, flat), wo);
         } else {
             parameters_ = bsdf_parameters(scene, surface, m, dot(wo, frame_.n) > 0);
+            if (scene.clear_glass && transport != Transport::camera && m.model == NEARLIGHT_BSDF_DIELECTRIC &&
+                is_smooth(parameters_)) {
+                parameters_.model = NEARLIGHT_BSDF_CLEAR_GLASS;
+                parameters_.eta = as_double(m.eta);
+            }
             break;
         }
         material = &scene.materials[child];
@@ -133,7 +138,7 @@ double SurfaceBsdf::map_shadowing(Vec3d wi) const {
 }
 
 double SurfaceBsdf::radiance_scale(double eta) const {
-    return transport_ == Transport::radiance ? 1 / (eta * eta) : 1;
+    return scales_radiance_ ? 1 / (eta * eta) : 1;
 }
 
 BsdfValue SurfaceBsdf::eval(Vec3d wi) const {
@@ -193,6 +198,7 @@ SurfaceDraw SurfaceBsdf::sample_specular(BsdfRandom random) const {
     const double shadowing = parameters_.model == NEARLIGHT_BSDF_NULL ? 1 : map_shadowing(draw.wi);
     draw.weight *= shadowing * radiance_scale(draw.eta);
     draw.pdf = shadowing > 0 ? draw.pdf : 0;
+    draw.is_straight = draw.is_straight && turn_count_ == 0;  // maps block shadow rays
     return draw;
 }
 

@@ -10,8 +10,9 @@
 namespace nearlight::core {
 
 /// What is carried from wi to wo: radiance is divided by the square of the relative index where it enters a
-/// denser body, flux is not.
-enum class Transport { radiance, flux };
+/// denser body, flux is not. `camera` is radiance that reaches the camera by nothing but mirrors and glass,
+/// which refracts even where the scene has clear glass; there, indices change no radiance.
+enum class Transport { radiance, flux, camera };
 
 /// Both parts of a BSDF, times |cosθi|.
 struct BsdfValue {
@@ -85,7 +86,7 @@ class SurfaceBsdf {
     BsdfParameters parameters_;
     BsdfFrame frame_;
     Vec3d wo_;  ///< in the frame; z > 0
-    Transport transport_;
+    bool scales_radiance_;
     const SpecularModel* specular_ = nullptr;
     double diffuse_chance_ = 0, specular_chance_ = 0;
     std::array<Turn, NEARLIGHT_MAX_BSDF_NESTING> turns_{};

@@ -58,6 +58,7 @@ inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
         case NEARLIGHT_BSDF_DIELECTRIC:
             return dielectric_sample(bsdf, wo, u, v);
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
+        case NEARLIGHT_BSDF_CLEAR_GLASS:
             return thin_dielectric_sample(bsdf, wo, u);
         case NEARLIGHT_BSDF_PRINCIPLED:
             return principled_sample(bsdf, wo, u, v);
@@ -77,6 +78,7 @@ inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
         case NEARLIGHT_BSDF_DIELECTRIC:
             return dielectric_albedo(bsdf, wo);
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
+        case NEARLIGHT_BSDF_CLEAR_GLASS:
             return thin_dielectric_albedo(bsdf, wo);
         case NEARLIGHT_BSDF_PRINCIPLED:
             return principled_albedo(bsdf, wo);
@@ -109,6 +111,7 @@ inline float3 bsdf_albedo(const SceneView* scene, const SurfaceBsdf* s) {
 inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
                                 float u) {
     SurfaceBsdf s = bare_surface(hit, direction, mode);
+    s.unscaled = scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     resolve_material(scene, hit, &s, u);
     const float3 wo = world_to_frame(&s.frame, s.wo);
     const float diffuse = luminance(d_albedo(scene, &s.bsdf, wo.z));
@@ -153,8 +156,8 @@ inline float map_factor(const SurfaceBsdf* s, float3 wi) {
 /// the ratio of cosines [Veach 1997, §5.3.2].
 inline float transport_factor(const SurfaceBsdf* s, float3 wi, float eta) {
     const float factor = s->mapped ? map_factor(s, wi) : 1.0f;
-    if (s->mode == BSDF_RADIANCE) {
-        return factor / (eta * eta);
+    if (s->mode != BSDF_FLUX) {
+        return s->unscaled ? factor : factor / (eta * eta);
     }
     const float down = fabs(dot(s->wo, s->geometric) * dot(wi, s->frame.n));
     return down > 0.0f ? factor * fabs(dot(s->wo, s->frame.n) * dot(wi, s->geometric)) / down : 0.0f;
@@ -195,7 +198,7 @@ inline float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 wi,
 /// light through and the lower numbers `u` reflect; otherwise 1.
 inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
     const float3 wo = world_to_frame(&s->frame, s->wo);
-    if (s->bsdf.model == NEARLIGHT_BSDF_THIN_DIELECTRIC) {
+    if (s->bsdf.model == NEARLIGHT_BSDF_THIN_DIELECTRIC || s->bsdf.model == NEARLIGHT_BSDF_CLEAR_GLASS) {
         return pane_reflectance(&s->bsdf, wo);
     }
     if (s->bsdf.model != NEARLIGHT_BSDF_DIELECTRIC) {
@@ -223,8 +226,9 @@ inline BsdfSample bsdf_sample(const SceneView* scene, const SurfaceBsdf* s, uint
     } else {
         sample.wi = square_to_cosine_hemisphere(v);
     }
-    sample.wi = frame_to_world(&s->frame, sample.wi);
+    sample.wi = sample.is_straight ? -s->wo : frame_to_world(&s->frame, sample.wi);
     if (sample.is_delta) {
+        sample.is_straight = sample.is_straight && !s->mapped;  // maps block shadow rays
         sample.weight *= transport_factor(s, sample.wi, sample.eta) / s_share;
         return sample;
     }

@@ -46,6 +46,7 @@ typedef struct BsdfSample {
     float pdf;      // density per steradian; 0 for a mirror image, a refraction and what passes straight on
     float eta;      // index on wi's side ÷ index on wo's; 1 where the direction stays on wo's side
     uint is_delta;  // 1: a mirror image, a refraction, or straight on
+    uint is_straight;  // 1: light passes straight on, as shadow rays do (lib/light/shadow.cl)
 } BsdfSample;
 
 inline BsdfSample no_bsdf_sample(void) {
@@ -55,6 +56,7 @@ inline BsdfSample no_bsdf_sample(void) {
     sample.pdf = 0.0f;
     sample.eta = 1.0f;
     sample.is_delta = 0;
+    sample.is_straight = 0;
     return sample;
 }
 

@@ -10,6 +10,7 @@ inline BsdfSample null_sample(float3 wo) {
     sample.wi = -wo;
     sample.weight = (float3)(1.0f);
     sample.is_delta = 1;
+    sample.is_straight = 1;
     return sample;
 }
 

@@ -13,13 +13,15 @@
 // What a path carries. Both kinds of path find the same light (Veach 1997, §5.2 and §5.3).
 #define BSDF_RADIANCE 0u  // it comes from the camera; wo points back along it, wi towards the light
 #define BSDF_FLUX 1u      // it comes from a light; wo points back to it, wi onwards
+#define BSDF_CAMERA 2u    // as radiance, and nothing but mirrors and glass is between the camera and here
 
 typedef struct SurfaceBsdf {
     Bsdf bsdf;
     Frame frame;       // shading frame in world space, n on the viewer's side; either handedness
     float3 geometric;  // normal of the triangle on the side that the ray came from
     float3 wo;         // unit vector back along the ray
-    uint mode;         // BSDF_RADIANCE or BSDF_FLUX
+    uint mode;         // BSDF_RADIANCE, BSDF_FLUX or BSDF_CAMERA
+    uint unscaled;     // 1: radiance does not change with the index of what it is in, as under clear glass
     float s_share;     // probability of S where D and S are sampled together
     uint mapped;       // 0: the frame's n is the mesh's own; otherwise MAPPED or MAPPED_TURNED
     float3 unmapped;   // the frame's n before the map
@@ -200,10 +202,13 @@ inline float3 diffuse_color(const Bsdf* bsdf, const global Material* material) {
     }
 }
 
-/// Completes a BSDF with looked-up parameters for a viewer on the front (or back) side.
-inline void finish_bsdf(Bsdf* bsdf, const global Material* material, bool front) {
-    const uint model = material->model;
-    const bool thin = model == NEARLIGHT_BSDF_THIN_DIELECTRIC || (material->flags & NEARLIGHT_MATERIAL_THIN);
+/// Completes a BSDF with looked-up parameters for a viewer on the front (or back) side. Smooth glass becomes
+/// clear where `clear` is set.
+inline void finish_bsdf(Bsdf* bsdf, const global Material* material, bool front, bool clear) {
+    const bool straight = clear && material->model == NEARLIGHT_BSDF_DIELECTRIC && is_smooth(bsdf);
+    const uint model = straight ? NEARLIGHT_BSDF_CLEAR_GLASS : material->model;
+    const bool thin =
+        straight || model == NEARLIGHT_BSDF_THIN_DIELECTRIC || (material->flags & NEARLIGHT_MATERIAL_THIN);
     const bool body = (model == NEARLIGHT_BSDF_DIELECTRIC || model == NEARLIGHT_BSDF_PRINCIPLED) && !thin;
     if (!front && !thin && !body && model != NEARLIGHT_BSDF_NULL) {
         *bsdf = black_bsdf();
@@ -291,7 +296,8 @@ inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceB
     if (!front) {
         turn_over(s);
     }
-    finish_bsdf(&s->bsdf, material, front);
+    finish_bsdf(&s->bsdf, material, front,
+                scene->info->veils == NEARLIGHT_VEILS_CLEAR && s->mode != BSDF_CAMERA);
 }
 
 /// Everything but the BSDF itself, which is black: the frame of the mesh.
@@ -303,6 +309,7 @@ inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mo
     s.geometric = hit->geometric;
     s.wo = -direction;
     s.mode = mode;
+    s.unscaled = 0;
     s.s_share = 0.0f;
     s.mapped = 0;
     s.unmapped = s.frame.n;
@@ -333,6 +340,9 @@ inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, Surf
         material = resolve_step(scene, hit, s, material, &value, &turn, &u);
         if (!material) {
             s->bsdf.model = NEARLIGHT_BSDF_NULL;
+            if (dot(s->wo, s->frame.n) < 0.0f) {
+                turn_over(s);
+            }
             return;
         }
     }

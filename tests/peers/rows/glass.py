@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Light through glass. A point light does not shine through it in a path tracer; emitters with a surface do."""
+from rows.emitters import TO_SKY
 from rows.row import table
 from scene_text import *
 
 
 def rows():
-    return table('glass', _scenes(), spp=1024)
+    return table('glass', {**_scenes(), **_veils()}, spp=1024)
 
 
 def _pane(material, at=(0.8, 2.0, 1.0), size=1.2, turned=None):
@@ -14,6 +15,49 @@ def _pane(material, at=(0.8, 2.0, 1.0), size=1.2, turned=None):
 
 def _slab(at=(0, 1, 2.2), size=(1.5, 1.5, 0.05)):
     return shape('cube', bsdf('dielectric'), to_world=place(size, at))
+
+
+def window_room(pane, light, depth=8):
+    """A closed room with a window of 1.2 by 1.2 in its right side, glazed with `pane`, where one is given."""
+    right = [turn('y', -90)]
+    frame = [rectangle(diffuse(0.6), turned=[scale(*size)] + right, at=(2, *at), size=1) for size, at in (
+        ((4, 2, 1), (-1.1, 0)), ((4, 2, 1), (4.1, 0)), ((1.7, 0.6, 1), (1.5, -2.3)), ((1.7, 0.6, 1), (1.5, 2.3)))]
+    glazing = () if pane is None else (rectangle(pane, turned=right, at=(2, 1.5, 0), size=0.62),)
+    return scene(*room(diffuse(0.6), *frame, *glazing, box(diffuse(0.7, 0.4, 0.3), at=(-0.6, 0.5, -1)), light, right=None),
+        depth=depth, camera=perspective(to_world=INSIDE))
+
+
+def _veils():
+    """Light straight through panes and masks, which light samples and rays share."""
+    thin = bsdf('thindielectric')
+    green = diffuse(0.2, 0.6, 0.2)
+    leaf = bsdf('mask', bsdf('twosided', green), opacity=bitmap('leaf.png', raw=True))
+    half = bsdf('mask', bsdf('twosided', green), opacity=0.5)
+    blend = bsdf('blendbsdf', bsdf('null'), bsdf('twosided', green), weight=0.3)
+    sun = emitter('sunsky', to_world=TO_SKY, sun_direction=vector(0.8, 0.7, 0.1), turbidity=3.0, sun_aperture=20.0)
+    steel = bsdf('roughconductor', material='Cr', alpha=0.25)
+    def under(veil, depth=6):
+        return scene(*stage(), _pane(veil), lamp(size=0.8), depth=depth)
+    return {
+        'area-behind-leaf': under(leaf),
+        'area-behind-half-mask': under(half),
+        'area-behind-blend': under(blend),
+        'area-behind-blend-of-panes': under(bsdf('blendbsdf', thin, half, weight=0.5)),
+        'area-behind-pane-depth-2': under(thin, depth=2),
+        'area-behind-pane-depth-3': under(thin, depth=3),
+        'area-behind-mask-in-front-of-pane-depth-4': scene(*stage(), _pane(thin), _pane(half, at=(0.8, 1.8, 1)),
+            lamp(size=0.8), depth=4),
+        'area-behind-ten-panes': scene(*stage(), *(_pane(thin, at=(0.8, 1.2 + 0.1 * i, 1)) for i in range(10)),
+            lamp(size=0.8), depth=16),
+        'sky-behind-leaves': scene(*stage(), _pane(leaf), _pane(leaf, at=(-0.6, 1.8, 0.8)), envmap(), depth=6),
+        'sun-behind-pane': scene(*stage(), _pane(thin, size=3), sun, depth=6),
+        'metal-behind-pane': scene(floor(steel), wall(steel), _pane(thin), lamp(size=0.8), depth=6),
+        'room-with-window': window_room(None, envmap()),
+        'room-with-pane': window_room(thin, envmap()),
+        'room-with-tinted-pane': window_room(bsdf('thindielectric', specular_transmittance=rgb(0.9, 0.5, 0.2)), envmap()),
+        'room-with-leaf': window_room(leaf, constant(2)),
+        'sunlit-room-with-pane': window_room(thin, sun),
+    }
 
 
 def _scenes():

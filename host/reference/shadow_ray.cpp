@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/shadow_ray.h"
+
+#include <algorithm>
+
+#include "host/reference/bsdf/veil.h"
+#include "host/reference/surface.h"
+#include "host/scene/ray_epsilon.h"
+
+namespace nearlight::core {
+
+ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 position, const LightPick& pick,
+                     int max_veils, float extent) {
+    if (pick.is_delta && !scene.clear_glass) {
+        max_veils = 0;
+    }
+    max_veils = std::min(max_veils, NEARLIGHT_MAX_VEILS);
+    const bool is_open = LightSampler::is_visible(embree, position, pick);
+    if (is_open || max_veils <= 0) {
+        return {.transmittance = is_open ? Vec3d{1, 1, 1} : Vec3d{}};
+    }
+    const float distance = pick.infinite ? kInfinity : length(pick.target - position);
+    const Vec3 direction = pick.infinite ? pick.direction : (pick.target - position) / distance;
+    const float t_max = distance * NEARLIGHT_SEGMENT_T_MAX;
+    float t_min = pick.infinite ? 0.0f : distance * NEARLIGHT_SEGMENT_T_MIN;
+    ShadowRay ray{.transmittance = {1, 1, 1}};
+    for (;;) {
+        const BvhHit hit = embree.closest_hit(position, direction, t_min, t_max);
+        if (hit.triangle == ~0u) {
+            return ray;
+        }
+        const Surface surface = surface_at(scene, hit, direction);
+        ray.transmittance *= veil_transmittance(scene, surface, normalize(as_double(direction)));
+        if (ray.veils++ == max_veils || is_zero(ray.transmittance)) {
+            return {};
+        }
+        // Here a ray would start that left the veil's other side.
+        t_min = hit.t +
+                ray_epsilon(surface.position, extent) / std::abs(dot(surface.geometric_normal, direction));
+    }
+}
+
+}  // namespace nearlight::core

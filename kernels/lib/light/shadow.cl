@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadow rays that pass straight through veils: thin panes, masks and `null`, and with --glass clear smooth
+// glass bodies too.
+//
+// A ray that follows the BSDF passes the same veils with the same transmittance in expectation, and keeps
+// the density of the surface that scattered it (PathRay). So the two share this light by multiple importance
+// sampling. A veil counts as a surface of the path. Veils under normal or bump maps block shadow rays, and
+// the rays that pass them bring their light alone.
+#ifndef NEARLIGHT_LIB_LIGHT_SHADOW
+#define NEARLIGHT_LIB_LIGHT_SHADOW
+
+#include "lib/bsdf/bsdf.cl"
+#include "lib/light/sample.cl"
+
+/// A material behind ones that stand for others, and its share of the surface.
+typedef struct VeilPart {
+    const global Material* material;
+    float share;
+    float turn;  // −1 where a two-sided material turned the frame over
+} VeilPart;
+
+/// What a model that stands for no other lets pass straight on, at an angle of the given cosine.
+inline float3 straight_transmittance(const SceneView* scene, const SurfaceHit* hit,
+                                     const global Material* material, float cosine) {
+    if (material->model == NEARLIGHT_BSDF_NULL) {
+        return (float3)(1.0f);
+    }
+    Bsdf bsdf = black_bsdf();
+    bsdf.eta = load3(material->eta);
+    bsdf.model = material->model;
+    if (material->model == NEARLIGHT_BSDF_DIELECTRIC && scene->info->veils == NEARLIGHT_VEILS_CLEAR) {
+        bsdf.alpha = look_up(scene, &material->roughness, hit).number;
+        bsdf.model = is_smooth(&bsdf) ? NEARLIGHT_BSDF_CLEAR_GLASS : NEARLIGHT_BSDF_DIELECTRIC;
+    }
+    if (bsdf.model != NEARLIGHT_BSDF_THIN_DIELECTRIC && bsdf.model != NEARLIGHT_BSDF_CLEAR_GLASS) {
+        return (float3)(0.0f);
+    }
+    return look_up(scene, &material->transmission, hit).color *
+           (1.0f - pane_reflectance(&bsdf, (float3)(0.0f, 0.0f, cosine)));
+}
+
+/// The share of light along the unit direction that the surface lets pass straight on, over all choices of
+/// its masks and blends.
+inline float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+    const float along = dot(hit->shading, direction);
+    float3 sum = (float3)(0.0f);
+    VeilPart parts[NEARLIGHT_MAX_BSDF_NESTING + 2];  // one waits at each blend, and both of the last one
+    parts[0] = (VeilPart){scene->materials + hit->material, 1.0f, 1.0f};
+    uint count = along != 0.0f ? 1 : 0;
+    while (count > 0 && count < NEARLIGHT_MAX_BSDF_NESTING + 2) {
+        VeilPart part = parts[--count];
+        const uint model = part.material->model;
+        if (model < NEARLIGHT_BSDF_MASK) {
+            sum += part.share * straight_transmittance(scene, hit, part.material, fabs(along));
+        } else if (model == NEARLIGHT_BSDF_TWO_SIDED) {
+            const bool back = part.turn * along > 0.0f;
+            part.turn = back ? -part.turn : part.turn;
+            part.material = scene->materials + part.material->child[back];
+            parts[count++] = part;
+        } else if (model == NEARLIGHT_BSDF_MASK || model == NEARLIGHT_BSDF_BLEND) {
+            const float share = clamp(look_up(scene, &part.material->reflectance, hit).number.x, 0.0f, 1.0f);
+            const global Material* first = scene->materials + part.material->child[0];
+            const bool is_mask = model == NEARLIGHT_BSDF_MASK;
+            sum += is_mask ? part.share * (1.0f - share) : 0.0f;
+            if (!is_mask && share > 0.0f) {
+                parts[count++] =
+                    (VeilPart){scene->materials + part.material->child[1], part.share * share, part.turn};
+            }
+            const float of_first = part.share * (is_mask ? share : 1.0f - share);
+            if (of_first > 0.0f) {
+                parts[count++] = (VeilPart){first, of_first, part.turn};
+            }
+        }
+    }
+    return sum;
+}
+
+/// What remains of light on the ray from x between t_min and t_max; nothing where it meets more veils than
+/// `max_veils`.
+inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min, float t_max,
+                                uint max_veils) {
+    float3 remains = (float3)(1.0f);
+    for (uint veils = 0;; ++veils) {
+        const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
+        if (hit.t < 0.0f) {
+            return remains;
+        }
+        remains *= veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
+        if (is_black(remains)) {
+            return remains;
+        }
+        // Here a ray would start that left the veil's other side.
+        t_min = hit.t + ray_epsilon(hit.position, scene->info->extent) / fabs(dot(hit.geometric, direction));
+    }
+}
+
+/// What remains at x of a light sample, on a path that has room for `max_veils` more surfaces. Veils block
+/// the light of points and directions, which no ray can find behind them, unless glass is clear.
+inline float3 light_transmittance(const SceneView* scene, float3 x, const LightSample* light,
+                                  uint max_veils) {
+    const uint veils = scene->info->veils;
+    if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils != NEARLIGHT_VEILS_CLEAR) ||
+        max_veils == 0) {
+        return (float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f);
+    }
+    const float3 to_target = light->target - x;
+    const float distance = light->infinite ? INFINITY : length(to_target);
+    return ray_transmittance(scene, x, light->infinite ? light->direction : to_target / distance,
+                             light->infinite ? 0.0f : distance * NEARLIGHT_SEGMENT_T_MIN,
+                             distance * NEARLIGHT_SEGMENT_T_MAX, min(max_veils, (uint)NEARLIGHT_MAX_VEILS));
+}
+
+#endif
