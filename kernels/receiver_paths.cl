@@ -30,6 +30,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     ReceiverPoint at;
     at.x = receiver_position(receiver, lane);
     at.n = receiver_normal(receiver, lane);
+    at.mesh_n = receiver_mesh_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
     if (dot(at.n, at.n) > 0.0f) {

@@ -63,9 +63,10 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
         if (vpl->depth <= max_depth && cos_vpl > 0.0f && cos_receiver > 0.0f &&
             is_visible(scene, origin, at->x)) {
             const float inverse = rsqrt(squared);
+            const float map = receiver_map_factor(at, -between * inverse);
             const float transmission = diffuse_transmission(scene, vpl_curve(vpl), cos_vpl * inverse) *
                                        diffuse_transmission(scene, at->curve, cos_receiver * inverse);
-            sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission /
+            sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission * map /
                                         (squared * fmax(squared, to->radii[index] * to->radii[index])));
         }
     }
@@ -94,10 +95,7 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    if (weight > 0.0f || scene->info->has_specular) {
-        irradiance += continued_light(scene, ray, hit, weight, max_edges, random_uint4(keys));
-    }
-    return irradiance;
+    return irradiance + remaining_light(scene, &ray, &hit, weight, max_edges, random_uint4(keys));
 }
 
 #endif

@@ -16,10 +16,35 @@
 
 /// A place that receives light by its Lambertian part.
 typedef struct ReceiverPoint {
-    float3 x;    // off its surface
-    float3 n;    // shading normal
-    uint curve;  // row of the transmission curve that weighs arriving light
+    float3 x;       // off its surface
+    float3 n;       // shading normal
+    float3 mesh_n;  // the mesh's own, where a map has tilted n; zero without a map
+    uint curve;     // row of the transmission curve that weighs arriving light
 } ReceiverPoint;
+
+/// The Lambertian part of a surface as a receiver at x, which stands off it.
+inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
+    ReceiverPoint at;
+    at.x = x;
+    at.n = surface->frame.n;
+    at.mesh_n = surface->mapped ? surface->unmapped : (float3)(0.0f);
+    at.curve = surface->bsdf.curve;
+    return at;
+}
+
+inline bool is_mapped(const ReceiverPoint* at) {
+    return dot(at->mesh_n, at->mesh_n) > 0.0f;
+}
+
+/// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
+/// lets through.
+inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
+    if (!is_mapped(at)) {
+        return 1.0f;
+    }
+    const float cosine = dot(direction, at->mesh_n);
+    return cosine > 0.0f ? map_shadowing(map_tilt(dot(at->n, at->mesh_n)), cosine) : 0.0f;
+}
 
 /// Irradiance (W/m²) from two kinds of paths.
 typedef struct ReceivedLight {
@@ -42,8 +67,8 @@ inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* a
         return (float3)(0.0f);
     }
     const float of_rays = light->is_delta ? 0.0f : path_ratio * cosine * M_1_PI_F;
-    return light->radiance *
-           (cosine * diffuse_transmission(scene, at->curve, cosine) / (light->pdf + of_rays));
+    return light->radiance * (cosine * diffuse_transmission(scene, at->curve, cosine) *
+                              receiver_map_factor(at, light->direction) / (light->pdf + of_rays));
 }
 
 /// The part of the direct light that light samples bring, if each receiver sends `path_count` rays too. Delta
@@ -159,11 +184,11 @@ inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_wei
     return true;
 }
 
-/// Light over at least one surface, from a ray that has met `hit`. `hit` is the first of them, and its
-/// Lambertian part counts with the weight `diffuse_weight`. The whole path from the receiver to a light has
-/// at most `max_edges` edges.
-inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit, float diffuse_weight,
-                              uint max_edges, uint4 keys) {
+/// Light over at least one surface, from a ray that has met `hit`. `hit` is the first of them, and of its
+/// parts only these count, the Lambertian one with the weight `diffuse_weight`. The whole path from the
+/// receiver to a light has at most `max_edges` edges.
+inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit, uint first_parts,
+                              float diffuse_weight, uint max_edges, uint4 keys) {
     const float first_weight = max_component(ray.throughput);
     float3 light = (float3)(0.0f);
     for (uint surfaces = 1; surfaces < max_edges; ++surfaces) {
@@ -173,7 +198,7 @@ inline float3 continued_light(const SceneView* scene, PathRay ray, SurfaceHit hi
         uint parts = BSDF_D | BSDF_S;
         if (surfaces == 1) {
             surface.bsdf.diffuse *= diffuse_weight;
-            parts = diffuse_weight > 0.0f ? parts : BSDF_S;
+            parts = first_parts;
         }
         if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
             break;
@@ -214,9 +239,29 @@ inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, flo
     ray.normal = at->n;
     ray.direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
-    ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine));
+    ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
+                              receiver_map_factor(at, ray.direction));
     ray.pdf = rays_per_light_sample * cosine * M_1_PI_F;
     return ray;
+}
+
+/// What a ray brings over at least one surface, where VPLs bring all but `weight` of the first one's
+/// Lambertian part. They know nothing of a map's shadowing, so at a mapped receiver they may bring too much:
+/// the weight is then negative, and the ray takes that light away. It is mostly little, so that few rays do,
+/// with more of it each; the others bring what the surface reflects otherwise.
+inline float3 remaining_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit, float weight,
+                              uint max_edges, uint4 keys) {
+    const bool has_specular = scene->info->has_specular;
+    uint parts = (weight > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
+    float scale = 1.0f;
+    if (weight < 0.0f) {
+        const float chance = has_specular ? fmin(0.5f, -weight) : fmin(1.0f, -4.0f * weight);
+        const bool takes = to_unit_float(random_uint4(keys).w) < chance;
+        parts = takes ? BSDF_D : parts;
+        scale = takes ? -1.0f / chance : 1.0f / (1.0f - chance);
+    }
+    return parts != 0 ? scale * continued_light(scene, *ray, *hit, parts, fabs(weight), max_edges, keys)
+                      : (float3)(0.0f);
 }
 
 /// What one ray of a receiver brings.
@@ -224,18 +269,20 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
                                float2 u, uint4 keys) {
     ReceivedLight light = nothing_received();
     const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    if (is_black(ray.throughput)) {
+        return light;
+    }
     // Where only near surfaces can bring light, the ray need not go farther.
-    const bool far = scene->info->has_specular || has_sampled_lights(scene);
+    const bool far = scene->info->has_specular || has_sampled_lights(scene) || is_mapped(at);
     const SurfaceHit hit =
         trace_surface(scene, ray.origin, ray.direction, far ? INFINITY : limits->clamp_radius);
     light.direct = ray.throughput * met_light(scene, &ray, &hit);
     if (hit.t < 0.0f) {
         return light;
     }
-    const float weight = remaining_weight(hit.t, limits->clamp_radius);
-    if (weight > 0.0f || scene->info->has_specular) {
-        light.indirect = continued_light(scene, ray, hit, weight, limits->max_edges, keys);
-    }
+    const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
+    const float weight = 1.0f - of_vpls / receiver_map_factor(at, ray.direction);
+    light.indirect = remaining_light(scene, &ray, &hit, weight, limits->max_edges, keys);
     return light;
 }
 
