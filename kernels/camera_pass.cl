@@ -201,8 +201,8 @@ typedef struct CameraLimits {
 inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
-    const PathLimits ray = {max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
-                            1};
+    const PathLimits ray = {max_edges, max_edges, INFINITY,
+                            min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1};
     const ReceivedLight light =
         received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)));
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;

@@ -333,7 +333,7 @@ typedef struct SceneInfo {
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
     uint light_node_count;     // 0: no tree of lights, they are chosen by power
-    uint pad0;
+    uint has_maps;             // 1: some surface has a normal or bump map
 } SceneInfo;
 
 #ifdef __cplusplus
