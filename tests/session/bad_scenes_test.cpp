@@ -112,7 +112,9 @@ TEST_F(BadScenes, LightsGiveAPictureWithoutNan) {
     on_each_device([&](Device& device) {
         const std::string glass = ball(bsdf("dielectric", ""));
         const std::string bulb =
-            "<shape type='sphere'><float name='radius' value='0.2'/><emitter type='area'/></shape>";
+            "<shape type='sphere'><float name='radius' value='0.2'/><emitter type='area'><rgb "
+            "name='radiance' value='3'/>"
+            "</emitter></shape>";
         const std::string point = "<emitter type='point'/>";
         expect_picture(device, glass + bulb, 0);
         expect_picture(device, glass + point, 0);
