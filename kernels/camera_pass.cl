@@ -14,6 +14,7 @@
 #include "lib/camera.cl"
 #include "lib/close_range.cl"
 #include "lib/receiver_path.cl"
+#include "lib/vpl.cl"
 #include "shared/packet_order.h"
 
 #define MAX_CHAIN 24
@@ -142,6 +143,7 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
 typedef struct CameraReceiver {
     float3 position, normal;  // zero normal: there is no receiver
     uint surface;             // ReceiverPacket.surface
+    uint mesh_normal;         // ReceiverPacket.mesh_normal
     CameraVertex vertex;
 } CameraReceiver;
 
@@ -150,6 +152,7 @@ inline CameraReceiver absent_receiver(void) {
     receiver.position = (float3)(0.0f);
     receiver.normal = (float3)(0.0f);
     receiver.surface = 0;
+    receiver.mesh_normal = 0;
     receiver.vertex.throughput = store3((float3)(0.0f));
     receiver.vertex.depth = 0.0f;
     receiver.vertex.albedo = store3((float3)(0.0f));
@@ -190,6 +193,7 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
     receiver->position = offset_point(scene, hit->position, hit->geometric);
     receiver->normal = surface->frame.n;
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+    receiver->mesh_normal = surface->mapped ? pack_mesh_normal(surface->unmapped) : 0;
     receiver->vertex.throughput = store3(path->ray.throughput);
     receiver->vertex.albedo = store3(albedo);
     receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
@@ -216,10 +220,9 @@ inline LightQuota quota_at(const CameraLimits* limits, uint step) {
 /// left.
 inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
-    const ReceiverPoint at = {offset_point(scene, hit->position, hit->geometric), surface->frame.n,
-                              surface->bsdf.curve};
-    const PathLimits ray = {max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
-                            1};
+    const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
+    const PathLimits ray = {max_edges, max_edges, INFINITY,
+                            min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1};
     const ReceivedLight light =
         received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)));
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
@@ -318,6 +321,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
     to->ny[lane] = from->normal.y;
     to->nz[lane] = from->normal.z;
     to->surface[lane] = from->surface;
+    to->mesh_normal[lane] = from->mesh_normal;
     *vertex = from->vertex;
 }
 

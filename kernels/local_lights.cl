@@ -131,14 +131,14 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
     const Connections to = {vpls, vpl_radii, vpl_count, connections, law};
-    const ReceiverPoint at = {light.position, surface.frame.n, surface.bsdf.curve};
+    const ReceiverPoint at = receiver_of(light.position, &surface);
     const float3 exitance =
         albedo * short_walk_irradiance(&scene, &to, &at, bounce_count, direct_samples, walk_key);
     if (is_black(exitance)) {
         return;
     }
-    lights[slot] =
-        make_vpl(light.position, light.normal, surface.frame.n, surface.bsdf.curve, 0, 0, exitance);
+    lights[slot] = make_vpl(light.position, light.normal, surface.frame.n, surface.bsdf.curve, 0,
+                            mapped_flag(&surface), exitance);
     light_radii[slot] = radius;
     flags[slot] = 1;
 }

@@ -40,6 +40,6 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
     }
     // Depth 0 stands for light of all depths.
     vpls[index] = make_vpl(offset_point(&scene, position, hit.geometric), hit.geometric, surface.frame.n,
-                           surface.bsdf.curve, 0, NEARLIGHT_VPL_CLOSE, power);
+                           surface.bsdf.curve, 0, NEARLIGHT_VPL_CLOSE | mapped_flag(&surface), power);
     flags[index] = 1;
 }

@@ -4,10 +4,13 @@
 //
 // One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Random numbers
 // are keyed by the receiver's position, so no split of the work changes the result. A receiver with
-// `surfaces` surfaces before it gets paths of at most max_edges − surfaces edges.
+// `surfaces` surfaces before it gets paths of at most max_edges − surfaces edges. VPLs bring it longer ones,
+// whose light the rays take away again.
 
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
+
+#define LONG_PATH 32u  // light over so many edges is too weak to be taken away
 
 inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
     packet->r[lane] = light.x;
@@ -30,11 +33,13 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     ReceiverPoint at;
     at.x = receiver_position(receiver, lane);
     at.n = receiver_normal(receiver, lane);
+    at.mesh_n = receiver_mesh_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
-        const PathLimits limits = {max_edges > surfaces ? max_edges - surfaces : 0, clamp_radius,
+        const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
+        const PathLimits limits = {own_edges, max_edges < LONG_PATH ? max_edges : own_edges, clamp_radius,
                                    light_samples, path_count};
         light =
             received_light(&scene, &at, &limits,

@@ -48,6 +48,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
         return;
     }
     // Depth 0 stands for light of all depths.
-    vpls[ray] = make_vpl(y, hit.geometric, surface.frame.n, surface.bsdf.curve, 0, 0, albedo);
+    vpls[ray] =
+        make_vpl(y, hit.geometric, surface.frame.n, surface.bsdf.curve, 0, mapped_flag(&surface), albedo);
     flags[ray] = 1;
 }

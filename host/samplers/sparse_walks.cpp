@@ -8,9 +8,12 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kWalkCountPilotWalks = 512;
-/// The maximum number of walks per wanted VPL. It bounds the time if hardly any walk lands, such as those of
-/// a light that shines past the scene.
+/// The maximum number of walks, per wanted VPL and in all. They bound the time if hardly any walk lands, such
+/// as those of a light that shines past the scene, or if none of the pilot's does, as in a scene of metal and
+/// glass alone.
 constexpr uint kMaxWalksPerVpl = 256;
+constexpr double kMaxWalks = 1 << 24;
+constexpr double kMaxWalksIfNoneLands = 1 << 18;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
 }  // namespace
@@ -36,7 +39,8 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
     const double deposits_per_walk = static_cast<double>(pilot_deposits) / kWalkCountPilotWalks;
     const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMaxWalksPerVpl);
-    walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, 1e8));
+    const double max_walks = pilot_deposits > 0 ? kMaxWalks : kMaxWalksIfNoneLands;
+    walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, max_walks));
     walks.seed = task.seed;
     return {stages.light_tracer.run(task.scene, region, keep, walks), walks.walk_count};
 }

@@ -42,7 +42,7 @@ Vec3 expectation(const Scene& scene, const Material& material, float u, float v,
         return expectation(scene, child(scene, material, index), u, v, vertex_color, through, estimate);
     };
     const float weight =
-        std::clamp(parameter_value(scene, material.reflectance, u, v, vertex_color).x, 0.0f, 1.0f);
+        std::clamp(parameter_number(scene, material.reflectance, u, v, vertex_color), 0.0f, 1.0f);
     if (material.model == NEARLIGHT_BSDF_MASK) {
         return of_child(0) * weight + through * (1.0f - weight);
     }
@@ -71,7 +71,7 @@ struct Point {
         return parameter_value(scene, parameter, u, v, vertex_color);
     }
     [[nodiscard]] float number(const Parameter& parameter) const {
-        return std::clamp(color(parameter).x, 0.0f, 1.0f);
+        return std::clamp(parameter_number(scene, parameter, u, v, vertex_color), 0.0f, 1.0f);
     }
 };
 

@@ -130,6 +130,13 @@ Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, fl
                                                  u, v, vertex_color);
 }
 
+float parameter_number(const Scene& scene, const Parameter& parameter, float u, float v, Vec3 vertex_color) {
+    const Parameter unscaled{kWhite, parameter.texture};
+    return parameter.texture < 0
+               ? parameter.value.x
+               : parameter.value.x * luminance(parameter_value(scene, unscaled, u, v, vertex_color));
+}
+
 Vec3 mean_value(const Scene& scene, const Parameter& parameter) {
     if (parameter.texture < 0) {
         return parameter.value;

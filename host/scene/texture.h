@@ -23,6 +23,10 @@ inline constexpr Vec3 kWhite{1, 1, 1};
 Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v,
                      Vec3 vertex_color = kWhite);
 
+/// The value of a parameter that is a number, which takes from a texture the luminance of its colour.
+float parameter_number(const Scene& scene, const Parameter& parameter, float u, float v,
+                       Vec3 vertex_color = kWhite);
+
 /// What a texture says at (u, v), linear sRGB. The texture's placement is applied first. v = 0 is the bottom
 /// edge of the bitmap; the centre of texel i of n is at (i + 0.5)/n. Coordinates that are not finite count
 /// as 0.

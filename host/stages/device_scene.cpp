@@ -94,6 +94,10 @@ bool has_two_ways(const Scene& scene, const Material& material) {
     return has_specular(scene, material) && (has_diffuse(scene, material) || lets_through(scene, material));
 }
 
+bool is_map(const Material& material) {
+    return material.model == NEARLIGHT_BSDF_NORMAL_MAP || material.model == NEARLIGHT_BSDF_BUMP_MAP;
+}
+
 SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
     return {.triangle_count = static_cast<uint>(scene.triangles.size()),
             .emitter_count = static_cast<uint>(emitters.emitters.size()),
@@ -103,6 +107,7 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
                 scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
             .light_node_count = static_cast<uint>(emitters.light_tree.size()),
+            .has_maps = std::ranges::any_of(scene.materials, is_map),
             .veils = veils_of(scene)};
 }
 

@@ -33,6 +33,17 @@ inline bool land(const SceneView* scene, const EmittedParticle* particle, float 
     return true;
 }
 
+/// What a map lets a VPL have of the light that it stands for. The VPL has the normal as it is mapped for
+/// all viewers, even for those few who see that normal from behind.
+inline float deposit_factor(const SurfaceBsdf* s) {
+    if (!s->mapped) {
+        return 1.0f;
+    }
+    const float cosine = dot(s->wo, s->unmapped);
+    const bool agrees = cosine * dot(s->wo, s->frame.n) > 0.0f;
+    return agrees && s->mapped == MAPPED ? s->scale * map_shadowing(s->tilt2, cosine) : 0.0f;
+}
+
 /// What the Lambertian part reflects of the particle's flux, before the transmission on the way out; 0 where
 /// there is no such part.
 inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* particle, const Landing* at) {
@@ -43,14 +54,15 @@ inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* part
         return (float3)(0.0f);
     }
     return particle->flux * bsdf->diffuse *
-           (diffuse_transmission(scene, bsdf->curve, shading) * (shading / geometric));
+           (diffuse_transmission(scene, bsdf->curve, shading) * (shading / geometric) *
+            deposit_factor(&at->surface));
 }
 
 /// The deposit of a particle: the VPL that it leaves where it landed.
 inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, uint flags, float3 power) {
     const float3 normal = at->hit.geometric;
     return make_vpl(offset_point(scene, at->hit.position, normal), normal, at->surface.frame.n,
-                    at->surface.bsdf.curve, depth, flags, power);
+                    at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
 }
 
 /// Sends the particle on from where it landed. Light of a point or a direction that mirrors and glass send on

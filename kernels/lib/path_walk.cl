@@ -26,7 +26,7 @@ inline float gather_radius(const SceneView* scene, const GatherRadius* law, floa
     if (law->at_unit_light < INFINITY) {
         const uint key =
             random_uint4((uint4)(as_uint(y.x), as_uint(y.y), as_uint(y.z), law->seed ^ 0x6a7be4u)).x;
-        const ReceiverPoint at = {y, n, 0};
+        const ReceiverPoint at = {y, n, (float3)(0.0f), 0};
         const float light = luminance(sampled_direct_light(scene, &at, GATHER_LIGHT_SAMPLES, 0, 0, key));
         for (uint level = 1; level < GATHER_LEVELS && radius * sqrt(light) > law->at_unit_light; ++level) {
             radius *= 0.5f;
@@ -63,9 +63,10 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
         if (vpl->depth <= max_depth && cos_vpl > 0.0f && cos_receiver > 0.0f &&
             is_visible(scene, origin, at->x)) {
             const float inverse = rsqrt(squared);
+            const float map = receiver_map_factor(at, -between * inverse);
             const float transmission = diffuse_transmission(scene, vpl_curve(vpl), cos_vpl * inverse) *
                                        diffuse_transmission(scene, at->curve, cos_receiver * inverse);
-            sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission /
+            sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission * map /
                                         (squared * fmax(squared, to->radii[index] * to->radii[index])));
         }
     }
@@ -94,8 +95,9 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    if (weight > 0.0f || scene->info->has_specular) {
-        const ReceivedLight beyond = continued_light(scene, ray, hit, weight, max_edges, random_uint4(keys));
+    const RayShare share = {1.0f - weight, max_edges, max_edges};
+    if (brings_more(scene, &share)) {
+        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, random_uint4(keys));
         irradiance += beyond.direct + beyond.indirect;
     }
     return irradiance;

@@ -17,10 +17,35 @@
 
 /// A place that receives light by its Lambertian part.
 typedef struct ReceiverPoint {
-    float3 x;    // off its surface
-    float3 n;    // shading normal
-    uint curve;  // row of the transmission curve that weighs arriving light
+    float3 x;       // off its surface
+    float3 n;       // shading normal
+    float3 mesh_n;  // the mesh's own, where a map has tilted n; zero without a map
+    uint curve;     // row of the transmission curve that weighs arriving light
 } ReceiverPoint;
+
+/// The Lambertian part of a surface as a receiver at x, which stands off it.
+inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
+    ReceiverPoint at;
+    at.x = x;
+    at.n = surface->frame.n;
+    at.mesh_n = surface->mapped ? surface->unmapped : (float3)(0.0f);
+    at.curve = surface->bsdf.curve;
+    return at;
+}
+
+inline bool is_mapped(const ReceiverPoint* at) {
+    return dot(at->mesh_n, at->mesh_n) > 0.0f;
+}
+
+/// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
+/// lets through.
+inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
+    if (!is_mapped(at)) {
+        return 1.0f;
+    }
+    const float cosine = dot(direction, at->mesh_n);
+    return cosine > 0.0f ? map_shadowing(map_tilt(dot(at->n, at->mesh_n)), cosine) : 0.0f;
+}
 
 /// Irradiance (W/m²) from two kinds of paths.
 typedef struct ReceivedLight {
@@ -43,8 +68,8 @@ inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* a
         return (float3)(0.0f);
     }
     const float of_rays = light->is_delta ? 0.0f : path_ratio * cosine * M_1_PI_F;
-    return light->radiance *
-           (cosine * diffuse_transmission(scene, at->curve, cosine) / (light->pdf + of_rays));
+    return light->radiance * (cosine * diffuse_transmission(scene, at->curve, cosine) *
+                              receiver_map_factor(at, light->direction) / (light->pdf + of_rays));
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
@@ -184,33 +209,119 @@ inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_wei
     return true;
 }
 
-/// Light over at least one surface, from a ray that has met `hit`. `hit` is the first of them, and its
-/// Lambertian part counts with the weight `diffuse_weight`. The whole path from the receiver to a light has
-/// at most `max_edges` edges. Light that came straight through veils is direct light.
+/// What a ray brings over at least one surface, besides what VPLs bring. Those stand for the Lambertian part
+/// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light, of which
+/// they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
+typedef struct RayShare {
+    float of_vpls;
+    uint max_edges;
+    uint vpl_edges;  // at least max_edges
+} RayShare;
+
+/// How a ray goes on from its first surface.
+typedef struct Continuation {
+    uint parts;            // of the first surface that count
+    float diffuse_weight;  // of its Lambertian part
+    uint as_vpl;           // 1: the first surface is seen along its normal, as VPLs have it
+    uint max_edges;
+    float near_scale;  // of light over up to RayShare.max_edges edges
+    float far_scale;   // of light over more
+} Continuation;
+
+/// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
+/// brings the rest. They bring too much where a map shadows the receiver, where it turns the normal of the
+/// first surface for this viewer, and on paths that are too long for a receiver behind mirrors or glass.
+/// There the ray takes light away, by chance `u`, or else brings what is left of the others.
+inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
+                                        const RayShare* share, float u) {
+    const bool has_specular = scene->info->has_specular;
+    const bool is_turned = first->mapped == MAPPED_TURNED && share->of_vpls > 0.0f;
+    const float kept = is_turned ? 1.0f : fmax(1.0f - share->of_vpls, 0.0f);
+    const float taken = is_turned ? share->of_vpls : fmax(share->of_vpls - 1.0f, 0.0f);
+    const bool is_short = share->vpl_edges > share->max_edges && share->of_vpls > 0.0f;
+    const bool is_kept = kept > 0.0f || has_specular;
+    float chance = is_kept ? fmin(0.5f, taken) : fmin(1.0f, 4.0f * taken);
+    if (is_short) {
+        chance = is_kept ? 0.5f : 1.0f;
+    }
+    Continuation way;
+    if (u < chance) {
+        way.parts = BSDF_D;
+        way.diffuse_weight = 1.0f;
+        way.as_vpl = is_turned;
+        way.max_edges = share->vpl_edges;
+        way.near_scale = -taken / chance;
+        way.far_scale = -share->of_vpls / chance;
+    } else {
+        way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
+        way.diffuse_weight = kept;
+        way.as_vpl = 0;
+        way.max_edges = share->max_edges;
+        way.near_scale = 1.0f / (1.0f - chance);
+        way.far_scale = 0.0f;
+    }
+    return way;
+}
+
+/// The first surface that a ray met, and how the ray goes on from it.
+inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                 const RayShare* share, float2 u, Continuation* way) {
+    SurfaceBsdf surface;
+    float3 seen = direction;
+#pragma unroll 1
+    for (uint view = 0; view < 2; ++view) {
+        surface = surface_bsdf(scene, hit, seen, BSDF_RADIANCE, u.x);
+        if (view == 0) {
+            *way = choose_continuation(scene, &surface, share, u.y);
+        }
+        if (!way->as_vpl) {
+            break;
+        }
+        seen = -hit->geometric;
+    }
+    surface.bsdf.diffuse *= way->diffuse_weight;
+    return surface;
+}
+
+/// Light over at least one surface, from a ray that has met `hit`, the first of them. Light that came
+/// straight through veils is direct light.
 inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                     float diffuse_weight, uint max_edges, uint4 keys) {
+                                     const RayShare* share, uint4 keys) {
     const float first_weight = max_component(ray.throughput);
     ReceivedLight light = nothing_received();
-    for (uint surfaces = 1; surfaces < max_edges; ++surfaces) {
+    Continuation way;
+    way.max_edges = share->vpl_edges;
+    for (uint surfaces = 1; surfaces < way.max_edges; ++surfaces) {
         const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
         const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
-        SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, to_unit_float(more.x));
+        const float2 choices = (float2)(to_unit_float(more.x), to_unit_float(more.w));
+        SurfaceBsdf surface;
         uint parts = BSDF_D | BSDF_S;
         if (surfaces == 1) {
-            surface.bsdf.diffuse *= diffuse_weight;
-            parts = diffuse_weight > 0.0f ? parts : BSDF_S;
+            surface = first_surface(scene, &hit, ray.direction, share, choices, &way);
+            parts = way.parts;
+            if (parts == 0 || way.max_edges < 2) {
+                break;
+            }
+        } else {
+            surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, choices.x);
         }
+        const float scale = surfaces < share->max_edges ? way.near_scale : way.far_scale;
         if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
             break;
         }
-        light.indirect += ray.throughput * reflected_light(scene, &hit, &surface, parts, 1,
-                                                           max_edges - surfaces - 1, random.w);
+        if (scale != 0.0f) {
+            const uint edges = surfaces < share->max_edges ? share->max_edges : way.max_edges;
+            light.indirect +=
+                scale * ray.throughput *
+                reflected_light(scene, &hit, &surface, parts, 1, edges - surfaces - 1, random.w);
+        }
         if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
                          (float2)(to_unit_float(random.y), to_unit_float(random.z)))) {
             break;
         }
         hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
-        const float3 met = ray.throughput * met_light(scene, &ray, &hit);
+        const float3 met = scale * ray.throughput * met_light(scene, &ray, &hit);
         if (ray.veils == surfaces) {
             light.direct += met;
         } else {
@@ -226,6 +337,7 @@ inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, Surfac
 /// How far rays from receivers go, and what VPLs bring already.
 typedef struct PathLimits {
     uint max_edges;      // of a path from the receiver to a light: 1 is direct light
+    uint vpl_edges;      // the same of what VPLs bring
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
     uint path_count;     // rays that each receiver sends
@@ -243,9 +355,16 @@ inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, flo
     PathRay ray;
     ray.direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
-    ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine));
+    ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
+                              receiver_map_factor(at, ray.direction));
     begin_ray(&ray, at->x, at->n, rays_per_light_sample * cosine * M_1_PI_F);
     return ray;
+}
+
+/// Whether a ray may bring anything over surfaces besides what VPLs bring.
+inline bool brings_more(const SceneView* scene, const RayShare* share) {
+    return share->of_vpls != 1.0f || scene->info->has_specular || scene->info->has_maps ||
+           share->vpl_edges > share->max_edges;
 }
 
 /// What one ray of a receiver brings.
@@ -253,17 +372,24 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
                                float2 u, uint4 keys) {
     ReceivedLight light = nothing_received();
     const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    if (is_black(ray.throughput)) {
+        return light;
+    }
     // Where only near surfaces can bring light, the ray need not go farther.
-    const bool far = scene->info->has_specular || has_sampled_lights(scene);
+    const bool far = scene->info->has_specular || scene->info->has_maps || has_sampled_lights(scene);
     const SurfaceHit hit =
         trace_surface(scene, ray.origin, ray.direction, far ? INFINITY : limits->clamp_radius);
-    light.direct = ray.throughput * met_light(scene, &ray, &hit);
+    if (limits->max_edges > 0) {
+        light.direct = ray.throughput * met_light(scene, &ray, &hit);
+    }
     if (hit.t < 0.0f) {
         return light;
     }
-    const float weight = remaining_weight(hit.t, limits->clamp_radius);
-    if (weight > 0.0f || scene->info->has_specular) {
-        const ReceivedLight beyond = continued_light(scene, ray, hit, weight, limits->max_edges, keys);
+    const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
+    const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction), limits->max_edges,
+                            limits->vpl_edges};
+    if (brings_more(scene, &share)) {
+        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, keys);
         light.direct += beyond.direct;
         light.indirect = beyond.indirect;
     }
@@ -274,7 +400,7 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
                                     uint4 keys) {
     ReceivedLight light = nothing_received();
-    if (limits->max_edges == 0 || scene->info->emitter_count == 0) {
+    if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
     for (uint path = 0; path < limits->path_count; ++path) {
@@ -284,10 +410,12 @@ inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint*
         light.indirect += found.indirect;
     }
     const float scale = 1.0f / (float)max(limits->path_count, 1u);
-    light.direct =
-        light.direct * scale + sampled_direct_light(scene, at, limits->light_samples, limits->path_count,
-                                                    limits->max_edges - 1, keys.x);
+    light.direct *= scale;
     light.indirect *= scale;
+    if (limits->max_edges > 0) {
+        light.direct += sampled_direct_light(scene, at, limits->light_samples, limits->path_count,
+                                             limits->max_edges - 1, keys.x);
+    }
     return light;
 }
 

@@ -104,7 +104,8 @@ inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
 inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
                             const SurfaceHit* hit) {
     TextureValue texel = {(float3)(1.0f), (float2)(0.0f), (float2)(0.0f)};
-    float3 scale = load3(parameter->value);
+    const float3 scale = load3(parameter->value);
+    float3 field = (float3)(1.0f);  // of the checkerboards on the way
     for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
         const float s = texture->u_scale * hit->uv.x + texture->u_shear * hit->uv.y + texture->u_offset;
@@ -119,8 +120,9 @@ inline TextureValue look_up(const SceneView* scene, const global Parameter* para
         }
         const bool same = (s - floor(s) > 0.5f) == (t - floor(t) > 0.5f);
         parameter = same ? &texture->color0 : &texture->color1;
-        scale *= load3(parameter->value);
+        field *= load3(parameter->value);
     }
+    texel.color *= field;
     texel.number = scale.xy * luminance(texel.color);
     texel.gradient *= scale.x;
     texel.color *= scale;

@@ -32,6 +32,16 @@ inline float3 receiver_normal(const global ReceiverPacket* packet, uint lane) {
     return (float3)(packet->nx[lane], packet->ny[lane], packet->nz[lane]);
 }
 
+/// The normal of the mesh below a receiver whose own a map has tilted; zero without a map.
+inline float3 receiver_mesh_normal(const global ReceiverPacket* packet, uint lane) {
+    const uint packed = packet->mesh_normal[lane];
+    return packed != 0 ? unpack_direction(packed) : (float3)(0.0f);
+}
+/// ReceiverPacket.mesh_normal of this normal: never 0.
+inline uint pack_mesh_normal(float3 normal) {
+    return max(pack_direction(normal), 1u);
+}
+
 /// The row of the curve that weighs the light that arrives at a receiver.
 inline uint receiver_curve(const global ReceiverPacket* packet, uint lane) {
     return packet->surface[lane] & NEARLIGHT_RECEIVER_CURVE_MASK;

@@ -60,6 +60,7 @@
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \
     OFFSET(ReceiverPacket, surface)                 \
+    OFFSET(ReceiverPacket, mesh_normal)             \
     SIZE(IrradiancePacket)                          \
     OFFSET(IrradiancePacket, b)                     \
     SIZE(ImportancePacket)                          \

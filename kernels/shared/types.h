@@ -212,7 +212,8 @@ typedef struct Vpl {
     Vec3 power;
     uint shading;  // shading normal, by which the surface receives light, as pack_direction() packs it
 } Vpl;
-#define NEARLIGHT_VPL_CLOSE 1u  // lies in the close range
+#define NEARLIGHT_VPL_CLOSE 1u   // lies in the close range
+#define NEARLIGHT_VPL_MAPPED 4u  // a normal or bump map tilts the shading normal
 // Bits 8 to 31 of Vpl.flags hold the row of the transmission curve.
 #define NEARLIGHT_VPL_CURVE_SHIFT 8
 
@@ -249,6 +250,8 @@ typedef struct ReceiverPacket {
     float px[NEARLIGHT_PACKET_SIZE], py[NEARLIGHT_PACKET_SIZE], pz[NEARLIGHT_PACKET_SIZE];
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
     uint surface[NEARLIGHT_PACKET_SIZE];
+    uint mesh_normal[NEARLIGHT_PACKET_SIZE];  // pack_direction() of the mesh's normal where a map tilts the
+                                              // receiver's own; 0: no map
 } ReceiverPacket;
 // ReceiverPacket.surface: the row of the transmission curve that weighs arriving light in bits 0 to 15, and
 // above them the number of surfaces between the camera and the receiver.
@@ -330,6 +333,7 @@ typedef struct SceneInfo {
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
     uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint has_maps;             // 1: some surface has a normal or bump map
     uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
 } SceneInfo;
 #define NEARLIGHT_VEILS_NONE 0u   // nothing
@@ -366,13 +370,13 @@ static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
                   offsetof(Importon, response) == offsetof(Vpl, power),
               "a gather reads an Importon as a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
-NEARLIGHT_CHECK_SHARED(ReceiverPacket, 1792);
+NEARLIGHT_CHECK_SHARED(ReceiverPacket, 2048);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
-NEARLIGHT_CHECK_SHARED(SceneInfo, 32);
+NEARLIGHT_CHECK_SHARED(SceneInfo, 36);
 }  // namespace nearlight::core
 #endif
 

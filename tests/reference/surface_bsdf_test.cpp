@@ -64,11 +64,12 @@ TEST(SurfaceBsdf, MasksLetLightThroughWithTheirOpacity) {
     }
 }
 
+/// A number takes the luminance of a texture's colour.
 TEST(SurfaceBsdf, BlendsMixByTheirTexture) {
     const BsdfCase blend = wrapped([](Scene& scene) {
         const uint first = add_material(scene, lambertian({1, 0, 0}));
         const uint second = add_material(scene, lambertian({0, 0, 1}));
-        const int texture = add_bitmap(scene, 1, 1, {Vec3{0.2f, 0.2f, 0.2f}});
+        const int texture = add_bitmap(scene, 1, 1, {Vec3{0.2f, 0.6f, 1.0f}});
         return add_material(scene, blend_material(textured(texture), first, second));
     });
     Vec3d sum;
@@ -76,7 +77,8 @@ TEST(SurfaceBsdf, BlendsMixByTheirTexture) {
     for (int i = 0; i < kChoices; ++i) {
         sum += blend.seen_from(towards(0.5), Transport::radiance, (i + 0.5) / kChoices).diffuse_reflectance();
     }
-    expect_color(sum / kChoices, {0.8, 0, 0.2}, 2e-3);
+    const double luminance = 0.2126 * 0.2 + 0.7152 * 0.6 + 0.0722;
+    expect_color(sum / kChoices, {1 - luminance, 0, luminance}, 2e-3);
 }
 
 TEST(SurfaceBsdf, SidesHaveTheirOwnMaterials) {
@@ -117,6 +119,8 @@ TEST(SurfaceBsdf, AFlatNormalMapChangesNothing) {
     const SurfaceBsdf bsdf = flat.seen_from(towards(0.5));
     expect_color(bsdf.normal(), {0, 0, 1});
     expect_color(bsdf.eval(towards(0.3)).diffuse, as_double(kRed) * (0.3 / std::numbers::pi));
+    const SurfaceBsdf without = normal_mapped({0, 0, 0}, false).seen_from(towards(0.5));
+    expect_color(without.normal(), {0, 0, 1});
 }
 
 TEST(SurfaceBsdf, ANormalMapTurnsTheNormal) {

@@ -131,6 +131,8 @@ TEST_F(MitsubaMaterial, WrappersNameTheirChildren) {
     const Material two = load("twosided", red + metal);
     EXPECT_EQ(child(two, 0).model, NEARLIGHT_BSDF_DIFFUSE);
     EXPECT_EQ(child(two, 1).model, NEARLIGHT_BSDF_CONDUCTOR);
+    const Material colored = load("mask", rgb("opacity", "0.8 0.5 0.2") + red);
+    EXPECT_NEAR(colored.reflectance.value.x, 0.5f, 1e-6f) << "Mitsuba takes the mean of a colour";
     const Material mask = load("mask", number("opacity", "0.3") + red);
     EXPECT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
     EXPECT_FLOAT_EQ(mask.reflectance.value.x, 0.3f);

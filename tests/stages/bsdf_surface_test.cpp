@@ -222,6 +222,38 @@ TEST_F(BsdfSurfaceTest, MasksAndBlendsHaveTheirProbabilities) {
     });
 }
 
+/// What a mask lets through goes straight on from either side, also where the surface behind it is one-sided.
+TEST_F(BsdfSurfaceTest, MasksLetLightThroughFromBothSides) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        BsdfScene scene;
+        scene.materials = {make_wrapper(NEARLIGHT_BSDF_MASK, constant(0.0f), 1, 1),
+                           make_diffuse(constant(0.2f))};
+        for (const uint mode : {kRadiance, kFlux}) {
+            for (const Vec3 wo : {direction_at(20), direction_at(160)}) {
+                const BsdfAnswer answer = probe.ask(scene, make_query(wo, direction_at(0), kBothParts, mode));
+                EXPECT_EQ(answer.is_delta, 1u);
+                EXPECT_NEAR(dot(answer.wi, -wo), 1.0f, 1e-5f);
+                EXPECT_NEAR(answer.weight.x, 1.0f, 1e-5f);
+            }
+        }
+    });
+}
+
+/// A texel (½, ½, ½) stands for a normal without a direction, which changes nothing.
+TEST_F(BsdfSurfaceTest, NormalsWithoutADirectionChangeNothing) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        BsdfScene scene;
+        scene.textures = {add_picture(scene)};
+        scene.materials = {make_map(NEARLIGHT_BSDF_NORMAL_MAP, 1), make_diffuse(constant(0.6f))};
+        scene.materials[0].reflectance = constant(0.5f);
+        const BsdfAnswer answer =
+            probe.ask(scene, make_query(direction_at(20), direction_at(60), kBothParts));
+        EXPECT_NEAR(answer.value.x, 0.6f / kPi * 0.5f, 1e-5f);
+    });
+}
+
 TEST_F(BsdfSurfaceTest, NestingThatIsTooDeepIsBlack) {
     on_each_device([](Device& device) {
         BsdfScene scene;
@@ -297,6 +329,28 @@ TEST_F(BsdfSurfaceTest, RoughnessTakesTheLuminanceOfATexture) {
         const float expected = 0.5f * (0.2126f * 0.2f + 0.7152f * 0.6f + 0.0722f);
         const BsdfScene plain = scene_of(make_metal(expected, expected, 0, {0, 0, 0}, {1, 1, 1}));
         EXPECT_NEAR(probe.ask(scene, query).value.x, probe.ask(plain, query).value.x, 1e-5f);
+    });
+}
+
+/// Textures of half floats may hold any numbers; models get them between 0 and 1.
+TEST_F(BsdfSurfaceTest, NumbersOfTexturesAreLimited) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        const BsdfQuery query = make_query(direction_at(30), direction_at(35, 3.5f), kBothParts);
+        for (Parameter Material::*member :
+             {&Material::roughness, &Material::metallic, &Material::clearcoat, &Material::spec_trans}) {
+            BsdfScene limited = scene_of(make_principled(0));
+            limited.curves = make_curves();
+            BsdfScene textured = limited;
+            limited.materials[0].*member = constant(1.0f);
+            textured.textures = {add_picture(textured)};
+            textured.texels.assign(6, rgb_word(255, 255, 255));
+            textured.materials[0].*member = {{7, 7, 7}, 0};
+            const BsdfAnswer expected = probe.ask(limited, query);
+            const BsdfAnswer found = probe.ask(textured, query);
+            EXPECT_NEAR(found.value.x, expected.value.x, 1e-5f * expected.value.x);
+            EXPECT_NEAR(found.value.z, expected.value.z, 1e-5f * expected.value.z);
+        }
     });
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/receiver_paths.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/base/math.h"
 #include "host/stages/gatherer.h"
 #include "host/stages/light_tracer.h"
@@ -42,6 +45,23 @@ ReceiverPacket receivers_near_the_wall() {
     return packet;
 }
 
+/// The same behind so many panes or mirrors.
+ReceiverPacket receivers_behind(uint surfaces) {
+    ReceiverPacket packet = receivers_near_the_wall();
+    std::ranges::fill(packet.surface, surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT);
+    return packet;
+}
+
+/// The same with a normal map that tilts the floor's normal to n.
+ReceiverPacket receivers_tilted_to(Vec3 n) {
+    ReceiverPacket packet = receivers_near_the_wall();
+    std::ranges::fill(packet.nx, n.x);
+    std::ranges::fill(packet.ny, n.y);
+    std::ranges::fill(packet.nz, n.z);
+    std::ranges::fill(packet.mesh_normal, 32768u | 65535u << 16);  // pack_direction() of (0, 1, 0)
+    return packet;
+}
+
 double mean_green(const Buffer<IrradiancePacket>& irradiance) {
     const IrradiancePacket packet = irradiance.download_one(0);
     double sum = 0;
@@ -52,14 +72,18 @@ double mean_green(const Buffer<IrradiancePacket>& irradiance) {
 }
 
 struct CornerLight {
-    CornerLight(Device& on_device, const Scene& scene)
+    CornerLight(Device& on_device, const Scene& scene,
+                const ReceiverPacket& points = receivers_near_the_wall())
         : device(on_device),
           on_gpu(device, scene),
-          packet(receivers_near_the_wall()),
+          packet(points),
           receivers(device, std::span(&packet, 1)) {}
 
     double traced(float radius, uint bounces, uint samples) {
         Buffer<IrradiancePacket> direct(device, 1);
+        return traced(radius, bounces, samples, direct);
+    }
+    double traced(float radius, uint bounces, uint samples, Buffer<IrradiancePacket>& direct) {
         Buffer<IrradiancePacket> indirect(device, 1);
         ReceiverPaths(device).run(
             on_gpu.buffers, receivers, 1,
@@ -117,6 +141,44 @@ TEST_F(ReceiverPathsTest, DeeperPathsBringMoreAndAgreeWithWalksOfThatDepth) {
             EXPECT_GT(traced, 1.02 * before);
             before = traced;
         }
+    });
+}
+
+/// VPLs know nothing of the panes before a receiver.
+TEST_F(ReceiverPathsTest, TakesAwayPathsThatAreTooLongBehindPanes) {
+    on_each_device([](Device& device) {
+        CornerLight plain(device, corner());
+        for (const uint surfaces : {1u, 2u}) {
+            CornerLight behind(device, corner(), receivers_behind(surfaces));
+            const double wanted = plain.traced(kInfinity, 4 - surfaces, 4096);
+            for (const float radius : {0.3f, 1.0f}) {
+                const double bounded = behind.gathered(radius, 4);
+                const double found = bounded + behind.traced(radius, 4, 4096);
+                EXPECT_NEAR(found, wanted, 0.015 * wanted) << surfaces << ", radius " << radius;
+                EXPECT_GT(bounded + plain.traced(radius, 4, 4096), 1.03 * wanted) << "nothing to tell by";
+            }
+        }
+    });
+}
+
+/// [Estevez et al. 2019], as Mitsuba's normal maps have it; gathers know the tilted normal alone.
+TEST_F(ReceiverPathsTest, TakesAwayWhatANormalMapShadows) {
+    on_each_device([](Device& device) {
+        const Vec3 n{0.6f, 0.8f, 0};
+        CornerLight setup(device, corner(), receivers_tilted_to(n));
+        Buffer<IrradiancePacket> direct(device, 1);
+        const double all = setup.traced(kInfinity, 4, 4096, direct);
+        for (const float radius : {0.1f, 1.0f}) {
+            const double found = setup.gathered(radius, 4) + setup.traced(radius, 4, 4096);
+            EXPECT_NEAR(found, all, 0.015 * all) << "radius " << radius;
+        }
+        const Vec3 to_light = Vec3{0.2f, 1.0f, 0.1f} - Vec3{0, 0, 0.9f};
+        const float squared = dot(to_light, to_light);
+        const Vec3 light = to_light / std::sqrt(squared);
+        const float alpha2 = 0.125f * 0.75f * 0.75f;
+        const float shadowing = 2 / (1 + std::sqrt(1 + alpha2 * (1 / (light.y * light.y) - 1)));
+        const float expected = 2 / squared * dot(light, n) * shadowing;
+        EXPECT_NEAR(mean_green(direct), expected, 2e-3 * expected);
     });
 }
 

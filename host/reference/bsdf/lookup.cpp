@@ -6,6 +6,10 @@
 namespace nearlight::core {
 namespace {
 
+double luminance_of(Vec3d color) {
+    return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+}
+
 /// Looks the parameters of one material up.
 struct Lookup {
     const Scene& scene;
@@ -15,10 +19,16 @@ struct Lookup {
         const Vec3 value = value_at(scene, surface, parameter);
         return as_double(max(value, Vec3{0, 0, 0}));
     }
-    /// A number in [0, 1].
-    [[nodiscard]] double number(const Parameter& parameter) const {
-        return std::clamp(color(parameter).x, 0.0, 1.0);
+    /// Two numbers in [0, 1], in x and y. A texture scales them by the luminance of its colour, as in
+    /// Mitsuba.
+    [[nodiscard]] Vec3d numbers(const Parameter& parameter) const {
+        const Parameter unscaled{{1, 1, 1}, parameter.texture};
+        const double texel = luminance_of(color(unscaled));
+        const auto number_of = [&](float scale) { return std::clamp(scale * texel, 0.0, 1.0); };
+        return {number_of(parameter.value.x), number_of(parameter.value.y), 0};
     }
+    /// A number in [0, 1].
+    [[nodiscard]] double number(const Parameter& parameter) const { return numbers(parameter).x; }
 };
 
 /// The base below a coat: light bounces between them, and what the coat lets out is spread over 1/η².
@@ -41,10 +51,10 @@ void look_up_principled(const Lookup& at, const Material& material, BsdfParamete
     p.flatness = at.number(material.flatness);
     p.clearcoat = at.number(material.clearcoat);
     p.clearcoat_gloss = at.number(material.clearcoat_gloss);
-    p.alpha_x = p.alpha_y = std::clamp(p.alpha_x, 0.0, 1.0);
+    p.alpha_y = p.alpha_x;
     if (p.thin) {
         p.metallic = p.clearcoat = 0;
-        p.transmission.x = std::min(p.transmission.x, 1.0);
+        p.transmission.x = at.number(material.transmission);
         p.diffuse = p.base * ((1 - p.spec_trans) * (1 - p.transmission.x) * (1 - p.flatness));
     } else if (p.front) {
         p.diffuse = p.base * ((1 - p.metallic) * (1 - p.spec_trans) * (1 - p.flatness));
@@ -78,10 +88,10 @@ Vec3d height_gradient(const Scene& scene, const Surface& surface, const Paramete
     const auto height_at = [&](double s_there, double t_there) {
         const double a = s_there - p.u_offset;
         const double b = t_there - p.v_offset;
-        return static_cast<double>(
-            parameter_value(scene, height, static_cast<float>((p.v_scale * a - p.u_shear * b) / determinant),
-                            static_cast<float>((p.u_scale * b - p.v_shear * a) / determinant))
-                .x);
+        const Vec3 texel =
+            texture_color(scene, texture, static_cast<float>((p.v_scale * a - p.u_shear * b) / determinant),
+                          static_cast<float>((p.u_scale * b - p.v_shear * a) / determinant));
+        return double{height.value.x} * luminance_of(as_double(texel));
     };
     constexpr double kReach = 0.25;  // texels, on either side of the cell's middle
     const auto slope_along = [&](double place, int texels, const auto& height_there) {
@@ -110,7 +120,7 @@ BsdfParameters bsdf_parameters(const Scene& scene, const Surface& surface, const
     p.thin = (material.flags & NEARLIGHT_MATERIAL_THIN) != 0u;
     p.specular = at.color(material.specular);
     p.transmission = at.color(material.transmission);
-    const Vec3d roughness = at.color(material.roughness);
+    const Vec3d roughness = at.numbers(material.roughness);
     p.alpha_x = roughness.x;
     p.alpha_y = roughness.y;
     p.eta = as_double(material.eta);
@@ -137,7 +147,9 @@ double share_at(const Scene& scene, const Surface& surface, const Material& mate
 
 Vec3d mapped_normal(const Scene& scene, const Surface& surface, const Material& material) {
     const Vec3d value = as_double(value_at(scene, surface, material.reflectance));
-    return normalize(value * 2 - Vec3d{1, 1, 1});
+    const Vec3d normal = value * 2 - Vec3d{1, 1, 1};
+    const double squared = dot(normal, normal);
+    return squared > 0 && std::isfinite(squared) ? normalize(normal) : Vec3d{0, 0, 1};
 }
 
 Vec3d bumped_normal(const Scene& scene, const Surface& surface, const Material& material,

@@ -129,8 +129,9 @@ Parameter TextureMaker::number(const Object& owner, const std::string& name, flo
     if (!color) {
         return parameter_of(fallback);
     }
+    // Mitsuba takes the mean of a colour's channels, but the luminance of a texture.
     const Vec3 c = color->reflectance;
-    const float value = c.x == c.y && c.y == c.z ? c.x : luminance(c);
+    const float value = c.x == c.y && c.y == c.z ? c.x : (c.x + c.y + c.z) / 3.0f;
     return parameter_of(limited(Vec3{1, 1, 1} * value, range, owner.find(name)->where, name));
 }
 

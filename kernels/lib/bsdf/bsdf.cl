@@ -123,12 +123,17 @@ inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, f
     return s;
 }
 
-/// Shadowing by the bumps that a map stands for, as light along `wi` sees them. [Estevez et al., A
-/// Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, Ray Tracing Gems 2019]
-inline float map_shadowing(const SurfaceBsdf* s, float3 wi) {
-    const float cosine = dot(wi, s->unmapped);
+/// Shadowing by the bumps that a map stands for, as light sees them that has this cosine to the mesh's
+/// normal. [Estevez et al., A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, Ray
+/// Tracing Gems 2019]
+inline float map_shadowing(float tilt2, float cosine) {
     const float cos2 = fmax(cosine * cosine, 1e-12f);
-    return 2.0f / (1.0f + sqrt(1.0f + s->tilt2 * (1.0f - cos2) / cos2));
+    return 2.0f / (1.0f + sqrt(1.0f + tilt2 * fmax(1.0f - cos2, 0.0f) / cos2));
+}
+
+/// The flag of a VPL on this surface that says whether a map tilts its shading normal.
+inline uint mapped_flag(const SurfaceBsdf* s) {
+    return s->mapped ? NEARLIGHT_VPL_MAPPED : 0;
 }
 
 /// The factor of what a map takes away: 0 where its normal and the mesh's see light on different sides.
@@ -148,7 +153,7 @@ inline float map_factor(const SurfaceBsdf* s, float3 wi) {
             return 0.0f;
         }
     }
-    return s->scale * map_shadowing(s, light);
+    return s->scale * map_shadowing(s->tilt2, dot(light, s->unmapped));
 }
 
 /// The factor by which light along wi counts besides the model's value. `eta` is the index on wi's side ÷

@@ -81,11 +81,20 @@ inline float3 bumped_normal(const SurfaceHit* hit, const Frame* front, float3 du
     return world_to_frame(front, n * (rsqrt(squared) * (dot(n, geometric) < 0.0f ? -1.0f : 1.0f)));
 }
 
-/// Tilts the frame to the normal n, which is given in the frame itself and need not have unit length. As in
-/// Mitsuba, a normal that the viewer sees from behind is turned about the frame's. Which viewers a path of
-/// flux will find is not known yet, so one in eight of these turns the normal, and counts only for viewers
-/// for whom it is turned.
+/// The squared α of the shadowing by the bumps that a map stands for, whose normal has this cosine to the
+/// mesh's.
+inline float map_tilt(float cosine) {
+    const float cos2 = cosine * cosine;
+    return clamp(0.125f * (1.0f - cos2) / fmax(cos2, 1e-12f), 0.0f, 1.0f);
+}
+
+/// Tilts the frame to the normal n, which is given in the frame itself and need not have unit length; one
+/// without a direction leaves the frame as it is. As in Mitsuba, a normal that the viewer sees from behind is
+/// turned about the frame's. Which viewers a path of flux will find is not known yet, so one in eight of
+/// these turns the normal, and counts only for viewers for whom it is turned.
 inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
+    const float squared = dot(n, n);
+    n = squared > 0.0f && squared < INFINITY ? n : (float3)(0.0f, 0.0f, 1.0f);
     const float3 wo = world_to_frame(&s->frame, s->wo);
     bool turned = !(wo.z * dot(wo, n) > 0.0f);
     if (s->mode == BSDF_FLUX && !turned) {
@@ -95,7 +104,7 @@ inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
     n = normalize(turned ? (float3)(-n.xy, n.z) : n);
     s->mapped = turned ? MAPPED_TURNED : MAPPED;
     s->unmapped = s->frame.n;
-    s->tilt2 = fmin(0.125f * (1.0f - n.z * n.z) / (n.z * n.z), 1.0f);
+    s->tilt2 = map_tilt(n.z);
     const Frame tilted = frame_along(n, along);
     const Frame frame = s->frame;
     s->frame.tangent = frame_to_world(&frame, tilted.tangent);
@@ -103,8 +112,10 @@ inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
     s->frame.n = frame_to_world(&frame, tilted.n);
 }
 
-/// Makes parameter `index` of a material (counted from `reflectance`) part of the BSDF.
+/// Makes parameter `index` of a material (counted from `reflectance`) part of the BSDF. Textures of numbers
+/// may leave the range from 0 to 1, which the models rely on.
 inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
+    const float2 number = clamp(value->number, 0.0f, 1.0f);
     switch (index) {
         case 0:
             bsdf->base = value->color;
@@ -113,37 +124,37 @@ inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
             bsdf->specular = value->color;
             break;
         case 2:
-            bsdf->transmission = value->color;
+            bsdf->transmission = bsdf->model == NEARLIGHT_BSDF_PRINCIPLED ? (float3)(number.x) : value->color;
             break;
         case 3:
-            bsdf->alpha = value->number;
+            bsdf->alpha = number;
             break;
         case 5:
-            bsdf->metallic = value->number.x;
+            bsdf->metallic = number.x;
             break;
         case 6:
-            bsdf->anisotropic = value->number.x;
+            bsdf->anisotropic = number.x;
             break;
         case 7:
-            bsdf->spec_trans = value->number.x;
+            bsdf->spec_trans = number.x;
             break;
         case 8:
-            bsdf->spec_tint = value->number.x;
+            bsdf->spec_tint = number.x;
             break;
         case 9:
-            bsdf->sheen = value->number.x;
+            bsdf->sheen = number.x;
             break;
         case 10:
-            bsdf->sheen_tint = value->number.x;
+            bsdf->sheen_tint = number.x;
             break;
         case 11:
-            bsdf->flatness = value->number.x;
+            bsdf->flatness = number.x;
             break;
         case 12:
-            bsdf->clearcoat = value->number.x;
+            bsdf->clearcoat = number.x;
             break;
         default:
-            bsdf->clearcoat_gloss = value->number.x;
+            bsdf->clearcoat_gloss = number.x;
     }
 }
 
@@ -340,7 +351,7 @@ inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, Surf
         material = resolve_step(scene, hit, s, material, &value, &turn, &u);
         if (!material) {
             s->bsdf.model = NEARLIGHT_BSDF_NULL;
-            if (dot(s->wo, s->frame.n) < 0.0f) {
+            if (!(dot(s->wo, s->frame.n) > 0.0f)) {
                 turn_over(s);
             }
             return;

@@ -46,6 +46,10 @@ def _diffuse():
         'shade': scene(floor(), wall(), shape('cylinder', bsdf('twosided', diffuse(0.8, 0.6, 0.3)), p0=point(0, 0.5, 0),
             p1=point(0, 1.3, 0), radius=0.5), point_light(1, at=(0, 0.9, 0)), depth=8),
         'textured-room': _room(bsdf('diffuse', reflectance=bitmap('tiles.png'))),
+        'room-normal-map': _room(bsdf('normalmap', diffuse(0.7), normalmap=bitmap('normals.png', raw=True))),
+        'room-bump-map': _room(bsdf('bumpmap', bitmap('hills.png', raw=True), diffuse(0.7), scale=2.0)),
+        'room-normal-map-on-plastic': _room(bsdf('normalmap', bsdf('plastic'), normalmap=bitmap('normals.png', raw=True)),
+            _lamp(), sphere(diffuse(0.7, 0.3, 0.2), at=(0, 0.7, -1), radius=0.6)),
     }
 
 

@@ -26,7 +26,7 @@ def _scenes():
     return {
         **depths,
         **rooms,
-        'max-depth-0': _with(integrator('path', max_depth=0)),
+        'max-depth-0': (_with(integrator('path', max_depth=0)), dict(supported=False)),   # a black picture
         'max-depth-endless': _with(integrator('path', max_depth=-1, rr_depth=100)),
         'russian-roulette': _with(integrator('path', max_depth=12, rr_depth=3)),
         'default': _with(integrator('path')),
