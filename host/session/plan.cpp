@@ -108,7 +108,8 @@ RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& 
     plan.samples_per_batch =
         static_cast<uint>(std::clamp<std::size_t>(fitting, plan.bundle_samples, plan.samples_per_pixel));
     const std::size_t per_row = per_row_sample * plan.samples_per_batch;
-    const std::size_t max_rows = std::min<std::size_t>(budget / per_row, std::max(plan.tile_row_count, 1u));
+    const std::size_t all_rows = whole_bundles(plan.tile_row_count + plan.bundle_rows - 1, plan.bundle_rows);
+    const std::size_t max_rows = std::min(budget / per_row, all_rows);
     const std::size_t min_rows = devices.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
     const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
     plan.tile_rows_per_band = static_cast<uint>(

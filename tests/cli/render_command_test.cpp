@@ -67,6 +67,19 @@ TEST_F(Render, TakesNoMoreThreadsThanItMay) {
     EXPECT_EQ(render("--threads -1", output_).exit_code, 2);
 }
 
+TEST_F(Render, SamplesShareTheVplsUnlessToldOtherwise) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const nlohmann::json shared = rendered("", output_);
+    EXPECT_EQ(shared["samples_per_pixel"], 2);
+    EXPECT_EQ(shared["strata"], 2);
+    EXPECT_EQ(rendered("--strata 2", output_)["image_hash"], shared["image_hash"]);
+    const nlohmann::json whole = rendered("--strata 1", output_);
+    EXPECT_EQ(whole["strata"], 1);
+    EXPECT_EQ(whole["vpls"], shared["vpls"]);
+    EXPECT_NE(whole["image_hash"], shared["image_hash"]);
+    EXPECT_EQ(render("--strata 0", output_).exit_code, 2);
+}
+
 TEST_F(Render, BothTreesGiveTheSamePicture) {
     NEARLIGHT_NEEDS_DEVICE();
     EXPECT_EQ(rendered("--bvh fast", folder_ / "fast.exr")["bvh"], "fast");
