@@ -10,7 +10,7 @@ FAST = ('emitters/area-flipped', 'emitters/directional-to-world', 'emitters/envm
         'bsdfs/plastic/furnace', 'bsdfs/roughplastic-ggx/point', 'bsdfs/normalmap/mesh', 'bsdfs/bumpmap/mesh',
         'bsdfs/mask-black/area', 'textures/bitmap-on-disk', 'textures/checkerboard', 'shapes/sphere-inside',
         'shapes/cylinder', 'normals/wave/point', 'integrators/room-depth-2', 'integrators/direct-in-room', 'spectra/paint-rgb',
-        'corners/shade', 'metal-rooms/metal-under-spot', 'glass/null-shadow', 'files/version-0.6',
+        'corners/shade', 'metal-rooms/room-plastic', 'glass/null-shadow', 'files/version-0.6',
         'planted/reflectance-3-percent')
 
 
