@@ -16,6 +16,9 @@ namespace {
 constexpr std::array kRadiusMultiples{1.0f, 0.25f, 0.5f, 2.0f, 4.0f};
 constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
 constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in the dark count less
+/// No receiver's relative error counts as more. A single ray that met a lamp's reflection would otherwise
+/// decide for the whole picture.
+constexpr double kMaxRelativeError = 0.05;
 
 using Packets = std::vector<IrradiancePacket>;
 
@@ -73,7 +76,8 @@ std::vector<double> light_by_receiver(const PilotLight& light) {
     return sums;
 }
 
-/// The sum over receivers of the squared error, relative to the square of each receiver's light.
+/// The sum over receivers of the squared error, relative to the square of each receiver's light, as far as it
+/// counts.
 double relative_error(const PilotLight& light, const std::vector<double>& all_light, uint rays_per_pixel) {
     double mean = 0.0;
     for (const double one : all_light) {
@@ -84,7 +88,8 @@ double relative_error(const PilotLight& light, const std::vector<double>& all_li
         const Vec3 change = irradiance_at(light.rays[0], i) - irradiance_at(light.rays[1], i);
         const double of_rays = 0.5 * dot(change, change) / rays_per_pixel;
         const double of_vpls = sum_of(irradiance_at(light.vpl_squares, i));
-        error += (of_rays + of_vpls) / (all_light[i] * all_light[i] + kDarkPart * mean * mean + 1e-30);
+        const double square = all_light[i] * all_light[i] + kDarkPart * mean * mean + 1e-30;
+        error += std::min((of_rays + of_vpls) / square, kMaxRelativeError);
     }
     return error;
 }

@@ -22,6 +22,7 @@ struct BsdfScene {
     std::vector<uint> texels;
     std::vector<float> curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<Vec3> vertex_colors;
+    SceneInfo info{};
 };
 
 class BsdfProbe {

@@ -375,8 +375,10 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     if (is_black(ray.throughput)) {
         return light;
     }
-    // Where only near surfaces can bring light, the ray need not go farther.
-    const bool far = scene->info->has_specular || scene->info->has_maps || has_sampled_lights(scene);
+    // Where only near surfaces can bring light, or take away what VPLs bring too much, the ray need not go
+    // farther.
+    const bool far = scene->info->has_specular || scene->info->has_maps || has_sampled_lights(scene) ||
+                     is_mapped(at) || limits->vpl_edges > limits->max_edges;
     const SurfaceHit hit =
         trace_surface(scene, ray.origin, ray.direction, far ? INFINITY : limits->clamp_radius);
     if (limits->max_edges > 0) {
