@@ -18,7 +18,7 @@ constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
 constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in the dark count less
 /// No receiver's relative error counts as more. A single ray that met a lamp's reflection would otherwise
 /// decide for the whole picture.
-constexpr double kMaxRelativeError = 0.05;
+constexpr double kMaxRelativeError = 0.2;
 
 using Packets = std::vector<IrradiancePacket>;
 
