@@ -10,10 +10,7 @@
 #ifndef NEARLIGHT_LIB_RECEIVER_PATH
 #define NEARLIGHT_LIB_RECEIVER_PATH
 
-#include "lib/bsdf/bsdf.cl"
-#include "lib/light/sample.cl"
-#include "lib/light/shadow.cl"
-#include "lib/random.cl"
+#include "lib/path_ray.cl"
 
 /// A place that receives light by its Lambertian part.
 typedef struct ReceiverPoint {
@@ -101,97 +98,6 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
         }
     }
     return exact + sum / (float)sample_count;
-}
-
-/// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
-/// surface also sends `path_ratio` rays for each light sample.
-inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                               const LightSample* light, uint parts, float path_ratio, uint max_veils) {
-    if (is_black(light->radiance)) {
-        return (float3)(0.0f);
-    }
-    float pdf;
-    const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf) * light->radiance;
-    if (is_black(value)) {
-        return (float3)(0.0f);
-    }
-    const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
-    const float3 origin = ray_origin(scene, hit, light->direction);
-    return value / (light->pdf + of_rays) * light_transmittance(scene, origin, light, max_veils);
-}
-
-/// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
-/// from lights or through at most `max_veils` veils, as far as light samples bring it: rays that follow the
-/// BSDF bring the rest.
-inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                              uint parts, uint sample_count, uint max_veils, uint seed) {
-    float3 exact = (float3)(0.0f);
-    for (uint i = 0; i < exact_light_count(scene); ++i) {
-        const LightSample light = exact_light(scene, i, hit->position);
-        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, max_veils);
-    }
-    if (!has_sampled_lights(scene)) {
-        return exact;
-    }
-    float3 sum = (float3)(0.0f);
-    for (uint s = 0; s < sample_count; ++s) {
-        const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
-                                               sample_2d(s, 1, seed));
-        sum += reflected_sample(scene, hit, surface, &light, parts, 1.0f / (float)sample_count, max_veils);
-    }
-    return exact + sum / (float)sample_count;
-}
-
-/// A ray on its way, and what multiple importance sampling must know of the point that scattered it, which
-/// lies before the origin where the ray has passed straight through veils.
-typedef struct PathRay {
-    float3 origin, direction;
-    float3 throughput;
-    float3 scattered_at;
-    float3 normal;  // where it was scattered
-    float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
-    float passed;   // distance from scattered_at to the last veil
-    uint veils;     // passed since then
-} PathRay;
-
-/// Sets where the ray was scattered to where it starts.
-inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
-    ray->origin = ray->scattered_at = origin;
-    ray->normal = normal;
-    ray->pdf = pdf;
-    ray->passed = 0.0f;
-    ray->veils = 0;
-}
-
-/// Radiance that lights send straight along the ray, weighted against light samples of where it was
-/// scattered.
-inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
-    const float3 radiance = hit->t < 0.0f ? environment_radiance(scene, ray->direction)
-                                          : emitted_radiance(scene, hit, ray->direction);
-    if (is_black(radiance) || !(ray->pdf > 0.0f) || ray->veils > NEARLIGHT_MAX_VEILS) {
-        return radiance;
-    }
-    SurfaceHit seen = *hit;
-    seen.t += hit->t < 0.0f ? 0.0f : ray->passed;
-    const float of_lights = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
-    return radiance * (ray->pdf / (ray->pdf + of_lights));
-}
-
-/// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
-inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
-                        const SurfaceBsdf* surface, uint parts, float u, float2 v) {
-    const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
-    ray->throughput *= sample.weight;
-    ray->direction = sample.wi;
-    if (sample.is_straight) {
-        ray->origin = ray_origin(scene, hit, sample.wi);
-        ray->passed += hit->t;
-        ++ray->veils;
-    } else {
-        begin_ray(ray, ray_origin(scene, hit, sample.wi), surface->frame.n,
-                  sample.is_delta ? 0.0f : sample.pdf);
-    }
-    return !is_black(ray->throughput);
 }
 
 /// Paths end by chance at surfaces that send on less than this part of what the ray began with.
