@@ -26,6 +26,8 @@ typedef struct CameraPath {
     float3 emitted;
     float3 traced;   // indirect light of a path that is traced to its end
     uint key;        // key of the random sequence
+    uint sample;     // of the pixel
+    uint sequence;   // key of the random numbers that receivers of the pixel share, of one branch
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
     uint mode;       // BSDF_CAMERA until a surface scatters the path, then BSDF_RADIANCE
     float t_min;     // where the first surface may lie on the ray
@@ -144,6 +146,7 @@ typedef struct CameraReceiver {
     float3 position, normal;  // zero normal: there is no receiver
     uint surface;             // ReceiverPacket.surface
     uint mesh_normal;         // ReceiverPacket.mesh_normal
+    uint sequence;            // ReceiverPacket.sequence
     CameraVertex vertex;
 } CameraReceiver;
 
@@ -152,7 +155,7 @@ inline CameraReceiver absent_receiver(void) {
     receiver.position = (float3)(0.0f);
     receiver.normal = (float3)(0.0f);
     receiver.surface = 0;
-    receiver.mesh_normal = 0;
+    receiver.mesh_normal = receiver.sequence = 0;
     receiver.vertex.throughput = store3((float3)(0.0f));
     receiver.vertex.depth = 0.0f;
     receiver.vertex.albedo = store3((float3)(0.0f));
@@ -164,11 +167,18 @@ inline CameraReceiver absent_receiver(void) {
     return receiver;
 }
 
+/// The key, never 0, of the random numbers of a pixel's receivers of one branch.
+inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed) {
+    const uint4 key = (uint4)(pixel, sample / NEARLIGHT_SEQUENCE_RECEIVERS * 2 + branch, seed, 0x5e90e2ceu);
+    return max(random_uint4(key).x, 1u);
+}
+
 inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
                              uint branch_count, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraPath path;
     path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
+    path.sample = sample;
     const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
     // A single sample goes through the centre of its pixel, but through any part of the lens.
     const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
@@ -192,7 +202,9 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
                          CameraReceiver* receiver) {
     receiver->position = offset_point(scene, hit->position, hit->geometric);
     receiver->normal = surface->frame.n;
-    receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+    receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT |
+                        path->sample % NEARLIGHT_SEQUENCE_RECEIVERS << NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
+    receiver->sequence = path->sequence;
     receiver->mesh_normal = surface->mapped ? pack_mesh_normal(surface->unmapped) : 0;
     receiver->vertex.throughput = store3(path->ray.throughput);
     receiver->vertex.albedo = store3(albedo);
@@ -221,8 +233,8 @@ inline LightQuota quota_at(const CameraLimits* limits, uint step) {
 inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
-    const PathLimits ray = {max_edges, max_edges, INFINITY,
-                            min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1};
+    const PathLimits ray = {
+        max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0};
     const ReceivedLight light =
         received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)));
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
@@ -322,6 +334,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
     to->nz[lane] = from->normal.z;
     to->surface[lane] = from->surface;
     to->mesh_normal[lane] = from->mesh_normal;
+    to->sequence[lane] = from->sequence;
     *vertex = from->vertex;
 }
 
@@ -352,6 +365,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
     for (uint branch = 0; branch < order.branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
+            path.sequence = sequence_key(y * camera->width + x, start.sample, branch, seed);
             receiver = follow_path(&scene, camera, close_range, &limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {

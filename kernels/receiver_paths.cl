@@ -2,10 +2,11 @@
 // All light of receivers except what VPLs bring (lib/receiver_path.cl): direct light, and, if each receiver
 // sends rays, the remainder.
 //
-// One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Random numbers
-// are keyed by the receiver's position, so no split of the work changes the result. A receiver with
-// `surfaces` surfaces before it gets paths of at most max_edges − surfaces edges. VPLs bring it longer ones,
-// whose light the rays take away again.
+// One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Receivers of
+// one pixel share a sequence of random numbers, of which each takes its own part, so that all samples of the
+// pixel are evenly spread. Other receivers have numbers of their own, keyed by position. So no split of the
+// work changes the result. A receiver with `surfaces` surfaces before it gets paths of at most max_edges −
+// surfaces edges. VPLs bring it longer ones, whose light the rays take away again.
 
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
@@ -39,11 +40,13 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
-        const PathLimits limits = {own_edges, max_edges < LONG_PATH ? max_edges : own_edges, clamp_radius,
-                                   light_samples, path_count};
-        light =
-            received_light(&scene, &at, &limits,
-                           random_uint4((uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed)));
+        const PathLimits limits = {own_edges,    max_edges < LONG_PATH ? max_edges : own_edges,
+                                   clamp_radius, light_samples,
+                                   path_count,   receiver_sample(receiver, lane)};
+        const uint sequence = receiver->sequence[lane];
+        const uint4 key = sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
+                                        : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
+        light = received_light(&scene, &at, &limits, random_uint4(key));
     }
     store_light(direct + packet, lane, light.direct);
     store_light(indirect + packet, lane, light.indirect);

@@ -34,6 +34,7 @@ kernel void vpl_receivers(const global Vpl* restrict vpls, uint vpl_count, uint 
     packet->surface[lane] = present ? vpl_curve(vpls + index) : 0;
     const bool is_mapped = is_real && !emits && (vpls[index].flags & NEARLIGHT_VPL_MAPPED);
     packet->mesh_normal[lane] = is_mapped ? pack_mesh_normal(geometric) : 0;
+    packet->sequence[lane] = 0;
 }
 
 kernel void vpl_light(global Vpl* restrict vpls, uint vpl_count,

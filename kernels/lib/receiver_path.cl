@@ -71,9 +71,9 @@ inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* a
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
 /// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
-/// bring all of it.
+/// bring all of it. `first` is the number of the first sample in the sequence of `seed`.
 inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                   uint path_count, uint max_veils, uint seed) {
+                                   uint path_count, uint max_veils, uint first, uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);
@@ -88,8 +88,8 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
     const float path_ratio = (float)path_count / (float)sample_count;
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < sample_count; ++s) {
-        const float2 choice = sample_2d(s, 0, seed);
-        const float2 u = sample_2d(s, 1, seed);
+        const float2 choice = sample_2d(first + s, 0, seed);
+        const float2 u = sample_2d(first + s, 1, seed);
         const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
                                                  : sample_light_or_cosine(scene, at->x, at->n, choice, u);
         const float3 arriving = weighted_irradiance(scene, at, &light, path_ratio);
@@ -247,6 +247,7 @@ typedef struct PathLimits {
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
     uint path_count;     // rays that each receiver sends
+    uint sample;         // which of the receivers with the same random numbers it is
 } PathLimits;
 
 /// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
@@ -311,7 +312,8 @@ inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint*
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
-    for (uint path = 0; path < limits->path_count; ++path) {
+    const uint first_path = limits->sample * limits->path_count;
+    for (uint path = first_path; path < first_path + limits->path_count; ++path) {
         const ReceivedLight found = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
                                               random_uint4((uint4)(keys.y, keys.z, keys.w, path)));
         light.direct += found.direct;
@@ -321,8 +323,9 @@ inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint*
     light.direct *= scale;
     light.indirect *= scale;
     if (limits->max_edges > 0) {
-        light.direct += sampled_direct_light(scene, at, limits->light_samples, limits->path_count,
-                                             limits->max_edges - 1, keys.x);
+        light.direct +=
+            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->max_edges - 1,
+                                 limits->sample * limits->light_samples, keys.x);
     }
     return light;
 }

@@ -48,7 +48,11 @@ inline uint receiver_curve(const global ReceiverPacket* packet, uint lane) {
 }
 /// The number of surfaces between the camera and a receiver.
 inline uint receiver_surfaces(const global ReceiverPacket* packet, uint lane) {
-    return packet->surface[lane] >> NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+    return packet->surface[lane] >> NEARLIGHT_RECEIVER_SURFACES_SHIFT & NEARLIGHT_RECEIVER_SURFACES_MASK;
+}
+/// Which of the receivers with the same sequence of random numbers it is.
+inline uint receiver_sample(const global ReceiverPacket* packet, uint lane) {
+    return packet->surface[lane] >> NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
 }
 
 #endif

@@ -61,6 +61,7 @@
     SIZE(ReceiverPacket)                            \
     OFFSET(ReceiverPacket, surface)                 \
     OFFSET(ReceiverPacket, mesh_normal)             \
+    OFFSET(ReceiverPacket, sequence)                \
     SIZE(IrradiancePacket)                          \
     OFFSET(IrradiancePacket, b)                     \
     SIZE(ImportancePacket)                          \

@@ -252,11 +252,17 @@ typedef struct ReceiverPacket {
     uint surface[NEARLIGHT_PACKET_SIZE];
     uint mesh_normal[NEARLIGHT_PACKET_SIZE];  // pack_direction() of the mesh's normal where a map tilts the
                                               // receiver's own; 0: no map
+    uint sequence[NEARLIGHT_PACKET_SIZE];     // key of the random numbers that the receiver shares with
+                                              // others of its pixel; 0: it has numbers of its own
 } ReceiverPacket;
-// ReceiverPacket.surface: the row of the transmission curve that weighs arriving light in bits 0 to 15, and
-// above them the number of surfaces between the camera and the receiver.
+// ReceiverPacket.surface: the row of the transmission curve that weighs arriving light in bits 0 to 15, the
+// number of surfaces between the camera and the receiver in bits 16 to 23, and above them which of the
+// receivers with the same `sequence` it is.
 #define NEARLIGHT_RECEIVER_CURVE_MASK 0xffffu
 #define NEARLIGHT_RECEIVER_SURFACES_SHIFT 16
+#define NEARLIGHT_RECEIVER_SURFACES_MASK 0xffu
+#define NEARLIGHT_RECEIVER_SAMPLE_SHIFT 24
+#define NEARLIGHT_SEQUENCE_RECEIVERS 256u  // max receivers with the same `sequence`
 
 /// A tile is a square of pixels, this many on each side, that fills a packet row by row. Tiles cover the
 /// picture from its top left corner; those at the right and the bottom may reach beyond it.
@@ -370,7 +376,7 @@ static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
                   offsetof(Importon, response) == offsetof(Vpl, power),
               "a gather reads an Importon as a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
-NEARLIGHT_CHECK_SHARED(ReceiverPacket, 2048);
+NEARLIGHT_CHECK_SHARED(ReceiverPacket, 2304);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
