@@ -189,6 +189,26 @@ inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, 
     return surface;
 }
 
+/// What a light sample at the surface number `surfaces` of a path sends back along it. Through veils that
+/// make the path longer than RayShare.max_edges, the light counts as that of a long path.
+inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                               uint parts, const RayShare* share, const Continuation* way, uint surfaces,
+                               uint seed) {
+    const bool is_near = surfaces < share->max_edges;
+    const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
+    float3 sum = (float3)(0.0f);
+#pragma unroll 1
+    for (uint length = 0; length < 2; ++length) {
+        const float far_scale = has_far ? way->far_scale : 0.0f;
+        const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
+        if (scale != 0.0f) {
+            const uint edges = length == 0 ? share->max_edges : way->max_edges;
+            sum += scale * reflected_light(scene, hit, surface, parts, 1, edges - surfaces - 1, seed);
+        }
+    }
+    return sum;
+}
+
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. Light that came
 /// straight through veils is direct light.
 inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
@@ -216,12 +236,8 @@ inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, Surfac
         if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
             break;
         }
-        if (scale != 0.0f) {
-            const uint edges = surfaces < share->max_edges ? share->max_edges : way.max_edges;
-            light.indirect +=
-                scale * ray.throughput *
-                reflected_light(scene, &hit, &surface, parts, 1, edges - surfaces - 1, random.w);
-        }
+        light.indirect +=
+            ray.throughput * continued_sample(scene, &hit, &surface, parts, share, &way, surfaces, random.w);
         if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
                          (float2)(to_unit_float(random.y), to_unit_float(random.z)))) {
             break;

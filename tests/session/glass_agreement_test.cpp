@@ -86,6 +86,17 @@ TEST_F(GlassAgreement, CompleteWithALampBehindVeils) {
     on_each_device(
         [](Device& d) { expect_glass_agreement(d, lamp_behind_veils(), SamplerKind::close_range); });
 }
+/// Rays take away VPLs' light over paths that are too long for what the camera sees through veils, including
+/// the light that reached the VPLs through veils.
+TEST_F(GlassAgreement, CompleteWithALampBehindVeilsAtAFewEdges) {
+    on_each_device([](Device& d) {
+        for (const uint max_depth : {5u, 6u}) {
+            SCOPED_TRACE(max_depth);
+            test::expect_agreement(d, lamp_behind_veils(), SamplerKind::close_range, kGlassClampRadius, true,
+                                   max_depth);
+        }
+    });
+}
 TEST_F(GlassAgreement, InstantRadiosityWithALampBehindVeilsOverMetal) {
     on_each_device([](Device& d) {
         expect_glass_agreement(d, lamp_behind_veils_over_metal(), SamplerKind::instant_radiosity);
