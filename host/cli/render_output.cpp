@@ -48,7 +48,9 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
-    metadata["nearlight:clampRadius"] = report.clamp_radius;
+    metadata["nearlight:clampRadius"] = report.ray_budget.clamp_radius;
+    metadata["nearlight:raysPerPixel"] = static_cast<int>(settings.gather.rays_per_pixel);
+    metadata["nearlight:directSamplesPerPixel"] = static_cast<int>(report.ray_budget.light_samples_per_pixel);
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
     metadata["nearlight:glass"] = glass_name(scene.clear_glass);
     metadata["nearlight:range"] = report.range;
@@ -90,7 +92,9 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                     {"candidates", report.candidates},          {"local_lights", report.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
-    json["clamp_radius"] = report.clamp_radius;
+    json["clamp_radius"] = report.ray_budget.clamp_radius;
+    json["rays_per_pixel"] = settings.gather.rays_per_pixel;
+    json["direct_samples_per_pixel"] = report.ray_budget.light_samples_per_pixel;
     json["compensate"] = settings.gather.compensate;
     json["glass"] = glass_name(scene.clear_glass);
     json["max_depth"] = report.max_depth;

@@ -62,6 +62,7 @@ void check(const GatherSettings& settings) {
     check_range("samples_per_pixel", settings.samples_per_pixel, 1u, kMaxSamples);
     check_range("strata", settings.strata, 1u, kMaxSamples);
     check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxDirectSamples);
+    check_range("rays_per_pixel", settings.rays_per_pixel, 1u, kMaxDirectSamples);
     check_range("roulette", settings.roulette, 0.0f, kMaxRoulette);
 }
 

@@ -34,6 +34,12 @@ struct SamplingTask {
     uint seed = 0;
 };
 
+/// What a pixel spends beside the gather of VPLs, and where the VPLs end and rays begin.
+struct RayBudget {
+    float clamp_radius = 0.0f;  ///< m
+    uint light_samples_per_pixel = 64;
+};
+
 /// A set of VPLs that is ready to be gathered. The powers add up to the scene's reflected flux in
 /// expectation.
 struct VplSet {
@@ -46,8 +52,8 @@ struct VplSet {
     float close_fraction = 0.0f;      ///< share of the VPLs for the close range that was used
     /// If it is set, VPLs are to be gathered with the plan's radii, and local lights supply the rest.
     std::optional<LocalLightPlan> local{};
-    /// The clamp radius (m) that makes a picture with compensation least noisy, if a pilot chose one.
-    std::optional<float> clamp_radius{};
+    /// What is best spent beside these VPLs, if a pilot chose it.
+    std::optional<RayBudget> ray_budget{};
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);

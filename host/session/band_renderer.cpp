@@ -17,10 +17,11 @@ uint per_sample(uint per_pixel, const GatherSettings& settings) {
 
 ReceiverPathSettings path_settings(const Picture& picture) {
     const GatherSettings& settings = picture.settings;
-    return {.light_samples = per_sample(settings.direct_samples_per_pixel, settings),
-            .path_count = settings.compensate ? per_sample(settings.rays_per_pixel, settings) : 0,
+    const uint rays = per_sample(settings.rays_per_pixel, settings);
+    return {.light_samples = per_sample(picture.budget.light_samples_per_pixel, settings),
+            .path_count = settings.compensate ? rays : 0,
             .max_edges = std::max(picture.view.max_depth, 1u) - 1,
-            .clamp_radius = picture.clamp_radius,
+            .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed};
 }
 
@@ -28,7 +29,7 @@ ReceiverPathSettings path_settings(const Picture& picture) {
 CameraBand with_light(CameraBand batch, const Picture& picture) {
     batch.max_depth = picture.view.max_depth;
     batch.min_weight = picture.settings.compensate ? kMinReceiverWeight : 0.0f;
-    batch.light_samples = per_sample(picture.settings.direct_samples_per_pixel, picture.settings);
+    batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
     return batch;
 }
 
@@ -83,7 +84,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const
                                      .receivers = buffers_.receivers,
                                      .packet_count = packets,
                                      .strata = &strata,
-                                     .clamp_radius = picture_.clamp_radius,
+                                     .clamp_radius = picture_.budget.clamp_radius,
                                      .threshold = picture_.settings.roulette,
                                      .seed = picture_.seed});
 }
@@ -104,7 +105,7 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                     .vpl_count = vpls().count(),
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
-                                    .clamp_radius = picture_.clamp_radius,
+                                    .clamp_radius = picture_.budget.clamp_radius,
                                     .strata = &strata,
                                     .selection = selection ? &*selection : nullptr,
                                     .curves = scene_.curves_in_use()},

@@ -41,7 +41,7 @@ struct BandStages {
 struct Picture {
     const View& view;
     const GatherSettings& settings;
-    float clamp_radius = 0.0f;  ///< m
+    const RayBudget& budget;
     uint seed = 0;
     const RenderPlan& plan;
     const VplSet& vpls;  ///< on one device, and on the host if there are several devices

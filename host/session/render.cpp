@@ -32,12 +32,12 @@ RenderReport begin_report(Session& session) {
 }
 
 /// Adds a pass to the report: the settings that were decided, and the number of VPLs.
-void note_pass(const Prepared& pass, bool compensate, RenderReport& report) {
+void note_pass(const Prepared& pass, const GatherSettings& settings, RenderReport& report) {
     if (report.passes++ == 0) {
         report.width = static_cast<int>(pass.view.camera.width);
         report.height = static_cast<int>(pass.view.camera.height);
         report.range = pass.view.close_range.range;
-        report.clamp_radius = clamp_radius_of(pass.view, pass.vpls, compensate);
+        report.ray_budget = budget_of(pass.view, pass.vpls, settings);
         report.max_depth = pass.view.max_depth;
         report.filter = pass.view.scene_camera.filter.kind;
         report.close_fraction = pass.vpls.close_fraction;
@@ -48,12 +48,11 @@ void note_pass(const Prepared& pass, bool compensate, RenderReport& report) {
     report.candidates += pass.vpls.candidate_count;
 }
 
-Prepared prepare(Session& session, const ViewSettings& view, const RenderSettings& settings, uint seed,
-                 RenderReport& report) {
+Prepared prepare(Session& session, const RenderSettings& settings, uint seed, RenderReport& report) {
     const Stopwatch watch;
-    Prepared pass{.view = session.look(view, seed), .vpls = {}, .seed = seed};
+    Prepared pass{.view = session.look(settings.view, seed), .vpls = {}, .seed = seed};
     pass.vpls = session.sample(pass.view, settings.sampling, seed);
-    note_pass(pass, settings.gather.compensate, report);
+    note_pass(pass, settings.gather, report);
     report.seconds.generate += watch.seconds();
     return pass;
 }
@@ -71,16 +70,18 @@ void gather(Session& session, const Prepared& pass, const GatherSettings& settin
 
 /// Settings for later passes. They keep what the first pass decided about the view, because the mean would
 /// otherwise mix different views.
-ViewSettings decided(const RenderSettings& settings, const Prepared& first) {
-    ViewSettings same = settings.view;
-    same.range = first.view.close_range.range;
-    same.clamp_radius = clamp_radius_of(first.view, first.vpls, settings.gather.compensate);
+RenderSettings decided(const RenderSettings& settings, const Prepared& first) {
+    const RayBudget budget = budget_of(first.view, first.vpls, settings.gather);
+    RenderSettings same = settings;
+    same.view.range = first.view.close_range.range;
+    same.view.clamp_radius = budget.clamp_radius;
+    same.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
     return same;
 }
 
 void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
                  const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
-    const Prepared pass = prepare(session, settings.view, settings, settings.seed, report);
+    const Prepared pass = prepare(session, settings, settings.seed, report);
     start(report, pass.view, pass.vpls);
     gather(session, pass, settings.gather, sink, progress, report);
 }
@@ -88,17 +89,16 @@ void render_once(Session& session, const RenderSettings& settings, const RenderS
 void render_passes(Session& session, const RenderSettings& settings, const RenderStart& start,
                    const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
     PassClock clock(settings, report.seconds.total);
-    const Prepared first = prepare(session, settings.view, settings, settings.seed, report);
+    const Prepared first = prepare(session, settings, settings.seed, report);
     PassAverage average(first.view.camera.width, first.view.camera.height);
     const RowSink add_rows = [&](std::span<const float> rows) { average.add_rows(rows); };
     const GatherFraction pass_progress = [&](double fraction) { return progress(clock.fraction(fraction)); };
     gather(session, first, settings.gather, add_rows, pass_progress, report);
-    const ViewSettings view = decided(settings, first);
+    const RenderSettings same = decided(settings, first);
     while (!report.interrupted && clock.has_another()) {
         average.begin_pass();
-        const Prepared pass =
-            prepare(session, view, settings, pass_seed(settings.seed, report.passes), report);
-        gather(session, pass, settings.gather, add_rows, pass_progress, report);
+        const Prepared pass = prepare(session, same, pass_seed(settings.seed, report.passes), report);
+        gather(session, pass, same.gather, add_rows, pass_progress, report);
     }
     start(report, first.view, first.vpls);
     average.send(sink);

@@ -27,9 +27,9 @@ struct RenderSeconds {
 struct RenderReport {
     int width = 0;
     int height = 0;
-    float range = 0;         ///< distance at which the close range ends, m
-    float clamp_radius = 0;  ///< m
-    uint max_depth = 0;      ///< maximum path length, as Mitsuba counts it
+    float range = 0;  ///< distance at which the close range ends, m
+    RayBudget ray_budget{};
+    uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
     FilterKind filter = FilterKind::box;
     uint passes = 0;  ///< number of passes that were begun
     // The next five count all passes together.

@@ -10,7 +10,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/session/clamp_pilot.h"
+#include "host/session/ray_budget.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -76,8 +76,14 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
 
 }  // namespace
 
-float clamp_radius_of(const View& view, const VplSet& vpls, bool compensate) {
-    return compensate ? vpls.clamp_radius.value_or(view.clamp_radius) : view.clamp_radius;
+RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings) {
+    RayBudget budget = vpls.ray_budget.value_or(RayBudget{.clamp_radius = view.clamp_radius});
+    if (!settings.compensate) {
+        budget.clamp_radius = view.clamp_radius;
+    }
+    budget.light_samples_per_pixel =
+        settings.direct_samples_per_pixel.value_or(budget.light_samples_per_pixel);
+    return budget;
 }
 
 /// Kernels compile while the tree is built: compiling waits for the driver, building for memory.
@@ -112,15 +118,16 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
-        if (view.clamp_radius_is_open && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
-            set.clamp_radius = choose_clamp_radius({.stages = leader.bands,
-                                                    .scene = leader.scene,
-                                                    .view = pilot,
-                                                    .vpls = set.vpls,
-                                                    .max_edges = view.bounce_count() + 1,
-                                                    .rays_per_pixel = GatherSettings{}.rays_per_pixel,
-                                                    .seed = seed},
-                                                   view.clamp_radius);
+        if (!set.local && !set.vpls.empty() && pilot.packet_count > 0) {
+            set.ray_budget = choose_ray_budget({.stages = leader.bands,
+                                                .scene = leader.scene,
+                                                .view = pilot,
+                                                .vpls = set.vpls,
+                                                .max_edges = view.bounce_count() + 1,
+                                                .clamp_radius = view.clamp_radius,
+                                                .rays_per_pixel = GatherSettings{}.rays_per_pixel,
+                                                .is_open = view.clamp_radius_is_open,
+                                                .seed = seed});
         }
         if (pool_.size() > 1) {
             set.vpls.keep_on_host();
@@ -138,12 +145,9 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                                           .samples_per_pixel = settings.samples_per_pixel,
                                           .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
                                           .strata = settings.strata_or_auto()});
-    const Picture picture{.view = view,
-                          .settings = settings,
-                          .clamp_radius = clamp_radius_of(view, vpls, settings.compensate),
-                          .seed = seed,
-                          .plan = plan,
-                          .vpls = vpls};
+    const RayBudget budget = budget_of(view, vpls, settings);
+    const Picture picture{
+        .view = view, .settings = settings, .budget = budget, .seed = seed, .plan = plan, .vpls = vpls};
     GatherOutcome outcome;
     const auto take_band = [&](FinishedBand& band) {
         outcome.local_lights += band.local_lights;
@@ -175,14 +179,14 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
         const Buffer<ReceiverPacket> receivers(device, std::span<const ReceiverPacket>(packets));
         Buffer<IrradiancePacket> light(device, packets.size());
         const VplBuffer copy = vpls.vpls.is_on(device) ? VplBuffer() : vpls.vpls.copy_to(device);
-        gather_incident_light(*leader.samplers,
-                              {.scene = leader.scene,
-                               .bounce_count = view.bounce_count(),
-                               .vpls = vpls.vpls.is_on(device) ? vpls.vpls : copy,
-                               .clamp_radius = clamp_radius_of(view, vpls, settings.paths > 0)},
-                              receivers, packets.size(),
-                              {.direct_samples = settings.direct_samples, .paths = settings.paths}, seed,
-                              light);
+        gather_incident_light(
+            *leader.samplers,
+            {.scene = leader.scene,
+             .bounce_count = view.bounce_count(),
+             .vpls = vpls.vpls.is_on(device) ? vpls.vpls : copy,
+             .clamp_radius = budget_of(view, vpls, {.compensate = settings.paths > 0}).clamp_radius},
+            receivers, packets.size(), {.direct_samples = settings.direct_samples, .paths = settings.paths},
+            seed, light);
         return unpack(light, points.size());
     });
 }

@@ -35,9 +35,9 @@ struct GatherOutcome {
     bool interrupted = false;       ///< `progress` stopped it: rows are missing at the bottom
 };
 
-/// The clamp radius (m) that a picture of these VPLs is gathered with. The radius that a pilot chose for the
-/// set counts only if rays bring back what it takes away.
-float clamp_radius_of(const View& view, const VplSet& vpls, bool compensate);
+/// What a picture of these VPLs is gathered with: what the settings say, and for the rest the pilot's choice.
+/// Its clamp radius counts only if rays bring back what it takes away.
+RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings);
 
 /// A scene on devices. After construction the tree is built and everything is uploaded; kernels compile until
 /// they are first launched. Views and VPLs are made on the first device, rows on all of them. Several devices

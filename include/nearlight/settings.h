@@ -68,11 +68,12 @@ struct GatherSettings {
     /// the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes as many strata as
     /// there are samples.
     std::optional<std::uint32_t> strata{};
-    std::uint32_t direct_samples_per_pixel = 64;  ///< samples towards area lights and the environment
+    /// Samples towards area lights and the environment; empty: 16 to 128, as a pilot chooses.
+    std::optional<std::uint32_t> direct_samples_per_pixel{};
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
     /// other ways than Lambertian. Without them, the picture lacks that light.
     bool compensate = true;
-    std::uint32_t rays_per_pixel = 16;  ///< rays of receivers, if `compensate` is set
+    std::uint32_t rays_per_pixel = 64;  ///< rays of receivers, if `compensate` is set
     bool indirect_only = false;         ///< the layer of direct light has emission only
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.

@@ -97,7 +97,9 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
                 settings.seed = pass_seed(5, pass);
                 if (pass > 0) {
                     settings.view.range = averaged.report.range;
-                    settings.view.clamp_radius = averaged.report.clamp_radius;
+                    const RayBudget& budget = averaged.report.ray_budget;
+                    settings.view.clamp_radius = budget.clamp_radius;
+                    settings.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
                 }
                 const test::Rendering single = test::render_image(session, settings);
                 vpls += single.report.close_vpls + single.report.distant_vpls;

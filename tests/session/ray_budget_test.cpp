@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clamp radius that a pilot chooses gives about the least noise.
+// What a pilot chooses gives about the least noise for its time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,15 +47,15 @@ double radius_noise(Session& session, float radius, uint vpl_count) {
     return sum / static_cast<double>(count);
 }
 
-class ClampPilotTest : public test::DeviceTest {};
+class RayBudgetTest : public test::DeviceTest {};
 
-TEST_F(ClampPilotTest, TheChoiceIsAmongTheLeastNoisy) {
+TEST_F(RayBudgetTest, TheChoiceIsAmongTheLeastNoisy) {
     const Scene scene = test::corner();
     on_each_device([&](Device& device) {
         Session session(device, scene);
         for (const uint vpl_count : {60u, 1000u}) {
-            const float chosen =
-                test::render_image(session, pilot_settings(std::nullopt, vpl_count)).report.clamp_radius;
+            const float chosen = test::render_image(session, pilot_settings(std::nullopt, vpl_count))
+                                     .report.ray_budget.clamp_radius;
             std::map<float, double> noises;
             for (const float multiple : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
                 noises[multiple * kPilotStart] = radius_noise(session, multiple * kPilotStart, vpl_count);
@@ -70,22 +70,21 @@ TEST_F(ClampPilotTest, TheChoiceIsAmongTheLeastNoisy) {
     });
 }
 
-TEST_F(ClampPilotTest, AGivenRadiusStays) {
+TEST_F(RayBudgetTest, AGivenRadiusStays) {
     const Scene scene = test::corner();
     Session session(*devices().front(), scene);
     const RenderSettings settings = pilot_settings(0.07f, 60);
     const View view = session.look(settings.view, 1);
     const VplSet vpls = session.sample(view, settings.sampling, 1);
-    EXPECT_FALSE(vpls.clamp_radius);
-    EXPECT_EQ(clamp_radius_of(view, vpls, true), 0.07f);
+    EXPECT_EQ(budget_of(view, vpls, {}).clamp_radius, 0.07f);
 }
 
-TEST_F(ClampPilotTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
+TEST_F(RayBudgetTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
     const Scene scene = test::corner();
     Session session(*devices().front(), scene);
     RenderSettings settings = pilot_settings(std::nullopt, 60);
     settings.gather.compensate = false;
-    EXPECT_FLOAT_EQ(test::render_image(session, settings).report.clamp_radius, kPilotStart);
+    EXPECT_FLOAT_EQ(test::render_image(session, settings).report.ray_budget.clamp_radius, kPilotStart);
 }
 
 }  // namespace

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/ray_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/base/message.h"
+#include "host/base/receivers.h"
+
+namespace nearlight::core {
+namespace {
+
+/// Candidates, as multiples of the radius that the pilot starts from. The first must be 1.
+constexpr std::array kRadiusMultiples{1.0f, 0.25f, 0.5f, 2.0f, 4.0f};
+constexpr std::array<uint, 4> kLightSampleNumbers{16, 32, 64, 128};
+/// What a pixel costs, rays and light samples apart, and what a light sample costs, in rays: medians of
+/// measurements on a CPU (bench/log/limit.md). Only their order of magnitude matters.
+constexpr double kPixelCost = 40;
+constexpr double kLightSampleCost = 0.75;
+constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
+constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in the dark count less
+/// No part of a receiver's relative error counts as more. A single ray that met a lamp's reflection would
+/// otherwise decide for the whole picture.
+constexpr double kMaxErrorOfVpls = 0.2;
+constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;
+
+using Packets = std::vector<IrradiancePacket>;
+
+/// The light that reaches the pilot's receivers, and how its estimate varies, for one candidate.
+struct PilotLight {
+    std::array<Packets, 2> direct;  ///< by a light sample and a ray, for each of kRaySeeds
+    std::array<Packets, 2> rays;    ///< indirect light that one ray brings, likewise
+    Packets vpls;                   ///< sum of what VPLs bring
+    Packets vpl_squares;            ///< sum of the squares of what each VPL brings
+};
+
+PilotLight light_of(const BudgetPilot& pilot, float radius) {
+    Device& device = pilot.stages.device;
+    const std::size_t packets = pilot.view.packet_count;
+    PilotLight light;
+    Buffer<IrradiancePacket> direct(device, packets);
+    Buffer<IrradiancePacket> indirect(device, packets);
+    for (std::size_t i = 0; i < kRaySeeds.size(); ++i) {
+        pilot.stages.receiver_paths.run(pilot.scene, pilot.view.receivers, packets,
+                                        {.light_samples = 1,
+                                         .path_count = 1,
+                                         .max_edges = pilot.max_edges,
+                                         .clamp_radius = radius,
+                                         .seed = pilot.seed ^ kRaySeeds[i]},
+                                        direct, indirect);
+        light.direct[i] = direct.download();
+        light.rays[i] = indirect.download();
+    }
+    GatherSums<Vpl> sums(device, packets, 1);
+    pilot.stages.gatherer.gather<Vpl>({.tree = pilot.scene.tree,
+                                       .vpls = pilot.vpls.buffer(),
+                                       .vpl_count = pilot.vpls.count(),
+                                       .receivers = pilot.view.receivers,
+                                       .packet_count = packets,
+                                       .clamp_radius = radius,
+                                       .group_size = static_cast<uint>(pilot.vpls.count()),
+                                       .curves = pilot.scene.curves_in_use()},
+                                      sums);
+    light.vpls = sums.groups.download();
+    light.vpl_squares = sums.squares.download();
+    return light;
+}
+
+double sum_of(Vec3 v) {
+    return double{v.x} + v.y + v.z;
+}
+
+Vec3 mean_of(const std::array<Packets, 2>& pair, std::size_t i) {
+    return 0.5f * (irradiance_at(pair[0], i) + irradiance_at(pair[1], i));
+}
+
+/// The variance of one estimate, of which there is a pair.
+double variance_of(const std::array<Packets, 2>& pair, std::size_t i) {
+    const Vec3 change = irradiance_at(pair[0], i) - irradiance_at(pair[1], i);
+    return 0.5 * dot(change, change);
+}
+
+/// The parts of a receiver's squared error, each relative to the square of its light and as far as it counts:
+/// of one ray, of one light sample, and of all VPLs.
+struct ErrorParts {
+    double of_ray = 0;
+    double of_light_sample = 0;
+    double of_vpls = 0;
+};
+
+/// The square of each receiver's light, with a part of the mean's, so that errors in the dark count less.
+std::vector<double> squares_of_light(const PilotLight& light) {
+    std::vector<double> sums(light.vpls.size() * NEARLIGHT_PACKET_SIZE);
+    double mean = 0.0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i] = sum_of(mean_of(light.direct, i) + irradiance_at(light.vpls, i) + mean_of(light.rays, i));
+        mean += sums[i] / static_cast<double>(sums.size());
+    }
+    for (double& sum : sums) {
+        sum = sum * sum + kDarkPart * mean * mean + 1e-30;
+    }
+    return sums;
+}
+
+std::vector<ErrorParts> error_parts(const PilotLight& light, std::span<const double> squares) {
+    std::vector<ErrorParts> parts(squares.size());
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        const double of_vpls = sum_of(irradiance_at(light.vpl_squares, i));
+        parts[i] = {.of_ray = std::min(variance_of(light.rays, i) / squares[i], kMaxErrorOfRay),
+                    .of_light_sample = std::min(variance_of(light.direct, i) / squares[i], kMaxErrorOfRay),
+                    .of_vpls = std::min(of_vpls / squares[i], kMaxErrorOfVpls)};
+    }
+    return parts;
+}
+
+/// The mean error over receivers.
+double expected_error(std::span<const ErrorParts> parts, uint rays, uint light_samples) {
+    double error = 0.0;
+    for (const ErrorParts& part : parts) {
+        error += part.of_vpls + part.of_ray / rays + part.of_light_sample / light_samples;
+    }
+    return error / static_cast<double>(parts.size());
+}
+
+/// A candidate, and how much time it needs for a given error, up to a factor.
+struct Candidate {
+    RayBudget budget;
+    double error = 0.0;
+    double error_times_cost = std::numeric_limits<double>::infinity();
+};
+
+/// The best number of light samples for one radius.
+Candidate best_number(std::span<const ErrorParts> parts, uint rays, float radius) {
+    Candidate best;
+    for (const uint light_samples : kLightSampleNumbers) {
+        const double error = expected_error(parts, rays, light_samples);
+        const double cost = kPixelCost + rays + kLightSampleCost * light_samples;
+        if (error * cost < best.error_times_cost) {
+            best = {{radius, light_samples}, error, error * cost};
+        }
+    }
+    return best;
+}
+
+void say_candidate(const Candidate& candidate) {
+    say_debug("clamp radius " + std::to_string(candidate.budget.clamp_radius) + ": " +
+              std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, expected error " +
+              std::to_string(candidate.error));
+}
+
+}  // namespace
+
+RayBudget choose_ray_budget(const BudgetPilot& pilot) {
+    std::vector<double> squares;
+    Candidate best{.budget = {.clamp_radius = pilot.clamp_radius}};
+    const std::size_t radii = pilot.is_open ? kRadiusMultiples.size() : 1;
+    for (const float multiple : std::span(kRadiusMultiples).first(radii)) {
+        const PilotLight light = light_of(pilot, multiple * pilot.clamp_radius);
+        if (squares.empty()) {
+            squares = squares_of_light(light);
+        }
+        const Candidate candidate =
+            best_number(error_parts(light, squares), pilot.rays_per_pixel, multiple * pilot.clamp_radius);
+        say_candidate(candidate);
+        if (candidate.error_times_cost < best.error_times_cost) {
+            best = candidate;
+        }
+    }
+    return best.budget;
+}
+
+}  // namespace nearlight::core
