@@ -17,8 +17,11 @@ constexpr double kPlannedExtra = 1.0;
 /// The first pass is given up if it would exceed the time limit by more than this part of it. Giving up
 /// costs the work so far.
 constexpr double kToleratedPart = 0.1;
-/// A pass is judged when this much of it, or of the time limit, has passed.
-constexpr double kJudgedPart = 0.03;
+/// A pass is judged by this much of it, or by what it does in this much of the time limit: less says little
+/// on a busy machine. What comes before the first part of kIgnoredPart is not looked at, because drivers
+/// compile kernels when they first run.
+constexpr double kJudgedPart = 0.15;
+constexpr double kIgnoredPart = 0.03;
 /// The last pass towards an error has more samples than the estimate says by this factor, and at least this
 /// part of a full pass, so that it seldom takes a further one.
 constexpr double kErrorReserve = 1.05;
@@ -100,7 +103,8 @@ bool PassSchedule::is_too_long(double of_pass) {
         return false;
     }
     if (!mark_) {
-        if (of_pass > 0.0) {
+        const double in_gather = pass_watch_.seconds() - vpl_seconds_;
+        if (of_pass > 0.0 && (of_pass >= kIgnoredPart || in_gather >= kIgnoredPart * *seconds_)) {
             mark_ = Mark{.seconds = pass_watch_.seconds(), .fraction = of_pass};
         }
         return false;
