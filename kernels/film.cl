@@ -31,12 +31,21 @@ inline bool is_better_depth(float stored, const CameraVertex* vertex) {
     return vertex->depth > 0.0f && (stored == 0.0f || (stored < 0.0f && is_own));
 }
 
+/// Keeps the light of the samples so far. After the last sample of the first half, this is the half's light.
+inline void keep_light(global float* pixel) {
+    for (uint c = 0; c < 3; ++c) {
+        pixel[NEARLIGHT_SUM_VARIANCE + c] =
+            pixel[NEARLIGHT_SUM_DIRECT + c] + pixel[NEARLIGHT_SUM_INDIRECT + c];
+    }
+}
+
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
                      const global IrradiancePacket* restrict direct,
                      const global IrradiancePacket* restrict gathered,
                      const global IrradiancePacket* restrict indirect, uint width, uint row_count,
-                     PacketOrder order, global float* restrict sums) {
+                     PacketOrder order, uint first_sample, uint samples_per_pixel,
+                     global float* restrict sums) {
     const uint index = (uint)get_global_id(0);
     if (index >= width * row_count) {
         return;
@@ -62,6 +71,10 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         // Only light has the filter's weights. Surfaces are averaged over where the samples lie, so that no
         // layer of them overshoots where the filter is negative.
         add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
+        const uint samples_before = first_sample + i / order.branch_count;
+        if (samples_before < samples_per_pixel / 2) {
+            keep_light(pixel);
+        }
         if (branch != 0) {
             continue;  // geometry layers come from branch 0 only
         }
@@ -113,7 +126,25 @@ inline void resolve_light(const global float* sums, uint first, uint count, floa
     }
 }
 
-#define RESOLVE_LAYER(constant, name, channels, samples, passes)                             \
+/// The variance of a mean whose samples are drawn one by one would be a·b/n² · (difference of the halves'
+/// means)², with a + b = n samples. Here the halves complement each other: they ask different strata of the
+/// VPLs and lie in each other's gaps in the pixel. kHalvesToWhole is what this leaves of that variance
+/// (bench/log/error.md).
+constant float kHalvesToWhole = 0.72f;
+inline void resolve_spread(const global float* sums, uint first, uint count, float scale,
+                           global float* layer) {
+    const float samples = rint(1.0f / scale);
+    const float in_first = floor(0.5f * samples);
+    const float in_second = samples - in_first;
+    for (uint c = 0; c < count; ++c) {
+        const float light = sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c];
+        const float difference = sums[first + c] / in_first - (light - sums[first + c]) / in_second;
+        const float share = in_first * in_second * scale * scale;
+        layer[c] = in_first > 0.0f ? kHalvesToWhole * share * difference * difference : 0.0f;
+    }
+}
+
+#define RESOLVE_LAYER(constant, name, channels, samples, passes, files)                      \
     resolve_##samples(pixel, NEARLIGHT_SUM_##constant, NEARLIGHT_CHANNELS_##channels, scale, \
                       out + NEARLIGHT_LAYER_##constant);
 

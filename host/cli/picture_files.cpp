@@ -7,17 +7,21 @@
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
+#include "host/cli/log.h"
 #include "host/scene/camera.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The names of the layers, separated by commas.
-std::string listed(std::span<const FilmLayer> layers) {
+/// The names of the layers, separated by commas; only those with the rule `files`, if it is given.
+std::string listed(std::span<const FilmLayer> layers, std::optional<FileRule> files = std::nullopt) {
     std::string list;
     for (const FilmLayer& layer : layers) {
-        list += (list.empty() ? "" : ", ") + std::string(layer.name);
+        if (!files || layer.files == *files) {
+            list += (list.empty() ? "" : ", ") + std::string(layer.name);
+        }
     }
     return list;
 }
@@ -40,8 +44,9 @@ std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::stri
     const bool takes_more = extension_of(file) == ".exr";
     std::vector<FilmLayer> chosen;
     for (const FilmLayer& layer : kFilmLayers) {
-        const bool wanted =
-            options.layers.empty() || std::ranges::find(options.layers, layer.name) != options.layers.end();
+        const bool wanted = options.layers.empty()
+                                ? layer.files == FileRule::always
+                                : std::ranges::find(options.layers, layer.name) != options.layers.end();
         if (layer.is_beauty() || (takes_more && wanted)) {
             chosen.push_back(layer);
         }
@@ -96,8 +101,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->required();
     command
         .add_option("--layers,--aov", options.layers,
-                    "Layers of EXR pictures besides beauty, comma-separated (default: all): " +
-                        listed(optional_layers()))
+                    fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
+                                "request: {}",
+                                listed(optional_layers(), FileRule::always),
+                                listed(optional_layers(), FileRule::asked)))
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);

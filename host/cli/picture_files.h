@@ -15,7 +15,7 @@ namespace nearlight::core {
 
 struct PictureOptions {
     std::vector<std::string> outputs;
-    std::vector<std::string> layers;  ///< layers of EXR files; empty: all
+    std::vector<std::string> layers;  ///< layers of EXR files; empty: all that need not be asked for
     float exposure = 0.0f;            ///< exposure of PNG files, in stops
 };
 

@@ -6,6 +6,7 @@
 #include <future>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "host/base/stopwatch.h"
 #include "host/bvh/thread_limit.h"
@@ -13,10 +14,12 @@
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
 #include "host/cli/scene_options.h"
+#include "host/session/passes.h"
 #include "host/session/render.h"
 
 namespace nearlight::core {
@@ -32,8 +35,8 @@ struct RenderOptions {
     std::string close_fraction = "auto";
     std::string range = "auto";
     std::string clamp_radius = "auto";
-    std::optional<double> seconds;  ///< time limit of the whole command
-    int threads = 0;                ///< 0: one per core
+    PassOptions passes;
+    int threads = 0;  ///< 0: one per core
 };
 
 const std::map<std::string, GatherKernel> kGatherKernels{
@@ -85,6 +88,9 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
 
 RenderSettings settled(const RenderOptions& options) {
     RenderSettings settings = options.settings;
+    settings.passes = options.passes.passes;
+    settings.error = options.passes.error;
+    settings.pass_samples = options.passes.pass_samples;
     settings.sampling.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
     settings.view.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
     settings.view.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
@@ -113,6 +119,7 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs{}, {:.1f} s", report.width, report.height,
                  report.close_vpls, report.distant_vpls,
                  report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
+    tell_limits(options.passes, report, min_pass_samples(options.settings.gather), seconds);
     tell_shares(report);
     const char* const note = !report.interrupted ? ""
                              : report.passes > 1 ? " (interrupted: the last pass is incomplete)"
@@ -138,6 +145,7 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     RenderSettings settings = settled(options);
+    check_variance_is_known(options.picture, settings, options.passes);
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {
         limit_driver_threads(options.threads);
@@ -160,8 +168,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     auto hash = std::async(std::launch::async, [&] { return scene_hash(scene); });
     const std::vector<std::unique_ptr<Device>> devices = opening.get();
 
-    if (options.seconds) {
-        settings.seconds = *options.seconds - total.seconds();
+    if (options.passes.seconds) {
+        settings.seconds = *options.passes.seconds - total.seconds();
     }
     catch_interrupts();
     ProgressBar bar("gathering", global);
@@ -181,6 +189,12 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         [&](const std::string&, double fraction) {
             bar.update(fraction);
             return !interrupted();
+        },
+        [&, told = false](const PassForecast& forecast) mutable {
+            if (!std::exchange(told, true)) {
+                bar.clear();
+                tell_forecast(forecast, *settings.error);
+            }
         });
     bar.clear();
     files.commit(total.seconds());
@@ -284,21 +298,6 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     add_bvh_option(command, options.session.bvh_quality);
 }
 
-void add_pass_options(CLI::App& command, RenderOptions& options) {
-    command
-        .add_option(
-            "--passes", options.settings.passes,
-            "Number of renderings to average, each with different VPLs and random numbers (default: 1)")
-        ->check(CLI::Range(1u, 1'000'000u))
-        ->type_name("N");
-    command
-        .add_option("--time", options.seconds,
-                    "Make as many passes as fit in this time, including the time to read the scene; always "
-                    "makes one, and never more than --passes")
-        ->check(CLI::Range(0.0, 1e9))
-        ->type_name("SECONDS");
-}
-
 }  // namespace
 
 void add_render_command(CommandLine& line) {
@@ -330,7 +329,7 @@ void add_render_command(CommandLine& line) {
                     "pilot)")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N");
-    add_pass_options(command, *options);
+    add_pass_options(command, options->passes);
     add_sampler_options(command, *options);
     add_method_options(command, *options);
     add_device_options(command, options->device);

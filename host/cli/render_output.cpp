@@ -7,6 +7,7 @@
 #include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/cli/log.h"
+#include "host/cli/pass_list.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/tunables_output.h"
 
@@ -48,6 +49,11 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
+    metadata["nearlight:passSpp"] = pass_list_text(report.pass_samples);
+    if (report.error) {
+        metadata["nearlight:error"] = static_cast<float>(*report.error);
+        metadata["nearlight:errorAsked"] = static_cast<float>(*settings.error);
+    }
     metadata["nearlight:clampRadius"] = report.ray_budget.clamp_radius;
     metadata["nearlight:raysPerPixel"] = static_cast<int>(settings.gather.rays_per_pixel);
     metadata["nearlight:directSamplesPerPixel"] = static_cast<int>(report.ray_budget.light_samples_per_pixel);
@@ -87,6 +93,9 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["samples_per_pixel"] = settings.gather.samples_per_pixel;
     json["strata"] = settings.gather.strata_or_auto();
     json["passes"] = report.passes;
+    json["pass_spp"] = pass_list_text(report.pass_samples);
+    json["relative_error"] = report.error ? nlohmann::ordered_json(*report.error) : nullptr;
+    json["relative_error_asked"] = settings.error ? nlohmann::ordered_json(*settings.error) : nullptr;
     json["vpls"] = {{"requested", settings.sampling.vpl_count}, {"close", report.close_vpls},
                     {"distant", report.distant_vpls},           {"sparse", report.sparse_vpls},
                     {"candidates", report.candidates},          {"local_lights", report.local_lights}};

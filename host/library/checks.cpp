@@ -77,6 +77,10 @@ void check(const RenderSettings& settings) {
     check(settings.gather);
     check_range("passes", settings.passes, 1u, kMaxPasses);
     check_range("seconds", settings.seconds, 0.0, 1e9);
+    check_range("error", settings.error, 1e-5, 100.0);
+    for (const std::uint32_t samples : settings.pass_samples) {
+        check_range("pass_samples", samples, 1u, kMaxSamples);
+    }
 }
 
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {

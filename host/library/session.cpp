@@ -180,6 +180,8 @@ Picture Session::render(const RenderSettings& settings, const Progress& progress
     picture.passes = report.passes;
     picture.vpl_count = report.close_vpls + report.distant_vpls;
     picture.interrupted = report.interrupted;
+    picture.pass_samples = report.pass_samples;
+    picture.error = report.error;
     return picture;
 }
 

@@ -35,6 +35,17 @@ std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSample
     return std::nullopt;
 }
 
+/// The variance of the mean of `samples`, whose first half (without the middle one) and second half add up to
+/// the given numbers. The factor is that of kernels/film.cl.
+double variance_of(double first, double second, uint samples) {
+    const double in_first = samples / 2;
+    const double in_second = samples - in_first;
+    const double mean = (first + second) / samples;
+    const double squares = in_first * std::pow(first / in_first - mean, 2.0) +
+                           in_second * std::pow(second / in_second - mean, 2.0);
+    return 0.72 * squares / samples;
+}
+
 }  // namespace
 
 FilmSamples random_film_samples(const FilmLayout& layout) {
@@ -73,6 +84,7 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
 
 std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout& layout, uint x, uint y) {
     std::vector<double> out(NEARLIGHT_LAYER_CHANNELS, 0.0);
+    double halves[2][3] = {};
     double normal[3] = {0, 0, 0};
     const auto channel = [](Vec3 v, int c) {
         return static_cast<double>(c == 0 ? v.x : (c == 1 ? v.y : v.z));
@@ -97,6 +109,8 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
             out[NEARLIGHT_LAYER_BEAUTY + c] =
                 out[NEARLIGHT_LAYER_DIRECT + c] + out[NEARLIGHT_LAYER_INDIRECT + c];
+            const bool is_in_second = s / layout.branches >= layout.samples / 2;
+            halves[is_in_second ? 1 : 0][c] += direct + indirect;
             out[NEARLIGHT_LAYER_ALBEDO + c] += reflectance / layout.samples;
             normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
         }
@@ -104,6 +118,9 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
                 static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
         }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        out[NEARLIGHT_LAYER_VARIANCE + c] = variance_of(halves[0][c], halves[1][c], layout.samples);
     }
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (std::size_t c = 0; c < 3; ++c) {

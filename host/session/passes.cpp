@@ -2,12 +2,19 @@
 #include "host/session/passes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <limits>
-
-#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
+namespace {
+
+/// `number` · part / whole, rounded up, and at least 1.
+uint part_of(uint number, uint part, uint whole) {
+    const std::uint64_t product = std::uint64_t{number} * part;
+    return static_cast<uint>(std::max<std::uint64_t>((product + whole - 1) / whole, 1));
+}
+
+}  // namespace
 
 uint pass_seed(uint seed, uint pass) {
     // This is SplitMix64 [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
@@ -17,55 +24,28 @@ uint pass_seed(uint seed, uint pass) {
     return pass == 0 ? seed : static_cast<uint>((z ^ (z >> 31u)) >> 32u);
 }
 
-PassClock::PassClock(const RenderSettings& settings, double seconds)
-    : passes_(settings.passes.value_or(std::numeric_limits<uint>::max())),
-      seconds_(settings.seconds),
-      seconds_before_(seconds) {}
-
-bool PassClock::has_another() {
-    ++done_;
-    const double used = watch_.seconds();
-    return done_ < passes_ && (!seconds_ || seconds_before_ + used + used / done_ <= *seconds_);
+uint min_pass_samples(const GatherSettings& settings) {
+    return std::min(settings.samples_per_pixel, 2u);
 }
 
-double PassClock::fraction(double of_pass) const {
-    const double by_passes = (done_ + of_pass) / passes_;
-    const double by_time = seconds_ ? (seconds_before_ + watch_.seconds()) / *seconds_ : 0.0;
-    return std::min(1.0, std::max(by_passes, by_time));
-}
-
-PassAverage::PassAverage(uint width, uint height)
-    : row_size_(std::size_t{width} * NEARLIGHT_LAYER_CHANNELS),
-      sums_(row_size_ * height),
-      row_passes_(height) {}
-
-void PassAverage::add_rows(std::span<const float> rows) {
-    const auto rules = pass_rules();
-    for (const std::size_t end = end_ + rows.size(); end_ < end; end_ += row_size_) {
-        const std::span<const float> row = rows.last(end - end_).first(row_size_);
-        const std::span<float> sums = std::span(sums_).subspan(end_, row_size_);
-        const bool is_first = row_passes_[end_ / row_size_]++ == 0;
-        for (std::size_t i = 0; i < row_size_; ++i) {
-            if (is_first) {
-                sums[i] = row[i];
-            } else if (rules[i % rules.size()] == PassRule::mean) {
-                sums[i] += row[i];
-            }
-        }
+RenderSettings with_samples(RenderSettings settings, uint samples) {
+    GatherSettings& gather = settings.gather;
+    const uint whole = gather.samples_per_pixel;
+    if (samples == whole) {
+        return settings;
     }
-}
-
-void PassAverage::send(const std::function<void(std::span<const float> rows)>& sink) const {
-    const auto rules = pass_rules();
-    std::vector<float> row(row_size_);
-    for (std::size_t y = 0; y < row_passes_.size() && row_passes_[y] > 0; ++y) {
-        const std::span<const float> sums = std::span(sums_).subspan(y * row_size_, row_size_);
-        const float scale = 1.0f / static_cast<float>(row_passes_[y]);
-        for (std::size_t i = 0; i < row_size_; ++i) {
-            row[i] = rules[i % rules.size()] == PassRule::mean ? sums[i] * scale : sums[i];
-        }
-        sink(row);
+    const uint strata = gather.strata_or_auto();
+    const uint fewer_strata = part_of(strata, samples, whole);
+    // A sample asks vpl_count / strata VPLs, so these two keep their quotient.
+    settings.sampling.vpl_count =
+        static_cast<uint>(std::llround(1.0 * settings.sampling.vpl_count * fewer_strata / strata));
+    gather.strata = fewer_strata;
+    if (gather.direct_samples_per_pixel) {
+        gather.direct_samples_per_pixel = part_of(*gather.direct_samples_per_pixel, samples, whole);
     }
+    gather.rays_per_pixel = part_of(gather.rays_per_pixel, samples, whole);
+    gather.samples_per_pixel = samples;
+    return settings;
 }
 
 }  // namespace nearlight::core

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/session/pass_schedule.h"
 #include "host/session/session.h"
 
 namespace nearlight::core {
@@ -31,7 +33,11 @@ struct RenderReport {
     RayBudget ray_budget{};
     uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
     FilterKind filter = FilterKind::box;
-    uint passes = 0;  ///< number of passes that were begun
+    uint passes = 0;                 ///< number of passes that were begun
+    std::vector<uint> pass_samples;  ///< samples per pixel of each of them
+    /// What relative_error() says of the picture; empty unless RenderSettings::error asked for it and a
+    /// pass is whole.
+    std::optional<double> error;
     // The next five count all passes together.
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
@@ -51,9 +57,12 @@ struct RenderReport {
 /// after the last of them.
 using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
+/// Called after each pass but the last of a picture that is made until it reaches an error.
+using ForecastSink = std::function<void(const PassForecast&)>;
+
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress);
+                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast = {});
 
 }  // namespace nearlight::core

@@ -52,8 +52,8 @@ std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<
 /// Replaces the colours of all layers of light by their luminance.
 void make_monochrome(std::span<float> rows) {
     for (std::size_t pixel = 0; pixel < rows.size(); pixel += NEARLIGHT_LAYER_CHANNELS) {
-        for (const std::size_t layer :
-             {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT, NEARLIGHT_LAYER_INDIRECT}) {
+        for (const std::size_t layer : {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT,
+                                        NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_LAYER_VARIANCE}) {
             float* const rgb = rows.data() + pixel + layer;
             std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
         }

@@ -15,7 +15,7 @@ void Film::add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVerte
                Buffer<float>& sums) {
     film_add_.launch_items(static_cast<std::size_t>(width) * row_count, receivers, vertices,
                            irradiance.direct, irradiance.gathered, irradiance.indirect, width, row_count,
-                           packet_order(band, width), sums);
+                           packet_order(band, width), band.first_sample, band.samples_per_pixel, sums);
 }
 
 void Film::resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,

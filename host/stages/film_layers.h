@@ -13,8 +13,10 @@
 
 namespace nearlight::core {
 
-/// How several passes become one picture: as their mean, or by taking the first.
-enum class PassRule { mean, first };
+/// How several passes become one picture: as their mean, by taking the first, or as the variance of the mean.
+enum class PassRule { mean, first, variance };
+/// Which EXR files get a layer: all, or those for which it is asked.
+enum class FileRule { always, asked };
 
 struct FilmLayer {
     std::string_view name;          ///< "beauty", "direct", …
@@ -22,12 +24,18 @@ struct FilmLayer {
     std::size_t first_channel = 0;  ///< index among the picture's NEARLIGHT_LAYER_CHANNELS
     std::size_t channel_count = 0;
     PassRule passes = PassRule::mean;
+    FileRule files = FileRule::always;
 
     [[nodiscard]] constexpr bool is_beauty() const { return first_channel == NEARLIGHT_LAYER_BEAUTY; }
 };
 
-#define NEARLIGHT_LAYER_ROW(constant, name, channels, samples, passes) \
-    FilmLayer{name, #channels, NEARLIGHT_LAYER_##constant, NEARLIGHT_CHANNELS_##channels, PassRule::passes},
+#define NEARLIGHT_LAYER_ROW(constant, name, channels, samples, passes, files) \
+    FilmLayer{name,                                                           \
+              #channels,                                                      \
+              NEARLIGHT_LAYER_##constant,                                     \
+              NEARLIGHT_CHANNELS_##channels,                                  \
+              PassRule::passes,                                               \
+              FileRule::files},
 /// All layers, in the order of the picture's channels.
 inline constexpr std::array kFilmLayers{NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_ROW)};
 #undef NEARLIGHT_LAYER_ROW

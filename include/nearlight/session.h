@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -80,6 +81,9 @@ struct Picture {
     std::uint32_t passes = 1;   ///< number of passes that it is the mean of
     std::size_t vpl_count = 0;  ///< number of VPLs in all passes together
     bool interrupted = false;   ///< the callback stopped it before the end
+    /// The samples per pixel of each pass; empty for the picture of a gather.
+    std::vector<std::uint32_t> pass_samples{};
+    std::optional<double> error{};  ///< the relative error, if RenderSettings::error asked for it
 };
 
 /// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. It is called several times a
@@ -94,7 +98,8 @@ using RowSink = std::function<void(std::span<const float> rows)>;
 /// The names of the channels of every picture, in order. R, G and B are the radiance in W/(m² sr) that the
 /// camera receives; direct.* and indirect.* are its two parts. The other layers describe what is seen:
 /// albedo.*, the unit normal N.*, the position P.* and the distance depth.Z in metres, and closerange.Y, the
-/// share of the pixel that lies in the close range.
+/// share of the pixel that lies in the close range. variance.* is the estimated variance of R, G and B; it is
+/// 0 if the picture has a single sample per pixel.
 NEARLIGHT_API std::vector<std::string> picture_channels();
 
 /// A scene on devices, ready from construction on for any number of views, sets of VPLs and pictures. Equal
@@ -123,7 +128,7 @@ class NEARLIGHT_API Session {
     VplSet sample(const View& view, const SamplingSettings& settings = {}, std::uint32_t seed = 0);
 
     /// Renders the view with these VPLs, which may have been made for another view of the session. The image
-    /// takes about 80 bytes per pixel, a float for each channel.
+    /// takes about 90 bytes per pixel, a float for each channel.
     Picture gather(const View& view, const VplSet& vpls, const GatherSettings& settings = {},
                    std::uint32_t seed = 0, const Progress& progress = {});
 

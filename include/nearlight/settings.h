@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace nearlight {
 
@@ -89,11 +90,18 @@ struct RenderSettings {
     GatherSettings gather{};
     std::uint32_t seed = 0;
     /// The number of passes to average, each with random numbers and VPLs of its own. Empty means one pass,
-    /// or, if `seconds` is given, as many as fit.
+    /// or, if `seconds` or `error` is given, as many as it takes.
     std::optional<std::uint32_t> passes{};
-    /// The time limit in seconds from the start. A pass after the first is begun only if, judging by the
-    /// passes before it, it would end within the limit.
+    /// The time limit in seconds from the start. The last pass has fewer samples, so that it ends in time; so
+    /// has the first, if it would take far longer, but never fewer than two (or `samples_per_pixel`).
     std::optional<double> seconds{};
+    /// Makes passes until the relative error of the picture is at most this, or until there are `passes`, or
+    /// 1000. The relative error is the root of the mean of variance ÷ (b² + m²/100) over all pixels but the
+    /// thousandth with the largest quotients; b is the mean of the pixel's tile, m that of the picture.
+    std::optional<double> error{};
+    /// The samples per pixel of each pass, instead of `passes`: what Picture::pass_samples says of a picture
+    /// makes the same picture again. Empty: all passes have `samples_per_pixel`, unless limits end them.
+    std::vector<std::uint32_t> pass_samples{};
 };
 
 /// How a session gets ready.

@@ -2,7 +2,7 @@
 // The table of the picture's layers, compiled by host and kernels. The kernel of the film, the average of
 // passes, the EXR files and the help text of --layers come from it; CONTRIBUTING.md says how to add a row.
 //
-// A row is LAYER(constant, name, channels, samples, passes).
+// A row is LAYER(constant, name, channels, samples, passes, files).
 //   constant   is what NEARLIGHT_LAYER_… and NEARLIGHT_SUM_… end in.
 //   name       stands before the channel in files, as in "direct.R"; the beauty's channels have no prefix.
 //   channels   is one letter for each channel.
@@ -12,21 +12,28 @@
 //     first      the value of the first sample that met something on the pixel's own square, or, if there is
 //                none, anywhere, because positions and depths cannot be averaged across an edge;
 //     depth      the same, for the sum whose sign tells the two apart;
-//     light      the sum of the layers direct and indirect, for which nothing is added up separately.
-//   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first.
+//     light      the sum of the layers direct and indirect, for which nothing is added up separately;
+//     spread     the variance of the pixel's light, judged by how far apart the means of the first and of the
+//                second half of the samples lie; 0 for a single sample.
+//   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first,
+//              and `variance` is the variance of the mean, judged by the passes' own variances and by how
+//              far apart the passes lie (host/session/pass_average.h).
+//   files      says which EXR files get the layer: `always`, unless --layers names others, or `asked`, if
+//              --layers names it.
 // The order of the rows is the order of the channels in a picture and in its files.
 #ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
 #define NEARLIGHT_SHARED_FILM_LAYERS_H
 
-#define NEARLIGHT_FILM_LAYERS(LAYER)             \
-    LAYER(BEAUTY, "beauty", RGB, light, mean)    \
-    LAYER(DIRECT, "direct", RGB, mean, mean)     \
-    LAYER(INDIRECT, "indirect", RGB, mean, mean) \
-    LAYER(ALBEDO, "albedo", RGB, mean, first)    \
-    LAYER(NORMAL, "N", XYZ, direction, first)    \
-    LAYER(POSITION, "P", XYZ, first, first)      \
-    LAYER(DEPTH, "depth", Z, depth, first)       \
-    LAYER(CLOSE_RANGE, "closerange", Y, mean, first)
+#define NEARLIGHT_FILM_LAYERS(LAYER)                         \
+    LAYER(BEAUTY, "beauty", RGB, light, mean, always)        \
+    LAYER(DIRECT, "direct", RGB, mean, mean, always)         \
+    LAYER(INDIRECT, "indirect", RGB, mean, mean, always)     \
+    LAYER(ALBEDO, "albedo", RGB, mean, first, always)        \
+    LAYER(NORMAL, "N", XYZ, direction, first, always)        \
+    LAYER(POSITION, "P", XYZ, first, first, always)          \
+    LAYER(DEPTH, "depth", Z, depth, first, always)           \
+    LAYER(CLOSE_RANGE, "closerange", Y, mean, first, always) \
+    LAYER(VARIANCE, "variance", RGB, spread, variance, asked)
 
 // How many channels each word of the column `channels` stands for.
 #define NEARLIGHT_CHANNELS_RGB 3
@@ -40,9 +47,10 @@
 #define NEARLIGHT_SUMS_first(count) count
 #define NEARLIGHT_SUMS_depth(count) count
 #define NEARLIGHT_SUMS_light(count) 0
+#define NEARLIGHT_SUMS_spread(count) count
 
-#define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes) +NEARLIGHT_CHANNELS_##channels
-#define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes) \
+#define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes, files) +NEARLIGHT_CHANNELS_##channels
+#define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes, files) \
     +NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels)
 
 /// The number of channels of a finished picture.
@@ -56,12 +64,12 @@ namespace nearlight::core {
 
 // Each row names its first and its last channel, so that the enumerator after them is the first channel of
 // the next row.
-#define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes) \
-    NEARLIGHT_LAYER_##constant,                                          \
+#define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes, files) \
+    NEARLIGHT_LAYER_##constant,                                                 \
         NEARLIGHT_LAYER_##constant##_LAST = NEARLIGHT_LAYER_##constant + NEARLIGHT_CHANNELS_##channels - 1,
-#define NEARLIGHT_SUM_PLACE(constant, name, channels, samples, passes) \
-    NEARLIGHT_SUM_##constant,                                          \
-        NEARLIGHT_SUM_##constant##_LAST =                              \
+#define NEARLIGHT_SUM_PLACE(constant, name, channels, samples, passes, files) \
+    NEARLIGHT_SUM_##constant,                                                 \
+        NEARLIGHT_SUM_##constant##_LAST =                                     \
             NEARLIGHT_SUM_##constant + NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels) - 1,
 
 /// NEARLIGHT_LAYER_DIRECT is the first channel of the layer "direct" in a finished picture, and so on.

@@ -27,6 +27,15 @@ bool has_content(const Image& image, const std::string& name) {
     return false;
 }
 
+/// --layers with every layer of the table.
+std::string with_all_layers() {
+    std::string option = "--layers ";
+    for (const FilmLayer& layer : kFilmLayers) {
+        option += (layer.is_beauty() ? "" : ",") + std::string(layer.name);
+    }
+    return option;
+}
+
 bool is_word_of(const std::string& text, const std::string& word) {
     return std::regex_search(text, std::regex("\\b" + word + "\\b"));
 }
@@ -166,14 +175,16 @@ TEST_F(Render, RefusesPassesAndTimesThatAreNone) {
 
 TEST_F(Render, EveryLayerIsInTheFileInTheHelpAndInTheReadme) {
     NEARLIGHT_NEEDS_DEVICE();
-    ASSERT_EQ(render("", output_).exit_code, 0);
+    ASSERT_EQ(render(with_all_layers(), output_).exit_code, 0);
     const Image all = read_image(output_);
     EXPECT_TRUE(std::ranges::is_permutation(all.channels, layer_channels()));
+    ASSERT_EQ(render("", folder_ / "plain.exr").exit_code, 0);
+    EXPECT_EQ(read_image(folder_ / "plain.exr").find_channel("variance.R"), -1) << "it must be asked for";
     const std::string help = run_program("render --help").output;
     const std::string option =
         help.substr(help.find("--layers"), help.find("--exposure") - help.find("--layers"));
     const std::string readme = file_text(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "README.md");
-    const std::string of_layers = readme.substr(readme.find("EXR files hold the layers"), 120);
+    const std::string of_layers = readme.substr(readme.find("EXR files hold the layers"), 180);
     for (const FilmLayer& layer : kFilmLayers) {
         const std::string name(layer.name);
         for (std::size_t c = 0; c < layer.channel_count; ++c) {
@@ -188,7 +199,7 @@ TEST_F(Render, EveryLayerIsInTheFileInTheHelpAndInTheReadme) {
 
 TEST_F(Render, LayersThatWereAskedForComeBesidesTheBeauty) {
     NEARLIGHT_NEEDS_DEVICE();
-    ASSERT_EQ(render("", output_).exit_code, 0);
+    ASSERT_EQ(render(with_all_layers(), output_).exit_code, 0);
     const Image all = read_image(output_);
     for (const FilmLayer& layer : kFilmLayers) {
         const std::filesystem::path file = folder_ / (std::string(layer.name) + ".exr");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "tests/session/rendering.h"
@@ -42,7 +43,12 @@ bool is_averaged(std::size_t index) {
     return pass_rules()[index % NEARLIGHT_LAYER_CHANNELS] == PassRule::mean;
 }
 
-/// Values of the layers that passes average, and of the others.
+/// Whether passes keep the first value at `index`.
+bool is_of_first(std::size_t index) {
+    return pass_rules()[index % NEARLIGHT_LAYER_CHANNELS] == PassRule::first;
+}
+
+/// Values of the layers that passes average, and of those that are the first pass's.
 struct Differences {
     double light = 0;
     double geometry = 0;
@@ -50,8 +56,12 @@ struct Differences {
 Differences largest_differences(const Image& a, const Image& b) {
     Differences largest;
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-        double& difference = is_averaged(i) ? largest.light : largest.geometry;
-        difference = std::max(difference, std::abs(double{a.values[i]} - b.values[i]));
+        const double difference = std::abs(double{a.values[i]} - b.values[i]);
+        if (is_averaged(i)) {
+            largest.light = std::max(largest.light, difference);
+        } else if (is_of_first(i)) {
+            largest.geometry = std::max(largest.geometry, difference);
+        }
     }
     return largest;
 }
@@ -157,28 +167,113 @@ TEST_F(Passes, AnInterruptedOneLeavesTheMeanOfThoseBefore) {
     });
 }
 
-TEST(PassAverage, DividesEachRowByThePassesThatReachedIt) {
-    PassAverage average(1, 3);
-    std::vector<float> rows(3 * NEARLIGHT_LAYER_CHANNELS, 1.0f);
-    average.add_rows(rows);
-    average.begin_pass();
-    std::ranges::fill(rows, 4.0f);
-    average.add_rows(std::span(rows).first(NEARLIGHT_LAYER_CHANNELS));
-    average.add_rows(std::span(rows).first(NEARLIGHT_LAYER_CHANNELS));
-    std::vector<float> sent;
-    average.send([&](std::span<const float> row) { sent.insert(sent.end(), row.begin(), row.end()); });
-    ASSERT_EQ(sent.size(), rows.size());
-    for (std::size_t i = 0; i < sent.size(); ++i) {
-        EXPECT_EQ(sent[i], is_averaged(i) && i < 2 * NEARLIGHT_LAYER_CHANNELS ? 2.5f : 1.0f) << i;
-    }
+TEST_F(Passes, AListOfThemMakesThePictureOfATimeOrAnErrorAgain) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.gather.samples_per_pixel = 5;
+        for (const bool timed : {true, false}) {
+            RenderSettings limited = settings;
+            if (timed) {
+                limited.seconds = 0.3;
+            } else {
+                limited.error = 0.03;
+            }
+            const test::Rendering made = test::render_image(session, limited);
+            ASSERT_EQ(made.report.pass_samples.size(), made.report.passes);
+            RenderSettings listed = settings;
+            listed.pass_samples = made.report.pass_samples;
+            const test::Rendering again = test::render_image(session, listed);
+            EXPECT_EQ(again.report.image_hash, made.report.image_hash) << timed;
+            EXPECT_EQ(again.image.values, made.image.values) << timed;
+            EXPECT_EQ(again.report.pass_samples, made.report.pass_samples) << timed;
+        }
+    });
 }
 
-TEST(PassAverage, SendsNoRowThatNoPassReached) {
-    PassAverage average(2, 3);
-    average.add_rows(std::vector<float>(2 * NEARLIGHT_LAYER_CHANNELS, 1.0f));
-    int rows = 0;
-    average.send([&](std::span<const float>) { ++rows; });
-    EXPECT_EQ(rows, 1);
+TEST_F(Passes, AShortPassHasItsShareOfEverything) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.gather.samples_per_pixel = 8;
+        settings.gather.direct_samples_per_pixel = 16;
+        settings.pass_samples = {4};
+        RenderSettings half = settings;
+        half.pass_samples.clear();
+        half.gather.samples_per_pixel = 4;
+        half.gather.direct_samples_per_pixel = 8;
+        half.gather.rays_per_pixel = settings.gather.rays_per_pixel / 2;
+        half.sampling.vpl_count = settings.sampling.vpl_count / 2;
+        EXPECT_EQ(test::render_image(session, settings).report.image_hash,
+                  test::render_image(session, half).report.image_hash);
+    });
+}
+
+TEST_F(Passes, EndWhereTheErrorIsReached) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.error = 0.05;
+        const RenderReport report = test::render_image(session, settings).report;
+        ASSERT_TRUE(report.error);
+        EXPECT_LE(*report.error, 0.05);
+        EXPECT_GT(*report.error, 0.02);
+        EXPECT_GT(report.passes, 1u);
+        settings.error = 1e-5;
+        settings.passes = 2;
+        const RenderReport limited = test::render_image(session, settings).report;
+        EXPECT_EQ(limited.passes, 2u);
+        EXPECT_GT(*limited.error, 1e-5);
+    });
+}
+
+TEST_F(Passes, ABlackPictureIsExactAfterOne) {
+    on_each_device([](Device& device) {
+        Scene scene = yard();
+        scene.environment = {};
+        for (Material& material : scene.materials) {
+            material.emission = parameter_of(Vec3{0, 0, 0});
+        }
+        RenderSettings settings = test::few_vpls();
+        settings.error = 0.01;
+        const RenderReport report = test::render_image(device, scene, settings).report;
+        EXPECT_EQ(report.passes, 1u);
+        EXPECT_EQ(report.error, 0.0);
+    });
+}
+
+TEST_F(Passes, TheVarianceIsThatOfManyPictures) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        constexpr uint kPictures = 24;
+        for (const uint passes : {1u, 2u}) {
+            RenderSettings settings = test::few_vpls();
+            settings.sampling.vpl_count = 160;
+            settings.gather.samples_per_pixel = 8;
+            settings.gather.direct_samples_per_pixel = 8;
+            settings.passes = passes;
+            const std::vector<Image> images = test::render_seeds(session, settings, 100, kPictures);
+            double estimated = 0.0;
+            double true_variance = 0.0;
+            for (std::size_t i = 0; i < images[0].values.size(); i += NEARLIGHT_LAYER_CHANNELS) {
+                double sum = 0.0;
+                double squares = 0.0;
+                for (const Image& image : images) {
+                    const double value = image.values[i + NEARLIGHT_LAYER_BEAUTY + 1];
+                    sum += value;
+                    squares += value * value;
+                    estimated += image.values[i + NEARLIGHT_LAYER_VARIANCE + 1] / double{kPictures};
+                }
+                true_variance += (squares - sum * sum / kPictures) / (kPictures - 1);
+            }
+            EXPECT_GT(std::sqrt(true_variance / estimated), 0.8) << passes;
+            EXPECT_LT(std::sqrt(true_variance / estimated), 1.25) << passes;
+        }
+    });
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ using Names = std::vector<std::string>;
 
 // Existing files, and scripts that read them, rely on these names and this order.
 TEST(FilmLayers, ChannelsHaveTheNamesAndTheOrderOfFiles) {
-    EXPECT_EQ(
-        layer_channels(),
-        (Names{"R",          "G",          "B",        "direct.R", "direct.G", "direct.B",    "indirect.R",
-               "indirect.G", "indirect.B", "albedo.R", "albedo.G", "albedo.B", "N.X",         "N.Y",
-               "N.Z",        "P.X",        "P.Y",      "P.Z",      "depth.Z",  "closerange.Y"}));
+    EXPECT_EQ(layer_channels(), (Names{"R",          "G",          "B",          "direct.R",   "direct.G",
+                                       "direct.B",   "indirect.R", "indirect.G", "indirect.B", "albedo.R",
+                                       "albedo.G",   "albedo.B",   "N.X",        "N.Y",        "N.Z",
+                                       "P.X",        "P.Y",        "P.Z",        "depth.Z",    "closerange.Y",
+                                       "variance.R", "variance.G", "variance.B"}));
 }
 
 TEST(FilmLayers, LieOneAfterTheOther) {
@@ -45,7 +45,14 @@ TEST(FilmLayers, PassesAverageLightAndKeepTheGeometryOfTheFirst) {
     for (std::size_t c = 0; c < names.size(); ++c) {
         const bool is_light =
             names[c].size() == 1 || names[c].starts_with("direct.") || names[c].starts_with("indirect.");
-        EXPECT_EQ(rules[c], is_light ? PassRule::mean : PassRule::first) << names[c];
+        const PassRule other = names[c].starts_with("variance.") ? PassRule::variance : PassRule::first;
+        EXPECT_EQ(rules[c], is_light ? PassRule::mean : other) << names[c];
+    }
+}
+
+TEST(FilmLayers, OnlyTheVarianceMustBeAskedFor) {
+    for (const FilmLayer& layer : kFilmLayers) {
+        EXPECT_EQ(layer.files, layer.name == "variance" ? FileRule::asked : FileRule::always) << layer.name;
     }
 }
 

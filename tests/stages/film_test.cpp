@@ -40,6 +40,7 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
         const Buffer<IrradiancePacket> indirect(device, batch.indirect);
         film.add(receivers, vertices, {.direct = direct, .gathered = gathered, .indirect = indirect},
                  {.tile_row_count = static_cast<uint>(kLayout.tile_rows()),
+                  .first_sample = first,
                   .sample_count = count,
                   .samples_per_pixel = kLayout.samples,
                   .branch_count = kLayout.branches},

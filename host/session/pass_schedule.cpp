@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/pass_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "host/session/passes.h"
+
+namespace nearlight::core {
+namespace {
+
+/// A pass is planned as if it had this many samples more: some passes take a little longer than those before,
+/// and a short one takes longer for each of its samples.
+constexpr double kPlannedExtra = 1.0;
+/// The first pass is given up if it would exceed the time limit by more than this part of it. Giving up
+/// costs the work so far.
+constexpr double kToleratedPart = 0.1;
+/// A pass is judged by this much of it, or by what it does in this much of the time limit: less says little
+/// on a busy machine. What comes before the first part of kIgnoredPart is not looked at, because drivers
+/// compile kernels when they first run.
+constexpr double kJudgedPart = 0.15;
+constexpr double kIgnoredPart = 0.03;
+/// The last pass towards an error has more samples than the estimate says by this factor, and at least this
+/// part of a full pass, so that it seldom takes a further one.
+constexpr double kErrorReserve = 1.05;
+constexpr double kMinErrorPart = 0.25;
+
+uint max_passes_of(const RenderSettings& settings) {
+    if (!settings.pass_samples.empty()) {
+        return static_cast<uint>(settings.pass_samples.size());
+    }
+    if (settings.error) {
+        return settings.passes.value_or(kMaxPassesToError);
+    }
+    return settings.passes.value_or(settings.seconds ? std::numeric_limits<uint>::max() : 1u);
+}
+
+}  // namespace
+
+PassSchedule::PassSchedule(const RenderSettings& settings, double seconds_before)
+    : list_(settings.pass_samples),
+      full_samples_(settings.gather.samples_per_pixel),
+      min_samples_(min_pass_samples(settings.gather)),
+      max_passes_(max_passes_of(settings)),
+      seconds_(settings.seconds),
+      target_(settings.error),
+      seconds_before_(seconds_before) {}
+
+double PassSchedule::seconds_left() const {
+    return seconds_ ? *seconds_ - seconds_before_ - watch_.seconds()
+                    : std::numeric_limits<double>::infinity();
+}
+
+double PassSchedule::fitting_samples() const {
+    if (!seconds_) {
+        return std::numeric_limits<double>::infinity();
+    }
+    if (!sample_seconds_) {
+        return seconds_left() > 0.0 ? full_samples_ : 0.0;
+    }
+    return (seconds_left() - vpl_seconds_) / *sample_seconds_ - kPlannedExtra;
+}
+
+double PassSchedule::needed_samples() const {
+    return done_samples_ * std::pow(error_.value_or(0.0) / target_.value_or(1.0), 2.0);
+}
+
+bool PassSchedule::is_at_error() const {
+    return error_ && target_ && *error_ <= *target_ &&
+           (samples_.size() >= believed_passes_ || *error_ == 0.0);
+}
+
+/// The samples of the next pass, or 0 if there is to be none.
+uint PassSchedule::next_samples() const {
+    if (samples_.size() >= max_passes_ || is_at_error()) {
+        return 0;
+    }
+    double samples = list_.empty() ? full_samples_ : list_[samples_.size()];
+    if (error_ && target_) {
+        const double missing = std::ceil(kErrorReserve * (needed_samples() - done_samples_));
+        const double short_pass = std::max(kMinErrorPart * full_samples_, 1.0 * min_samples_);
+        samples = std::clamp(missing, std::min(short_pass, samples), samples);
+    }
+    const double fewest = std::min<double>(samples, min_samples_);
+    samples = std::min(samples, fitting_samples());
+    if (samples_.empty()) {
+        samples = std::max(samples, fewest);
+    }
+    return samples >= fewest ? static_cast<uint>(samples) : 0;
+}
+
+std::optional<uint> PassSchedule::begin() {
+    present_samples_ = next_samples();
+    pass_watch_ = Stopwatch();
+    mark_.reset();
+    return present_samples_ > 0 ? std::optional(present_samples_) : std::nullopt;
+}
+
+bool PassSchedule::is_too_long(double of_pass) {
+    if (!seconds_ || !samples_.empty() || present_samples_ <= min_samples_) {
+        return false;
+    }
+    if (!mark_) {
+        const double in_gather = pass_watch_.seconds() - vpl_seconds_;
+        if (of_pass > 0.0 && (of_pass >= kIgnoredPart || in_gather >= kIgnoredPart * *seconds_)) {
+            mark_ = Mark{.seconds = pass_watch_.seconds(), .fraction = of_pass};
+        }
+        return false;
+    }
+    const double passed = of_pass - mark_->fraction;
+    const double elapsed = pass_watch_.seconds() - mark_->seconds;
+    if (!(passed > 0.0) || (passed < kJudgedPart && elapsed < kJudgedPart * *seconds_)) {
+        return false;
+    }
+    const double missing = elapsed / passed * (1.0 - of_pass);
+    if (missing <= seconds_left() + kToleratedPart * *seconds_) {
+        return false;
+    }
+    sample_seconds_ = elapsed / passed / present_samples_;
+    return true;
+}
+
+void PassSchedule::end(std::optional<double> error) {
+    samples_.push_back(present_samples_);
+    done_samples_ += present_samples_;
+    sample_seconds_ = (pass_watch_.seconds() - vpl_seconds_) / present_samples_;
+    error_ = error;
+}
+
+double PassSchedule::fraction(double of_pass) const {
+    const double done = done_samples_ + of_pass * present_samples_;
+    const double all =
+        list_.empty() ? 1.0 * full_samples_ * max_passes_ : std::accumulate(list_.begin(), list_.end(), 0.0);
+    const double by_time = seconds_ ? (seconds_before_ + watch_.seconds()) / *seconds_ : 0.0;
+    const double by_error = error_ && target_ ? done / std::max(needed_samples(), 1.0) : 0.0;
+    return std::min(1.0, std::max({done / all, by_time, by_error}));
+}
+
+std::optional<PassForecast> PassSchedule::forecast() const {
+    if (!error_ || !target_ || samples_.empty()) {
+        return std::nullopt;
+    }
+    const double missing = std::max(0.0, needed_samples() - done_samples_) / full_samples_;
+    const auto done = static_cast<double>(samples_.size());
+    const double pass_seconds = vpl_seconds_ + full_samples_ * sample_seconds_.value_or(0.0);
+    const double seconds = seconds_before_ + watch_.seconds() + missing * pass_seconds;
+    return PassForecast{
+        .error = *error_,
+        .passes = done + missing,
+        .seconds = seconds,
+        .reaches = std::ceil(done + missing) <= max_passes_ && !(seconds_ && seconds > *seconds_)};
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides how many passes a picture has, and how many samples each of them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/base/stopwatch.h"
+#include "kernels/shared/types.h"
+#include "nearlight/settings.h"
+
+namespace nearlight::core {
+
+/// The maximum number of passes towards RenderSettings::error, if RenderSettings::passes does not say
+/// another.
+inline constexpr uint kMaxPassesToError = 1000;
+
+/// What the passes so far let one expect.
+struct PassForecast {
+    double error = 0;     ///< so far, see relative_error()
+    double passes = 0;    ///< of full length, until the error is reached
+    double seconds = 0;   ///< from the start until then
+    bool reaches = true;  ///< whether the limits of passes and seconds allow that
+};
+
+/// Passes follow one another until their list is used up, or their number, the time or the error is reached.
+/// The error falls as the root of the samples. Where less than a pass is missing, or less than a pass fits in
+/// the time, the pass has fewer samples. If already the first pass turns out not to fit, it is begun again
+/// with fewer.
+class PassSchedule {
+  public:
+    /// `seconds_before` is the time that was already spent on getting ready.
+    PassSchedule(const RenderSettings& settings, double seconds_before);
+
+    /// Begins a pass and returns its samples per pixel, or nothing if there is to be none. After the first
+    /// call that follows is_too_long(), this is the same pass again.
+    std::optional<uint> begin();
+    /// Sets how many passes it takes to believe that an error is reached; 1 at first. An error of 0 is always
+    /// believed.
+    void believe_after(uint passes) { believed_passes_ = passes; }
+    /// To be called when the VPLs of the pass are there.
+    void note_vpls() { vpl_seconds_ = pass_watch_.seconds(); }
+    /// Whether the present pass should be given up, as it would take far longer than the time allows.
+    /// `of_pass` is how far its gather is, from 0 to 1.
+    bool is_too_long(double of_pass);
+    /// To be called when the pass is there. `error` is that of the picture so far, if it is known.
+    void end(std::optional<double> error);
+
+    /// How far all passes are, from 0 to 1, if the present one is as far as `of_pass`, also from 0 to 1.
+    [[nodiscard]] double fraction(double of_pass) const;
+    /// Nothing, unless passes are made until an error is reached and one of them is there.
+    [[nodiscard]] std::optional<PassForecast> forecast() const;
+    /// The samples of each pass that has ended.
+    [[nodiscard]] const std::vector<uint>& samples() const { return samples_; }
+
+  private:
+    [[nodiscard]] uint next_samples() const;
+    [[nodiscard]] double seconds_left() const;
+    /// The number of samples whose pass would end in time; may be negative.
+    [[nodiscard]] double fitting_samples() const;
+    /// The number of samples per pixel that the error needs in all.
+    [[nodiscard]] double needed_samples() const;
+    [[nodiscard]] bool is_at_error() const;
+
+    std::vector<uint> list_;  ///< samples of each pass; empty: as the limits allow
+    uint full_samples_;
+    uint min_samples_;
+    uint max_passes_;
+    std::optional<double> seconds_;
+    std::optional<double> target_;
+    double seconds_before_;
+    Stopwatch watch_;
+
+    std::vector<uint> samples_;
+    double done_samples_ = 0;
+    uint believed_passes_ = 1;
+    std::optional<double> error_;
+    std::optional<double> sample_seconds_;  ///< of one sample per pixel
+    double vpl_seconds_ = 0;                ///< of the present or the last pass
+
+    uint present_samples_ = 0;
+    Stopwatch pass_watch_;
+    /// When the present pass was first heard of, and how far it was: what comes before is the driver's
+    /// compiling, too.
+    struct Mark {
+        double seconds = 0;
+        double fraction = 0;
+    };
+    std::optional<Mark> mark_;
+};
+
+}  // namespace nearlight::core

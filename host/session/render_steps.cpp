@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/render_steps.h"
+
+#include <algorithm>
+
+#include "host/base/stopwatch.h"
+
+namespace nearlight::core {
+namespace {
+
+/// Adds a pass to the report: the settings that were decided, and the number of VPLs.
+void note_pass(const Prepared& pass, RenderReport& report) {
+    if (report.passes++ == 0) {
+        report.width = static_cast<int>(pass.view.camera.width);
+        report.height = static_cast<int>(pass.view.camera.height);
+        report.range = pass.view.close_range.range;
+        report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
+        report.max_depth = pass.view.max_depth;
+        report.filter = pass.view.scene_camera.filter.kind;
+        report.close_fraction = pass.vpls.close_fraction;
+    }
+    report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
+    report.close_vpls += pass.vpls.close_count;
+    report.distant_vpls += pass.vpls.distant_count;
+    report.sparse_vpls += pass.vpls.sparse_count;
+    report.candidates += pass.vpls.candidate_count;
+}
+
+}  // namespace
+
+Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report) {
+    const Stopwatch watch;
+    Prepared pass{.view = session.look(settings.view, settings.seed), .vpls = {}, .settings = settings};
+    pass.vpls = session.sample(pass.view, settings.sampling, settings.seed);
+    note_pass(pass, report);
+    report.seconds.generate += watch.seconds();
+    return pass;
+}
+
+void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
+            RenderReport& report) {
+    const Stopwatch watch;
+    const GatherOutcome outcome =
+        session.gather(pass.view, pass.vpls, pass.settings.gather, pass.settings.seed, sink, progress);
+    report.seconds.gather += watch.seconds();
+    report.local_lights += outcome.local_lights;
+    report.interrupted = outcome.interrupted;
+    report.device_bytes = std::max(report.device_bytes, session.peak_bytes());
+    add_shares(outcome.shares, report.shares);
+}
+
+}  // namespace nearlight::core
