@@ -13,9 +13,9 @@
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
-#include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
+#include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
 #include "host/session/render.h"
 
@@ -145,6 +145,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
+    RenderedPicture picture(options.picture, options.threads);
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
@@ -165,28 +166,27 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     }
     catch_interrupts();
     ProgressBar bar("gathering", global);
-    PictureFiles files(options.picture);
     FirstRows first_rows;
     Session session(plain(devices), scene, options.session);
     const RenderReport report = render(
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height,
-                       render_metadata(hash.get(), options.scene, settings, started, view, devices));
+            picture.open(started.width, started.height,
+                         render_metadata(hash.get(), options.scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
-            files.write_rows(rows);
+            picture.add_rows(rows);
         },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
             return !interrupted();
         });
     bar.clear();
-    files.commit(total.seconds());
+    picture.commit(total);
     if (global.json) {
         print_json(render_json(options.scene, options.picture.outputs, settings, options.session.bvh_quality,
-                               report, load_seconds, first_rows, devices));
+                               report, picture, load_seconds, first_rows, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {

@@ -7,7 +7,6 @@
 #include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/cli/log.h"
-#include "host/cli/picture_files.h"
 #include "host/cli/tunables_output.h"
 
 namespace nearlight::core {
@@ -74,7 +73,8 @@ void FirstRows::note(const Stopwatch& since_begin) {
 
 nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
-                                   double load_seconds, const FirstRows& first_rows,
+                                   const RenderedPicture& picture, double load_seconds,
+                                   const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
     json["scene"] = scene.file.string();
@@ -102,6 +102,7 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["seed"] = settings.seed;
     json["bvh"] = to_string(bvh);
     json["roulette"] = settings.gather.roulette;
+    json["denoiser"] = picture.denoiser();
     json["device"] = nlohmann::ordered_json::array();
     json["device_shares"] = nlohmann::ordered_json::array();
     for (const BandShare& share : report.shares) {
@@ -126,7 +127,8 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                        {"generate", report.seconds.generate},
                        {"gather", report.seconds.gather},
                        {"first_rows", first_rows.seconds},
-                       {"total", load_seconds + report.seconds.total}};
+                       {"denoise", picture.denoising_seconds()},
+                       {"total", load_seconds + report.seconds.total + picture.denoising_seconds()}};
     json["processor_seconds"] = {{"first_rows", first_rows.processor_seconds}};
     json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
     json["outputs"] = outputs;
