@@ -197,6 +197,24 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
+/// `--preview` sets what other options stand for too. It must be added before them, because options take
+/// effect in the order in which they are added, and what the user asks for by name prevails.
+void add_preview_option(CLI::App& command, RenderOptions& options) {
+    command.add_flag_callback(
+        "--preview",
+        [&options] {
+            options.settings.sampling.vpl_count = 500;
+            options.settings.gather.samples_per_pixel = 1;
+            options.settings.gather.interleave = 4;
+            options.settings.gather.direct_samples_per_pixel = 2;
+            options.settings.gather.rays_per_pixel = 1;
+            options.picture.denoise_fast = true;
+        },
+        "A quick picture, best with --denoise: --spp 1 --vpls 500 --direct-samples 2 --rays 1, where each "
+        "pixel "
+        "of a square of 4x4 asks a sixteenth of the VPLs; other options prevail");
+}
+
 void add_sampler_options(CLI::App& command, RenderOptions& options) {
     SamplingSettings& sampling = options.settings.sampling;
     std::map<std::string, SamplerKind> samplers;
@@ -306,6 +324,7 @@ void add_render_command(CommandLine& line) {
     CLI::App& command =
         line.add_command("render", "Render a scene with virtual point lights",
                          [options](const GlobalOptions& global) { return run_render(*options, global); });
+    add_preview_option(command, *options);
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);

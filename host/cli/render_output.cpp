@@ -46,6 +46,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
+    metadata["nearlight:preview"] = settings.gather.interleave > 1 ? "on" : "off";
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:clampRadius"] = report.ray_budget.clamp_radius;
     metadata["nearlight:raysPerPixel"] = static_cast<int>(settings.gather.rays_per_pixel);
@@ -86,6 +87,7 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                          : nullptr;
     json["samples_per_pixel"] = settings.gather.samples_per_pixel;
     json["strata"] = settings.gather.strata_or_auto();
+    json["preview"] = settings.gather.interleave > 1;
     json["passes"] = report.passes;
     json["vpls"] = {{"requested", settings.sampling.vpl_count}, {"close", report.close_vpls},
                     {"distant", report.distant_vpls},           {"sparse", report.sparse_vpls},

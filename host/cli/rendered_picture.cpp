@@ -8,14 +8,18 @@ constexpr std::size_t kDenoisedPixelFloats = NEARLIGHT_LAYER_CHANNELS + kRawLaye
 
 }  // namespace
 
-RenderedPicture::RenderedPicture(const PictureOptions& options, int threads) : files_(options) {
+RenderedPicture::RenderedPicture(const PictureOptions& options, int threads)
+    : is_fast_(options.denoise_fast), files_(options) {
     if (options.denoise) {
         denoiser_.emplace(threads);
     }
 }
 
 std::string RenderedPicture::denoiser() const {
-    return denoiser_ ? denoiser_->name() + " (direct and indirect apart, albedo, N)" : "none";
+    if (!denoiser_) {
+        return "none";
+    }
+    return denoiser_->name() + (is_fast_ ? " (albedo, N)" : " (direct and indirect apart, albedo, N)");
 }
 
 void RenderedPicture::open(int width, int height, Metadata metadata) {
@@ -40,13 +44,18 @@ void RenderedPicture::add_rows(std::span<const float> rows) {
 void RenderedPicture::denoise() {
     const Stopwatch watch;
     float* const rows = rows_.data();
+    std::vector<const float*> light{rows + NEARLIGHT_LAYER_DIRECT, rows + NEARLIGHT_LAYER_INDIRECT};
+    if (is_fast_) {
+        light = {rows + kRawLayer.first_channel};
+    }
     const std::size_t row_floats = static_cast<std::size_t>(width_) * kDenoisedPixelFloats;
     denoiser_->denoise({.width = width_,
                         .height = static_cast<int>(rows_.size() / row_floats),
                         .pixel_floats = kDenoisedPixelFloats,
-                        .light = {rows + NEARLIGHT_LAYER_DIRECT, rows + NEARLIGHT_LAYER_INDIRECT},
+                        .light = std::move(light),
                         .albedo = rows + NEARLIGHT_LAYER_ALBEDO,
                         .normal = rows + NEARLIGHT_LAYER_NORMAL,
+                        .clean_surfaces = !is_fast_,
                         .output = rows + NEARLIGHT_LAYER_BEAUTY});
     denoising_seconds_ = watch.seconds();
 }

@@ -36,6 +36,7 @@ class RenderedPicture {
     void denoise();
 
     std::optional<Denoiser> denoiser_;
+    bool is_fast_;
     PictureFiles files_;
     int width_ = 0;
     std::vector<float> rows_;  ///< rows that wait to be denoised, with the channels of kRawLayer at the end

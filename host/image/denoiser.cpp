@@ -78,6 +78,8 @@ struct Denoiser::State {
         set_image("output", images.front().pixels);
         oidn.SetFilterBool(filter.get(), "hdr", is_light);
         oidn.SetFilterBool(filter.get(), "cleanAux", is_light && task.clean_surfaces);
+        // Auxiliaries of the best quality take twice the time and help no more (bench/log/denoise.md).
+        oidn.SetFilterInt(filter.get(), "quality", is_light ? kOidnHighQuality : kOidnBalancedQuality);
         oidn.CommitFilter(filter.get());
         oidn.ExecuteFilter(filter.get());
         check();

@@ -18,6 +18,8 @@ using OidnFilter = struct OidnFilterState*;
 /// Values of the library's enumerations.
 inline constexpr int kOidnCpuDevice = 1;
 inline constexpr int kOidnFloat3 = 3;
+inline constexpr int kOidnBalancedQuality = 5;
+inline constexpr int kOidnHighQuality = 6;
 
 /// Each function as OIDN_FUNCTION(result, name, parameters); its name in the library has the prefix "oidn".
 #define NEARLIGHT_OIDN_FUNCTIONS(OIDN_FUNCTION)                                                     \
@@ -31,6 +33,7 @@ inline constexpr int kOidnFloat3 = 3;
     OIDN_FUNCTION(OidnFilter, NewFilter, (OidnDevice device, const char* type))                     \
     OIDN_FUNCTION(void, ReleaseFilter, (OidnFilter filter))                                         \
     OIDN_FUNCTION(void, SetFilterBool, (OidnFilter filter, const char* name, bool value))           \
+    OIDN_FUNCTION(void, SetFilterInt, (OidnFilter filter, const char* name, int value))             \
     OIDN_FUNCTION(                                                                                  \
         void, SetSharedFilterImage,                                                                 \
         (OidnFilter filter, const char* name, void* pixels, int format, std::size_t width,          \

@@ -144,7 +144,8 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                                           .height = camera.height,
                                           .samples_per_pixel = settings.samples_per_pixel,
                                           .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
-                                          .strata = settings.strata_or_auto()});
+                                          .strata = settings.strata_or_auto(),
+                                          .interleave = settings.interleave});
     const RayBudget budget = budget_of(view, vpls, settings);
     const Picture picture{
         .view = view, .settings = settings, .budget = budget, .seed = seed, .plan = plan, .vpls = vpls};

@@ -95,6 +95,29 @@ TEST_F(RenderDenoised, OnePixelIsEnough) {
                 1e-6f);
 }
 
+TEST_F(RenderDenoised, APreviewSaysThatItIsOne) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const auto preview = [&](const std::string& options) {
+        const ProgramResult result =
+            run_program("render --json --preview " + options + " " + quoted(scene_) + output("a.exr"),
+                        with_library("fake_oidn_2"));
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return nlohmann::json::parse(result.output);
+    };
+    const nlohmann::json json = preview("--denoise");
+    EXPECT_EQ(json["preview"], true);
+    EXPECT_EQ(json["samples_per_pixel"], 1);
+    EXPECT_EQ(json["strata"], 16);
+    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (albedo, N)");
+    EXPECT_EQ(std::get<std::string>(read_metadata(folder_ / "a.exr").at("nearlight:preview")), "on");
+    const nlohmann::json finer = preview("--spp 2 --vpls 60");
+    EXPECT_EQ(finer["samples_per_pixel"], 2);
+    EXPECT_EQ(finer["strata"], 32);
+    EXPECT_EQ(finer["vpls"]["requested"], 60);
+    EXPECT_EQ(finer["denoiser"], "none");
+    EXPECT_EQ(rendered(output("a.exr"))["preview"], false);
+}
+
 TEST_F(RenderDenoised, WithoutTheLibraryNothingIsRendered) {
     const std::string missing = "NEARLIGHT_OIDN=/there/is/no/such/file.so";
     for (const std::string& library : {missing, with_library("fake_oidn_3")}) {

@@ -40,6 +40,7 @@ EXPORTED void oidnReleaseFilter(OidnFilterState* filter) {
     delete filter;
 }
 EXPORTED void oidnSetFilterBool(void*, const char*, bool) {}
+EXPORTED void oidnSetFilterInt(void*, const char*, int) {}
 EXPORTED void oidnSetSharedFilterImage(OidnFilterState* filter, const char* name, void* pixels, int,
                                        std::size_t width, std::size_t height, std::size_t, std::size_t,
                                        std::size_t) {
