@@ -18,7 +18,7 @@ struct PictureOptions {
     std::vector<std::string> layers;  ///< layers of EXR files; empty: all
     float exposure = 0.0f;            ///< exposure of PNG files, in stops
     bool denoise = false;             ///< the beauty is denoised, and rows end in the layer `raw`
-    bool denoise_fast = false;        ///< less well, in a quarter of the time
+    bool denoise_fast = false;        ///< less well, in a tenth of the time
 };
 
 /// The layer after all others in the rows of a denoised picture: the beauty as it was rendered.

@@ -206,13 +206,13 @@ void add_preview_option(CLI::App& command, RenderOptions& options) {
             options.settings.sampling.vpl_count = 500;
             options.settings.gather.samples_per_pixel = 1;
             options.settings.gather.interleave = 4;
-            options.settings.gather.direct_samples_per_pixel = 2;
+            options.settings.view.ray_budget_pilot = false;
+            options.settings.gather.direct_samples_per_pixel = 1;
             options.settings.gather.rays_per_pixel = 1;
             options.picture.denoise_fast = true;
         },
-        "A quick picture, best with --denoise: --spp 1 --vpls 500 --direct-samples 2 --rays 1, where each "
-        "pixel "
-        "of a square of 4x4 asks a sixteenth of the VPLs; other options prevail");
+        "A quick picture, best with --denoise: --spp 1 --vpls 500 --direct-samples 1 --rays 1, where each "
+        "pixel of a square of 4x4 asks a sixteenth of the VPLs; other options prevail");
 }
 
 void add_sampler_options(CLI::App& command, RenderOptions& options) {

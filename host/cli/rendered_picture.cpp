@@ -19,7 +19,7 @@ std::string RenderedPicture::denoiser() const {
     if (!denoiser_) {
         return "none";
     }
-    return denoiser_->name() + (is_fast_ ? " (albedo, N)" : " (direct and indirect apart, albedo, N)");
+    return denoiser_->name() + (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N)");
 }
 
 void RenderedPicture::open(int width, int height, Metadata metadata) {
@@ -55,7 +55,7 @@ void RenderedPicture::denoise() {
                         .light = std::move(light),
                         .albedo = rows + NEARLIGHT_LAYER_ALBEDO,
                         .normal = rows + NEARLIGHT_LAYER_NORMAL,
-                        .clean_surfaces = !is_fast_,
+                        .thorough = !is_fast_,
                         .output = rows + NEARLIGHT_LAYER_BEAUTY});
     denoising_seconds_ = watch.seconds();
 }

@@ -77,9 +77,10 @@ struct Denoiser::State {
         }
         set_image("output", images.front().pixels);
         oidn.SetFilterBool(filter.get(), "hdr", is_light);
-        oidn.SetFilterBool(filter.get(), "cleanAux", is_light && task.clean_surfaces);
+        oidn.SetFilterBool(filter.get(), "cleanAux", is_light && task.thorough);
         // Auxiliaries of the best quality take twice the time and help no more (bench/log/denoise.md).
-        oidn.SetFilterInt(filter.get(), "quality", is_light ? kOidnHighQuality : kOidnBalancedQuality);
+        const int best = is_light ? kOidnHighQuality : kOidnBalancedQuality;
+        oidn.SetFilterInt(filter.get(), "quality", task.thorough ? best : kOidnFastQuality);
         oidn.CommitFilter(filter.get());
         oidn.ExecuteFilter(filter.get());
         check();
@@ -89,7 +90,7 @@ struct Denoiser::State {
     void filter(const DenoisingTask& task, std::vector<Pixels>& parts) {
         Pixels albedo = cleaned(task.albedo, task, 0.0f);
         Pixels normal = cleaned(task.normal, task, -kAnyNormal);
-        if (task.clean_surfaces) {
+        if (task.thorough) {
             filter(task, {{"albedo", albedo}}, false);
             filter(task, {{"normal", normal}}, false);
         }

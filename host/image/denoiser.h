@@ -20,8 +20,9 @@ struct DenoisingTask {
     std::vector<const float*> light;
     const float* albedo = nullptr;  ///< [0, 1]
     const float* normal = nullptr;  ///< unit vectors; zero where there is no surface
-    /// Takes the noise out of albedo and normals first, which takes as long as two more parts of the light.
-    bool clean_surfaces = true;
+    /// Takes the noise out of albedo and normals first, and takes the library's best filter instead of its
+    /// fastest one.
+    bool thorough = true;
     float* output = nullptr;  ///< denoised radiance; may be the same as a part of the light
 };
 

@@ -18,6 +18,7 @@ using OidnFilter = struct OidnFilterState*;
 /// Values of the library's enumerations.
 inline constexpr int kOidnCpuDevice = 1;
 inline constexpr int kOidnFloat3 = 3;
+inline constexpr int kOidnFastQuality = 4;
 inline constexpr int kOidnBalancedQuality = 5;
 inline constexpr int kOidnHighQuality = 6;
 

@@ -118,7 +118,7 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
-        if (!set.local && !set.vpls.empty() && pilot.packet_count > 0) {
+        if (view.has_ray_budget_pilot && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
             set.ray_budget = choose_ray_budget({.stages = leader.bands,
                                                 .scene = leader.scene,
                                                 .view = pilot,

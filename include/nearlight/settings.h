@@ -47,6 +47,9 @@ struct ViewSettings {
     /// R of the bounded geometry term, m. Empty takes range / 20, and from there Session::sample() lets a
     /// pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.
     std::optional<float> clamp_radius{};
+    /// Whether that pilot runs, which also chooses the number of light samples. It takes about 0.2 s of
+    /// processor time. Without it, an empty clamp radius is range / 20.
+    bool ray_budget_pilot = true;
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
     /// the scene's, or 8 if the scene has none.
     std::optional<std::uint32_t> max_depth{};

@@ -108,7 +108,7 @@ TEST_F(RenderDenoised, APreviewSaysThatItIsOne) {
     EXPECT_EQ(json["preview"], true);
     EXPECT_EQ(json["samples_per_pixel"], 1);
     EXPECT_EQ(json["strata"], 16);
-    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (albedo, N)");
+    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (fast, albedo, N)");
     EXPECT_EQ(std::get<std::string>(read_metadata(folder_ / "a.exr").at("nearlight:preview")), "on");
     const nlohmann::json finer = preview("--spp 2 --vpls 60");
     EXPECT_EQ(finer["samples_per_pixel"], 2);
