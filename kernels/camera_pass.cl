@@ -353,8 +353,9 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = column * NEARLIGHT_TILE_SIZE + lane % NEARLIGHT_TILE_SIZE;
-    const uint y = (first_tile_row + row) * NEARLIGHT_TILE_SIZE + lane / NEARLIGHT_TILE_SIZE;
+    const uint x = pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave);
+    const uint y = first_tile_row * NEARLIGHT_TILE_SIZE +
+                   pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave);
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, order.branch_count, seed);

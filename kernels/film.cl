@@ -52,12 +52,14 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     }
     const uint x = index % width;
     const uint y = index / width;
-    const uint lane = y % NEARLIGHT_TILE_SIZE * NEARLIGHT_TILE_SIZE + x % NEARLIGHT_TILE_SIZE;
+    const uint lane =
+        lane_of_pixel(y, order.interleave) * NEARLIGHT_TILE_SIZE + lane_of_pixel(x, order.interleave);
+    const uint column = tile_of_pixel(x, order.bundle_columns, order.interleave);
+    const uint row = tile_of_pixel(y, order.bundle_rows, order.interleave);
     global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
     for (uint i = 0; i < order.sample_count * order.branch_count; ++i) {
         const uint branch = i % order.branch_count;
-        const uint packet = packet_at(order, x / NEARLIGHT_TILE_SIZE, y / NEARLIGHT_TILE_SIZE,
-                                      i / order.branch_count, branch);
+        const uint packet = packet_at(order, column, row, i / order.branch_count, branch);
         const global ReceiverPacket* receiver = receivers + packet;
         const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);

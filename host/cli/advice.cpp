@@ -17,6 +17,7 @@ constexpr std::array kAdvice{
     SettingAdvice{"cache_dir", "use --cache-dir"},
     SettingAdvice{"clamp_fraction", "use --clamp-radius or --clamp-fraction"},
     SettingAdvice{"device", "use --device"},
+    SettingAdvice{"interleave", "use --preview, which sets it"},
     SettingAdvice{"kernel_dir", "check --kernel-dir"},
     SettingAdvice{"reference_files", "use --reference or --reference-vpls"},
     SettingAdvice{"segments", "`nearlight bench gather --dump` writes such a file"},

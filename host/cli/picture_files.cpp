@@ -26,6 +26,19 @@ std::string listed(std::span<const FilmLayer> layers, std::optional<FileRule> fi
     return list;
 }
 
+/// The layers of the rows that are written, in their order.
+std::vector<FilmLayer> layers_of(const PictureOptions& options) {
+    std::vector<FilmLayer> layers(kFilmLayers.begin(), kFilmLayers.end());
+    if (options.denoise) {
+        layers.push_back(kRawLayer);
+    }
+    return layers;
+}
+
+std::size_t channel_count(const PictureOptions& options) {
+    return NEARLIGHT_LAYER_CHANNELS + (options.denoise ? kRawLayer.channel_count : 0);
+}
+
 /// The layers besides the beauty, which every picture has.
 constexpr std::span<const FilmLayer> optional_layers() {
     static_assert(kFilmLayers.front().is_beauty());
@@ -39,11 +52,11 @@ std::string extension_of(const std::string& file) {
     return extension;
 }
 
-/// The layers that a file gets, in the order of the table.
+/// The layers that a file gets, in the order of the rows.
 std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::string& file) {
     const bool takes_more = extension_of(file) == ".exr";
     std::vector<FilmLayer> chosen;
-    for (const FilmLayer& layer : kFilmLayers) {
+    for (const FilmLayer& layer : layers_of(options)) {
         const bool wanted = options.layers.empty()
                                 ? layer.files == FileRule::always
                                 : std::ranges::find(options.layers, layer.name) != options.layers.end();
@@ -102,7 +115,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
     command
         .add_option("--layers,--aov", options.layers,
                     fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
-                                "request: {}",
+                                "request: {}; with --denoise also raw",
                                 listed(optional_layers(), FileRule::always),
                                 listed(optional_layers(), FileRule::asked)))
         ->type_name("LIST")
@@ -111,13 +124,18 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
     command.add_option("--exposure", options.exposure, "Exposure of PNG pictures, in stops")
         ->type_name("EV")
         ->capture_default_str();
+    command.add_flag(
+        "--denoise", options.denoise,
+        "Denoise the picture with Open Image Denoise (`scripts/setup --denoise` installs it); the layer "
+        "raw is the picture as it was rendered");
 }
 
 void check_outputs(const PictureOptions& options) {
+    const std::vector<FilmLayer> known = layers_of(options);
     for (const std::string& layer : options.layers) {
-        if (std::ranges::find(kFilmLayers, layer, &FilmLayer::name) == kFilmLayers.end()) {
+        if (std::ranges::find(known, layer, &FilmLayer::name) == known.end()) {
             throw Error(ErrorKind::invalid_argument,
-                        "unknown layer '" + layer + "'; choose from: " + listed(kFilmLayers));
+                        "unknown layer '" + layer + "'; choose from: " + listed(known));
         }
     }
     for (const std::string& file : options.outputs) {
@@ -155,10 +173,11 @@ void PictureFiles::open(int width, int height, const Metadata& metadata) {
 }
 
 void PictureFiles::write_rows(std::span<const float> rows) {
+    const std::size_t stride = channel_count(options_);
     for (File& file : files_) {
         selected_.clear();
-        for (std::size_t first = 0; first < rows.size(); first += NEARLIGHT_LAYER_CHANNELS) {
-            const std::span<const float> pixel = rows.subspan(first, NEARLIGHT_LAYER_CHANNELS);
+        for (std::size_t first = 0; first < rows.size(); first += stride) {
+            const std::span<const float> pixel = rows.subspan(first, stride);
             for (const FilmLayer& layer : file.layers) {
                 const std::span<const float> channels =
                     pixel.subspan(layer.first_channel, layer.channel_count);

@@ -17,9 +17,15 @@ struct PictureOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> layers;  ///< layers of EXR files; empty: all that need not be asked for
     float exposure = 0.0f;            ///< exposure of PNG files, in stops
+    bool denoise = false;             ///< the beauty is denoised, and rows end in the layer `raw`
+    bool denoise_fast = false;        ///< less well, in a tenth of the time
 };
 
-/// Adds -o, --layers and --exposure.
+/// The layer after all others in the rows of a denoised picture: the beauty as it was rendered.
+inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEARLIGHT_CHANNELS_RGB,
+                                     PassRule::mean};
+
+/// Adds -o, --layers, --exposure and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
@@ -37,7 +43,7 @@ class PictureFiles {
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
     void open(int width, int height, const Metadata& metadata);
-    /// Writes rows with the channels of layer_channels().
+    /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
     void write_rows(std::span<const float> rows);
     /// Completes the files; missing rows become black.
     void commit(double render_seconds);

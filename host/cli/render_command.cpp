@@ -18,6 +18,7 @@
 #include "host/cli/picture_files.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
+#include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
 #include "host/session/passes.h"
 #include "host/session/render.h"
@@ -153,6 +154,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
+    RenderedPicture picture(options.picture, options.threads);
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
@@ -173,18 +175,17 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     }
     catch_interrupts();
     ProgressBar bar("gathering", global);
-    PictureFiles files(options.picture);
     FirstRows first_rows;
     Session session(plain(devices), scene, options.session);
     const RenderReport report = render(
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            files.open(started.width, started.height,
-                       render_metadata(hash.get(), options.scene, settings, started, view, devices));
+            picture.open(started.width, started.height,
+                         render_metadata(hash.get(), options.scene, settings, started, view, devices));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
-            files.write_rows(rows);
+            picture.add_rows(rows);
         },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
@@ -197,10 +198,10 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
             }
         });
     bar.clear();
-    files.commit(total.seconds());
+    picture.commit(total);
     if (global.json) {
         print_json(render_json(options.scene, options.picture.outputs, settings, options.session.bvh_quality,
-                               report, load_seconds, first_rows, devices));
+                               report, picture, load_seconds, first_rows, devices));
     }
     if (global.verbose) {
         for (const auto& device : devices) {
@@ -209,6 +210,24 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     }
     tell(options, report, total.seconds());
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+/// `--preview` sets what other options stand for too. It must be added before them, because options take
+/// effect in the order in which they are added, and what the user asks for by name prevails.
+void add_preview_option(CLI::App& command, RenderOptions& options) {
+    command.add_flag_callback(
+        "--preview",
+        [&options] {
+            options.settings.sampling.vpl_count = 500;
+            options.settings.gather.samples_per_pixel = 1;
+            options.settings.gather.interleave = 4;
+            options.settings.view.ray_budget_pilot = false;
+            options.settings.gather.direct_samples_per_pixel = 1;
+            options.settings.gather.rays_per_pixel = 1;
+            options.picture.denoise_fast = true;
+        },
+        "A quick picture, best with --denoise: --spp 1 --vpls 500 --direct-samples 1 --rays 1, where each "
+        "pixel of a square of 4x4 asks a sixteenth of the VPLs; other options prevail");
 }
 
 void add_sampler_options(CLI::App& command, RenderOptions& options) {
@@ -305,6 +324,7 @@ void add_render_command(CommandLine& line) {
     CLI::App& command =
         line.add_command("render", "Render a scene with virtual point lights",
                          [options](const GlobalOptions& global) { return run_render(*options, global); });
+    add_preview_option(command, *options);
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);

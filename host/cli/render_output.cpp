@@ -48,6 +48,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
+    metadata["nearlight:preview"] = settings.gather.interleave > 1 ? "on" : "off";
     metadata["nearlight:passes"] = static_cast<int>(report.passes);
     metadata["nearlight:passSpp"] = pass_list_text(report.pass_samples);
     if (report.error) {
@@ -80,7 +81,8 @@ void FirstRows::note(const Stopwatch& since_begin) {
 
 nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
-                                   double load_seconds, const FirstRows& first_rows,
+                                   const RenderedPicture& picture, double load_seconds,
+                                   const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices) {
     nlohmann::ordered_json json;
     json["scene"] = scene.file.string();
@@ -92,6 +94,7 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                          : nullptr;
     json["samples_per_pixel"] = settings.gather.samples_per_pixel;
     json["strata"] = settings.gather.strata_or_auto();
+    json["preview"] = settings.gather.interleave > 1;
     json["passes"] = report.passes;
     json["pass_spp"] = pass_list_text(report.pass_samples);
     json["relative_error"] = report.error ? nlohmann::ordered_json(*report.error) : nullptr;
@@ -111,6 +114,7 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["seed"] = settings.seed;
     json["bvh"] = to_string(bvh);
     json["roulette"] = settings.gather.roulette;
+    json["denoiser"] = picture.denoiser();
     json["device"] = nlohmann::ordered_json::array();
     json["device_shares"] = nlohmann::ordered_json::array();
     for (const BandShare& share : report.shares) {
@@ -135,7 +139,8 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                        {"generate", report.seconds.generate},
                        {"gather", report.seconds.gather},
                        {"first_rows", first_rows.seconds},
-                       {"total", load_seconds + report.seconds.total}};
+                       {"denoise", picture.denoising_seconds()},
+                       {"total", load_seconds + report.seconds.total + picture.denoising_seconds()}};
     json["processor_seconds"] = {{"first_rows", first_rows.processor_seconds}};
     json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
     json["outputs"] = outputs;

@@ -9,6 +9,7 @@
 
 #include "host/base/stopwatch.h"
 #include "host/cl/device.h"
+#include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
 #include "host/image/image_io.h"
 #include "host/session/render.h"
@@ -32,7 +33,8 @@ struct FirstRows {
 /// The object that `render --json` prints.
 nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
                                    const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
-                                   double load_seconds, const FirstRows& first_rows,
+                                   const RenderedPicture& picture, double load_seconds,
+                                   const FirstRows& first_rows,
                                    const std::vector<std::unique_ptr<Device>>& devices);
 
 /// Logs the share of the picture that each device made, if there were several.

@@ -61,6 +61,10 @@ void check(const SamplingSettings& settings) {
 void check(const GatherSettings& settings) {
     check_range("samples_per_pixel", settings.samples_per_pixel, 1u, kMaxSamples);
     check_range("strata", settings.strata, 1u, kMaxSamples);
+    check_range("interleave", settings.interleave, 1u, 4u);
+    if (settings.interleave == 3) {
+        throw Error(ErrorKind::invalid_argument, "interleave is 3; it must be 1, 2 or 4", "interleave");
+    }
     check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxDirectSamples);
     check_range("rays_per_pixel", settings.rays_per_pixel, 1u, kMaxDirectSamples);
     check_range("roulette", settings.roulette, 0.0f, kMaxRoulette);

@@ -26,13 +26,28 @@ std::size_t receivers_per_batch(const Device& device) {
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
 }
 
+/// The number of strata that the samples of one pixel ask, if all pixels of a square share them.
+uint strata_of_pixel(uint strata, uint interleave) {
+    return std::max(strata / (interleave * interleave), 1u);
+}
+
+/// The number of a pixel in a square of `side` x `side` pixels, in the order of a Bayer matrix, which numbers
+/// pixels that are far apart one after the other.
+uint bayer_number(uint x, uint y, uint side) {
+    uint number = 0;
+    for (uint bit = 1; bit < side; bit *= 2) {
+        number = 4 * number + ((x ^ y) & bit ? 2 : 0) + (y & bit ? 1 : 0);
+    }
+    return number;
+}
+
 /// The number of consecutive samples of a tile that share a bundle. Those of a tile go through the tree
 /// faster together than those of several tiles, but only samples of one stratum can.
 uint samples_per_bundle(const PictureSize& picture) {
-    const uint run = picture.strata == 1 ? picture.samples_per_pixel
-                     : picture.samples_per_pixel % picture.strata == 0
-                         ? picture.samples_per_pixel / picture.strata
-                         : 1;
+    const uint strata = strata_of_pixel(picture.strata, picture.interleave);
+    const uint run = strata == 1                               ? picture.samples_per_pixel
+                     : picture.samples_per_pixel % strata == 0 ? picture.samples_per_pixel / strata
+                                                               : 1;
     return run % 4 == 0 ? 4 : run % 2 == 0 ? 2 : 1;
 }
 
@@ -44,6 +59,7 @@ void set_bundles(const PictureSize& picture, RenderPlan& plan) {
     plan.bundle_rows = tiles / plan.bundle_columns;
 }
 
+/// As many rows as fit in `rows`, but at least one bundle of rows.
 std::size_t whole_bundles(std::size_t rows, uint bundle_rows) {
     return std::max<std::size_t>(rows / bundle_rows, 1) * bundle_rows;
 }
@@ -63,18 +79,25 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
                           .branch_count = branch_count,
                           .bundle_columns = bundle_columns,
                           .bundle_rows = bundle_rows,
-                          .bundle_samples = bundle_samples});
+                          .bundle_samples = bundle_samples,
+                          .interleave = interleave});
     }
     return result;
 }
 
 std::vector<uint> RenderPlan::strata_of_bundles(const CameraBand& batch, uint seed) const {
     const uint first = Pcg32(seed, kStrataStream).next() % strata;
+    const uint own_strata = strata_of_pixel(strata, interleave);
+    const uint across = interleave > 1 ? tile_columns / bundle_columns : 1;
     std::vector<uint> result;
-    for (uint sample = 0; sample < batch.sample_count; sample += bundle_samples) {
-        const std::uint64_t done = std::uint64_t{batch.first_sample} + sample;
-        const auto turn = static_cast<uint>(done * strata / samples_per_pixel);
-        result.insert(result.end(), branch_count, (first + turn) % strata);
+    for (uint i = 0; i < across * interleave; ++i) {
+        const uint pixel = bayer_number(i % across % interleave, i / across, interleave);
+        for (uint sample = 0; sample < batch.sample_count; sample += bundle_samples) {
+            const std::uint64_t done = std::uint64_t{batch.first_sample} + sample;
+            const auto turn = static_cast<uint>(done * own_strata / samples_per_pixel);
+            result.insert(result.end(), branch_count,
+                          (first + pixel + turn * interleave * interleave) % strata);
+        }
     }
     return result;
 }
@@ -85,7 +108,8 @@ std::size_t RenderPlan::max_packets(uint width) const {
                          .branch_count = branch_count,
                          .bundle_columns = bundle_columns,
                          .bundle_rows = bundle_rows,
-                         .bundle_samples = bundle_samples},
+                         .bundle_samples = bundle_samples,
+                         .interleave = interleave},
                         width);
 }
 
@@ -99,23 +123,25 @@ RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& 
     plan.samples_per_pixel = picture.samples_per_pixel;
     plan.branch_count = picture.branch_count;
     plan.strata = picture.strata;
+    plan.interleave = picture.interleave;
     set_bundles(picture, plan);
-    const std::size_t columns =
-        (tiles_across(picture.width) + plan.bundle_columns - 1) / plan.bundle_columns * plan.bundle_columns;
-    const std::size_t per_row_sample = columns * NEARLIGHT_PACKET_SIZE * plan.branch_count;
-    const std::size_t fitting =
-        budget / (per_row_sample * plan.bundle_rows) / plan.bundle_samples * plan.bundle_samples;
+    const uint columns = plan.bundle_columns * plan.interleave;
+    const uint rows = plan.bundle_rows * plan.interleave;
+    plan.tile_columns = (tiles_across(picture.width) + columns - 1) / columns * columns;
+    const std::size_t per_row_sample =
+        std::size_t{plan.tile_columns} * NEARLIGHT_PACKET_SIZE * plan.branch_count;
+    const std::size_t fitting = budget / (per_row_sample * rows) / plan.bundle_samples * plan.bundle_samples;
     plan.samples_per_batch =
         static_cast<uint>(std::clamp<std::size_t>(fitting, plan.bundle_samples, plan.samples_per_pixel));
     const std::size_t per_row = per_row_sample * plan.samples_per_batch;
-    const std::size_t all_rows = whole_bundles(plan.tile_row_count + plan.bundle_rows - 1, plan.bundle_rows);
+    const std::size_t all_rows = whole_bundles(plan.tile_row_count + rows - 1, rows);
     const std::size_t max_rows = std::min(budget / per_row, all_rows);
     const std::size_t min_rows = devices.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
     const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
-    plan.tile_rows_per_band = static_cast<uint>(
-        whole_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), plan.bundle_rows));
-    plan.tile_rows_in_first = static_cast<uint>(
-        std::min<std::size_t>(whole_bundles(min_rows, plan.bundle_rows), plan.tile_rows_per_band));
+    plan.tile_rows_per_band =
+        static_cast<uint>(whole_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), rows));
+    plan.tile_rows_in_first =
+        static_cast<uint>(std::min<std::size_t>(whole_bundles(min_rows, rows), plan.tile_rows_per_band));
     return plan;
 }
 

@@ -25,6 +25,8 @@ struct RenderPlan {
     uint bundle_columns = 1;  ///< tiles in a bundle, side by side
     uint bundle_rows = 1;     ///< tiles in a bundle, one below the other
     uint bundle_samples = 1;  ///< consecutive samples of each of these tiles in a bundle
+    uint interleave = 1;      ///< distance of a tile's pixels (PacketOrder)
+    uint tile_columns = 0;    ///< of the picture, filled up as in PacketOrder
 
     [[nodiscard]] uint band_count() const {
         const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
@@ -34,7 +36,8 @@ struct RenderPlan {
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
     /// The strata of the first bundles of a batch, which repeat after these (VplStrata). A pixel's samples
     /// take one stratum after another, in runs of equal length if the number of samples allows it; `seed`
-    /// decides the first of them.
+    /// decides the first of them. In an interleaved picture, each pixel of a square of interleave x
+    /// interleave has strata of its own if there are enough.
     [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBand& batch, uint seed) const;
     /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets(uint width) const;
@@ -51,6 +54,7 @@ struct PictureSize {
     uint samples_per_pixel = 1;
     uint branch_count = 1;
     uint strata = 1;
+    uint interleave = 1;  ///< a power of two
 };
 
 /// Makes one plan for all devices. Its batches fit each device, and there are enough bands for faster devices

@@ -118,7 +118,7 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
-        if (!set.local && !set.vpls.empty() && pilot.packet_count > 0) {
+        if (view.has_ray_budget_pilot && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
             set.ray_budget = choose_ray_budget({.stages = leader.bands,
                                                 .scene = leader.scene,
                                                 .view = pilot,
@@ -144,7 +144,8 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                                           .height = camera.height,
                                           .samples_per_pixel = settings.samples_per_pixel,
                                           .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
-                                          .strata = settings.strata_or_auto()});
+                                          .strata = settings.strata_or_auto(),
+                                          .interleave = settings.interleave});
     const RayBudget budget = budget_of(view, vpls, settings);
     const Picture picture{
         .view = view, .settings = settings, .budget = budget, .seed = seed, .plan = plan, .vpls = vpls};

@@ -41,6 +41,7 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
         settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);
     view.close_range = make_close_range(view.camera, range);
     view.clamp_radius_is_open = !settings.clamp_radius;
+    view.has_ray_budget_pilot = settings.ray_budget_pilot;
     view.clamp_radius = settings.clamp_radius.value_or(kClampRadiusToRange * range);
     say_debug("range " + std::to_string(range) + ", clamp radius " + std::to_string(view.clamp_radius) +
               ", max depth " + std::to_string(view.max_depth));

@@ -14,17 +14,19 @@ uint whole_bundles(uint tiles, uint together) {
 }  // namespace
 
 PacketOrder packet_order(const CameraBand& band, uint image_width) {
-    return {.tile_columns = whole_bundles(tiles_across(image_width), band.bundle_columns),
+    return {.tile_columns = whole_bundles(tiles_across(image_width), band.bundle_columns * band.interleave),
             .sample_count = band.sample_count,
             .branch_count = band.branch_count,
             .bundle_columns = band.bundle_columns,
             .bundle_rows = band.bundle_rows,
-            .bundle_samples = band.bundle_samples};
+            .bundle_samples = band.bundle_samples,
+            .interleave = band.interleave};
 }
 
 std::size_t packet_count(const CameraBand& band, uint image_width) {
     return std::size_t{packet_order(band, image_width).tile_columns} *
-           whole_bundles(band.tile_row_count, band.bundle_rows) * band.sample_count * band.branch_count;
+           whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave) * band.sample_count *
+           band.branch_count;
 }
 
 CameraPass::CameraPass(Device& device)
@@ -36,9 +38,9 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uin
     const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
                               packet_order(band, image_width), band.first_tile_row,
-                              whole_bundles(band.tile_row_count, band.bundle_rows), band.first_sample,
-                              band.samples_per_pixel, band.max_depth, band.light_samples, band.min_weight,
-                              seed, receivers, vertices);
+                              whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
+                              band.first_sample, band.samples_per_pixel, band.max_depth, band.light_samples,
+                              band.min_weight, seed, receivers, vertices);
 }
 
 }  // namespace nearlight::core

@@ -10,7 +10,7 @@ namespace nearlight::core {
 
 /// Which tile rows and samples of the picture one launch covers.
 struct CameraBand {
-    uint first_tile_row = 0;
+    uint first_tile_row = 0;  ///< a multiple of bundle_rows x interleave, if that is above 1
     uint tile_row_count = 0;  ///< the last row may reach below the picture
     uint first_sample = 0;
     uint sample_count = 1;
@@ -19,6 +19,7 @@ struct CameraBand {
     uint bundle_columns = 1;     ///< tiles that stand together in the order of packets, side by side
     uint bundle_rows = 1;        ///< and one below the other
     uint bundle_samples = 1;     ///< consecutive samples that stand together; divides sample_count
+    uint interleave = 1;         ///< distance of a tile's pixels (PacketOrder)
     uint max_depth = 8;          ///< maximum number of edges of a path from the camera to a light
     /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
     /// part; at least 1.

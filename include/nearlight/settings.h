@@ -48,6 +48,9 @@ struct ViewSettings {
     /// R of the bounded geometry term, m. Empty takes range / 20, and from there Session::sample() lets a
     /// pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.
     std::optional<float> clamp_radius{};
+    /// Whether that pilot runs, which also chooses the number of light samples. It takes about 0.2 s of
+    /// processor time. Without it, an empty clamp radius is range / 20.
+    bool ray_budget_pilot = true;
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
     /// the scene's, or 8 if the scene has none.
     std::optional<std::uint32_t> max_depth{};
@@ -67,8 +70,12 @@ struct GatherSettings {
     /// The number of strata into which the set of VPLs is divided. The samples of a pixel take turns: each
     /// asks about the VPLs of one stratum, which then count for the whole set, so that `vpl_count` is what
     /// the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes as many strata as
-    /// there are samples.
+    /// there are samples in a pixel, or in a square of `interleave`.
     std::optional<std::uint32_t> strata{};
+    /// Above 1, the pixels of each square of interleave × interleave pixels share the strata too, so that a
+    /// pixel asks about that part of `vpl_count` only. The noise of neighbouring pixels is then independent,
+    /// which denoisers need. 1, 2 or 4.
+    std::uint32_t interleave = 1;
     /// Samples towards area lights and the environment; empty: 16 to 128, as a pilot chooses.
     std::optional<std::uint32_t> direct_samples_per_pixel{};
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
@@ -80,7 +87,9 @@ struct GatherSettings {
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;
 
-    [[nodiscard]] std::uint32_t strata_or_auto() const { return strata.value_or(samples_per_pixel); }
+    [[nodiscard]] std::uint32_t strata_or_auto() const {
+        return strata.value_or(samples_per_pixel * interleave * interleave);
+    }
 };
 
 /// How to make a picture: a view, VPLs for it and a gather, in one pass or several.

@@ -72,6 +72,7 @@
     OFFSET(GatherParams, stratum_period)            \
     SIZE(PacketOrder)                               \
     OFFSET(PacketOrder, bundle_samples)             \
+    OFFSET(PacketOrder, interleave)                 \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, filter_weight)             \
     OFFSET(CameraVertex, traced)                    \

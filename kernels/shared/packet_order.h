@@ -3,16 +3,18 @@
 #ifndef NEARLIGHT_SHARED_PACKET_ORDER_H
 #define NEARLIGHT_SHARED_PACKET_ORDER_H
 
-#include "shared/vec3.h"
+#include "shared/types.h"
 
 #ifdef __cplusplus
 namespace nearlight::core {
 #endif
 
-/// Each tile of pixels has a packet of receivers for each of its samples and branches. Packets of one branch
-/// stand together for a few neighbouring tiles and a few consecutive samples. A gather takes consecutive
-/// packets together (lib/bundle.cl), so this decides what a bundle holds: several samples of one tile, or one
-/// sample of several tiles.
+/// Each tile of pixels has a packet of receivers for each of its samples and branches. A tile has 8 x 8
+/// pixels, which are neighbours or, if the picture is interleaved, stand `interleave` pixels apart; then as
+/// many tiles as fit between them cover the same square of the picture. Packets of one branch stand together
+/// for a few neighbouring tiles and a few consecutive samples. A gather takes consecutive packets together
+/// (lib/bundle.cl), so this decides what a bundle holds: several samples of one tile, or one sample of
+/// several tiles.
 typedef struct PacketOrder {
     uint tile_columns;    // of the picture, filled up to whole bundles
     uint sample_count;    // samples of the batch
@@ -20,7 +22,28 @@ typedef struct PacketOrder {
     uint bundle_columns;  // tiles that stand together, side by side
     uint bundle_rows;     // tiles that stand together, one below the other
     uint bundle_samples;  // consecutive samples that stand together; divides sample_count
+    uint interleave;  // distance of a tile's pixels; tile_columns is a multiple of bundle_columns times it
 } PacketOrder;
+
+// The next functions are about one axis of the picture. `together` is the number of tiles along it that stand
+// together; these follow one another and are alike in where their pixels stand in each square of
+// interleave x interleave pixels.
+
+/// The pixel at the place `lane`, from 0 to 7, of a tile.
+NEARLIGHT_SHARED_FUNCTION uint pixel_of_tile(uint tile, uint lane, uint together, uint interleave) {
+    const uint span = together * interleave;
+    const uint first = tile / span * span + tile % together * interleave;
+    return first * NEARLIGHT_TILE_SIZE + lane * interleave + tile % span / together;
+}
+/// The tile that has a pixel.
+NEARLIGHT_SHARED_FUNCTION uint tile_of_pixel(uint pixel, uint together, uint interleave) {
+    const uint square = pixel / (NEARLIGHT_TILE_SIZE * interleave);
+    return square / together * together * interleave + pixel % interleave * together + square % together;
+}
+/// The place of a pixel in its tile.
+NEARLIGHT_SHARED_FUNCTION uint lane_of_pixel(uint pixel, uint interleave) {
+    return pixel / interleave % NEARLIGHT_TILE_SIZE;
+}
 
 /// The place of a packet, for the tile at `column` and `row` of the batch.
 NEARLIGHT_SHARED_FUNCTION uint packet_at(PacketOrder order, uint column, uint row, uint sample, uint branch) {

@@ -19,6 +19,13 @@ renderers is taken off. A row *agrees* if the ratio is within 0.5 % of 1 (or wit
 and the block within 2 %. What nearlight *refuses* ends it with exit code 3.
 
 '''
+# Why rows deviate, where that is known.
+REASONS = {
+    'emitters/area-ply': "Mitsuba's smooth meshes shine by their shading normals",
+    'bsdfs/blendbsdf-smooth/area': "Mitsuba's picture is less than the sum of the two parts that it blends, by a tenth "
+                                   'where the metal mirrors the lamp',
+    'shapes/rotation-about-long-axis': 'Mitsuba does not normalise the axis of a rotation',
+}
 KINDS = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
 BOLD = ('deviates', 'failed')
 
@@ -51,6 +58,8 @@ def _line(result):
         ratio = f'{result.agreement.ratio:.4f} ± {result.agreement.ratio_error:.4f}'
         block = f'{result.agreement.block_excess:.1%}'
     notes = [result.note] if result.note else result.warnings
+    if result.status == 'deviates' and result.name in REASONS:
+        notes = [REASONS[result.name], *notes]
     status = f'**{result.status}**' if result.status in BOLD else result.status
     return f'| {name} | {status} | {ratio} | {block} | {"; ".join(_escaped(n) for n in notes)} |\n'
 

@@ -86,6 +86,35 @@ TEST_F(Determinism, RepeatingGivesTheSamePictureAndAnotherSeedAnother) {
     });
 }
 
+TEST_F(Determinism, BandsDoNotChangeAnInterleavedPicture) {
+    on_each_device([](Device& device) {
+        for (const std::uint32_t strata : {16u, 96u}) {
+            RenderSettings settings = terrace_settings(1);
+            settings.view.height = 130;
+            settings.gather.interleave = 4;
+            settings.gather.strata = strata;
+            const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
+            DeviceEntry entry = device.entry();
+            entry.max_allocation_bytes = std::size_t{1} << 20u;  // 160 000 receivers do not fit
+            Device small(entry, device.options());
+            EXPECT_EQ(test::render_image(small, terrace(), settings).report.image_hash, whole) << strata;
+        }
+    });
+}
+
+// Where every pixel asks about all VPLs, the order of receivers decides nothing.
+TEST_F(Determinism, InterleavingAloneChangesNoBit) {
+    on_each_device([](Device& device) {
+        RenderSettings settings = terrace_settings(1);
+        settings.gather.strata = 1;
+        const std::uint64_t plain = test::render_image(device, terrace(), settings).report.image_hash;
+        for (const std::uint32_t interleave : {2u, 4u}) {
+            settings.gather.interleave = interleave;
+            EXPECT_EQ(test::render_image(device, terrace(), settings).report.image_hash, plain) << interleave;
+        }
+    });
+}
+
 TEST_F(Determinism, PlansAreReallyCut) {
     on_each_device([](Device& device) {
         DeviceEntry entry = device.entry();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,38 @@ TEST_F(PlanTest, SamplesShareStrataEvenly) {
                 EXPECT_EQ(plan.bundle_samples * plan.bundle_columns * plan.bundle_rows,
                           uint{NEARLIGHT_BUNDLE_PACKETS});
             }
+        }
+    });
+}
+
+TEST_F(PlanTest, PixelsOfASquareShareStrata) {
+    on_each_device([](Device& device) {
+        for (const auto& [samples, strata] : {std::pair{1u, 16u}, {2u, 16u}, {2u, 32u}, {4u, 32u}}) {
+            const RenderPlan plan = make_plan(std::vector{&device}, {.width = 128,
+                                                                     .height = 64,
+                                                                     .samples_per_pixel = samples,
+                                                                     .strata = strata,
+                                                                     .interleave = 4});
+            const CameraBand batch = plan.batches(0).front();
+            ASSERT_EQ(batch.sample_count, samples);
+            const std::vector<uint> asked = plan.strata_of_bundles(batch, 1);
+            std::vector<uint> times(strata);
+            // Each pixel of the first square of 4x4: the strata that its samples ask about.
+            std::set<std::pair<uint, uint>> pixels_and_strata;
+            for (uint y = 0; y < 4; ++y) {
+                for (uint x = 0; x < 4; ++x) {
+                    for (uint sample = 0; sample < samples; ++sample) {
+                        const uint packet =
+                            packet_at(packet_order(batch, 128), tile_of_pixel(x, batch.bundle_columns, 4),
+                                      tile_of_pixel(y, batch.bundle_rows, 4), sample, 0);
+                        const uint stratum = asked[packet / NEARLIGHT_BUNDLE_PACKETS % asked.size()];
+                        ++times.at(stratum);
+                        pixels_and_strata.insert({stratum, 4 * y + x});
+                    }
+                }
+            }
+            EXPECT_EQ(times, std::vector<uint>(strata, 16 * samples / strata)) << strata;
+            EXPECT_EQ(pixels_and_strata.size(), strata);  // no two pixels ask about the same
         }
     });
 }

@@ -156,15 +156,15 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
         Shooting shooting(device, scene, 37, 29);
         constexpr uint kSamples = 6;
         const GBuffer whole = shooting.shoot_all(kSamples, 2);
-        const PacketOrder order{5, kSamples, 2, 1, 1, 1};
+        const PacketOrder order{5, kSamples, 2, 1, 1, 1, 1};
         for (const auto& [row, rows, sample, samples, bundle_columns, bundle_rows, together] :
              {std::array<uint, 7>{0, 4, 0, 6, 1, 1, 1},
               {1, 2, 0, 6, 2, 1, 2},
               {3, 1, 2, 3, 1, 1, 3},
               {2, 2, 1, 4, 2, 2, 1},
               {0, 3, 5, 1, 2, 2, 1}}) {
-            const CameraBand band{row, rows,           sample,      samples,  kSamples,
-                                  2,   bundle_columns, bundle_rows, together, kManyEdges};
+            const CameraBand band{row,         rows,     sample, samples,   kSamples, 2, bundle_columns,
+                                  bundle_rows, together, 1,      kManyEdges};
             const GBuffer part = shooting.shoot(band);
             for (uint i = 0; i < 5 * rows * samples * 2; ++i) {
                 const uint x = i / 2 / samples % 5, y = i / 2 / samples / 5, s = i / 2 % samples;

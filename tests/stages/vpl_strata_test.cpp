@@ -150,8 +150,8 @@ TEST_F(VplStrataTest, GroupsTakeNoStrata) {
 }
 
 TEST(PacketOrderTest, EveryPacketHasAPlaceAndBundlesAreOfOneBranch) {
-    for (const PacketOrder& order :
-         {PacketOrder{6, 3, 2, 2, 2, 1}, PacketOrder{6, 4, 1, 2, 1, 2}, PacketOrder{5, 8, 2, 1, 1, 4}}) {
+    for (const PacketOrder& order : {PacketOrder{6, 3, 2, 2, 2, 1, 1}, PacketOrder{6, 4, 1, 2, 1, 2, 1},
+                                     PacketOrder{5, 8, 2, 1, 1, 4, 1}, PacketOrder{8, 3, 2, 2, 2, 1, 4}}) {
         const uint rows = 2 * order.bundle_rows;
         std::vector<std::array<uint, 3>> at(std::size_t{order.tile_columns} * rows * order.sample_count *
                                             order.branch_count);
@@ -171,6 +171,21 @@ TEST(PacketOrderTest, EveryPacketHasAPlaceAndBundlesAreOfOneBranch) {
         }
         for (std::size_t i = 0; i < at.size(); ++i) {
             EXPECT_EQ(at[i], at[i / NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_BUNDLE_PACKETS]);
+        }
+    }
+}
+
+TEST(PacketOrderTest, InterleavedTilesShareThePictureAndBundlesThePlaceInASquare) {
+    for (const uint interleave : {1u, 2u, 4u}) {
+        for (const uint together : {1u, 2u}) {
+            for (uint pixel = 0; pixel < 200; ++pixel) {
+                const uint tile = tile_of_pixel(pixel, together, interleave);
+                const uint lane = lane_of_pixel(pixel, interleave);
+                EXPECT_EQ(pixel_of_tile(tile, lane, together, interleave), pixel);
+                const uint first_of_bundle = tile / together * together;
+                EXPECT_EQ(pixel_of_tile(first_of_bundle, 0, together, interleave) % interleave,
+                          pixel % interleave);
+            }
         }
     }
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/rendered_picture.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr std::size_t kDenoisedPixelFloats = NEARLIGHT_LAYER_CHANNELS + kRawLayer.channel_count;
+
+}  // namespace
+
+RenderedPicture::RenderedPicture(const PictureOptions& options, int threads)
+    : is_fast_(options.denoise_fast), files_(options) {
+    if (options.denoise) {
+        denoiser_.emplace(threads);
+    }
+}
+
+std::string RenderedPicture::denoiser() const {
+    if (!denoiser_) {
+        return "none";
+    }
+    return denoiser_->name() + (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N)");
+}
+
+void RenderedPicture::open(int width, int height, Metadata metadata) {
+    metadata["nearlight:denoised"] = denoiser();
+    width_ = width;
+    files_.open(width, height, metadata);
+}
+
+void RenderedPicture::add_rows(std::span<const float> rows) {
+    if (!denoiser_) {
+        files_.write_rows(rows);
+        return;
+    }
+    for (std::size_t first = 0; first < rows.size(); first += NEARLIGHT_LAYER_CHANNELS) {
+        const std::span<const float> pixel = rows.subspan(first, NEARLIGHT_LAYER_CHANNELS);
+        const std::span<const float> beauty = pixel.subspan(NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
+        rows_.insert(rows_.end(), pixel.begin(), pixel.end());
+        rows_.insert(rows_.end(), beauty.begin(), beauty.end());
+    }
+}
+
+void RenderedPicture::denoise() {
+    const Stopwatch watch;
+    float* const rows = rows_.data();
+    std::vector<const float*> light{rows + NEARLIGHT_LAYER_DIRECT, rows + NEARLIGHT_LAYER_INDIRECT};
+    if (is_fast_) {
+        light = {rows + kRawLayer.first_channel};
+    }
+    const std::size_t row_floats = static_cast<std::size_t>(width_) * kDenoisedPixelFloats;
+    denoiser_->denoise({.width = width_,
+                        .height = static_cast<int>(rows_.size() / row_floats),
+                        .pixel_floats = kDenoisedPixelFloats,
+                        .light = std::move(light),
+                        .albedo = rows + NEARLIGHT_LAYER_ALBEDO,
+                        .normal = rows + NEARLIGHT_LAYER_NORMAL,
+                        .thorough = !is_fast_,
+                        .output = rows + NEARLIGHT_LAYER_BEAUTY});
+    denoising_seconds_ = watch.seconds();
+}
+
+void RenderedPicture::commit(const Stopwatch& since_begin) {
+    if (!rows_.empty()) {
+        denoise();
+        files_.write_rows(rows_);
+    }
+    files_.commit(since_begin.seconds());
+}
+
+}  // namespace nearlight::core

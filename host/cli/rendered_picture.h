@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes the rows of a picture while it is rendered and writes its files, denoised if that is wanted.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/base/stopwatch.h"
+#include "host/cli/picture_files.h"
+#include "host/image/denoiser.h"
+
+namespace nearlight::core {
+
+class RenderedPicture {
+  public:
+    /// If the options want a denoised picture, finds the denoiser, which works on `threads` threads, or on
+    /// all if that is 0. Throws as Denoiser does.
+    RenderedPicture(const PictureOptions& options, int threads);
+
+    /// Opens the files. `metadata` gets the attribute that names the denoiser.
+    void open(int width, int height, Metadata metadata);
+    /// Takes rows with the channels of layer_channels().
+    void add_rows(std::span<const float> rows);
+    /// Denoises what rows there are, and completes the files. `since_begin` is for their attribute of the
+    /// time.
+    void commit(const Stopwatch& since_begin);
+
+    /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N)",
+    /// or "none".
+    [[nodiscard]] std::string denoiser() const;
+    [[nodiscard]] double denoising_seconds() const { return denoising_seconds_; }
+
+  private:
+    void denoise();
+
+    std::optional<Denoiser> denoiser_;
+    bool is_fast_;
+    PictureFiles files_;
+    int width_ = 0;
+    std::vector<float> rows_;  ///< rows that wait to be denoised, with the channels of kRawLayer at the end
+    double denoising_seconds_ = 0.0;
+};
+
+}  // namespace nearlight::core

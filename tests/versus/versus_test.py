@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of bench/versus, without any renderer."""
+import importlib.util
+import os
+import sys
+import tempfile
+import types
+import unittest
+import xml.etree.ElementTree
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, '../../bench/versus'))
+if importlib.util.find_spec('numpy') is None:
+    print('skipped: the tests of the race need the Python package numpy')
+    sys.exit(77)
+
+import numpy as np
+
+import measures
+import plots
+import report
+
+
+def grey(values):
+    return np.repeat(np.asarray(values, dtype=np.float64)[..., None], 3, axis=2)
+
+
+class Measures(unittest.TestCase):
+    def test_relative_mse_leaves_out_fireflies(self):
+        truth = grey(np.ones((100, 100)))
+        picture = grey(np.full((100, 100), 1.1))
+        self.assertAlmostEqual(measures.relative_mse(picture, truth), 0.01 / 1.01)
+        picture[3, 4] = 1e6
+        self.assertAlmostEqual(measures.relative_mse(picture, truth), 0.01 / 1.01)
+
+    def test_spectrum_tells_white_from_correlated_noise(self):
+        random = np.random.default_rng(1)
+        truth = grey(np.ones((128, 128)))
+        white = [p for _, p in measures.spectrum(truth + grey(random.normal(0, 0.1, (128, 128))), truth)]
+        self.assertTrue(all(0.5 < p < 2 for p in white[4:]), white)
+        blocks = np.kron(random.normal(0, 0.1, (8, 8)), np.ones((16, 16)))
+        correlated = [p for _, p in measures.spectrum(truth + grey(blocks), truth)]
+        self.assertGreater(correlated[2], 20)
+        self.assertLess(correlated[-1], 0.1)
+
+    def test_seconds_to_an_error_lie_on_the_curve(self):
+        seconds, errors = [1, 2, 4, 8], [0.4, 0.2, 0.1, 0.05]
+        self.assertAlmostEqual(measures.seconds_to(0.1, seconds, errors), 4)
+        self.assertAlmostEqual(measures.seconds_to(0.08, seconds, errors), 5)
+        self.assertEqual(measures.seconds_to(1, seconds, errors), 1)
+        self.assertIsNone(measures.seconds_to(0.01, seconds, errors))
+
+    def test_ratios_say_how_they_are_to_be_read(self):
+        slow = ([1, 2, 4], [0.8, 0.4, 0.2])
+        fast = ([1, 2, 4], [0.2, 0.1, 0.05])
+        self.assertEqual(measures.ratio_to_equal(slow, slow, 1), (1.0, ''))
+        ratio, mark = measures.ratio_to_equal(([1, 2], [0.4, 0.1]), slow, 1)
+        self.assertEqual(mark, '')
+        self.assertAlmostEqual(ratio, 4 / 1.5, delta=0.2)
+        self.assertEqual(measures.ratio_to_equal(([1, 2], [0.1, 0.05]), slow, 1), (8.0, '~'))
+        self.assertEqual(measures.ratio_to_equal(([1, 2], [0.1, 0.05]), slow, 0.5), (16.0, '~'))
+        self.assertEqual(measures.ratio_to_equal(([1, 2], [0.1, 0.05]), slow, None), (4.0, '>'))
+        self.assertLess(measures.ratio_to_equal(slow, fast, 1)[0], 1)
+
+    def test_the_truth_trusts_the_less_noisy(self):
+        random = np.random.default_rng(2)
+        truth = grey(np.ones((64, 64)))
+
+        def halves(deviation):
+            return [truth + grey(random.normal(0, deviation, (64, 64))) for _ in range(2)]
+        noisy, clean = halves(0.3), halves(0.01)
+        picture, variance = measures.combined([noisy, clean])
+        self.assertLess(measures.relative_mse(picture, truth), 2 * 0.01 ** 2)
+        self.assertAlmostEqual(variance, 0.5 * 0.01 ** 2, delta=0.2 * 0.01 ** 2)
+        ratio, error = measures.mean_ratio(noisy, clean)
+        self.assertLess(abs(ratio - 1), 5 * error + 0.02)
+
+
+class Report(unittest.TestCase):
+    def test_a_race_becomes_tables_and_plots(self):
+        def curve(name, denoised, factor):
+            spectrum = [(0.1, 1.0), (0.3, 1.0)]
+            points = [{'work': w, 'runs': [{'seed': s, 'seconds': {'render': w, 'process': w + 1, 'processor': 2 * w},
+                                            'relative_mse': factor / w, 'flip': factor / w ** 0.5, 'spectrum': spectrum} for s in (1, 2)]}
+                      for w in (1, 2, 4)]
+            return {'renderer': name, 'denoised': denoised, 'points': points}
+        result = {'scene': 'a<b', 'size': [4, 3], 'truth_relative_mse': 1e-5,
+                  'agreement': [{'renderers': ['nearlight', 'other'], 'ratio': 1.001, 'error': 0.002}],
+                  'curves': [curve('nearlight', False, 0.1), curve('other', False, 0.8)]}
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'VERSUS.md')
+            report.write(file, [result], ['a note'], types.SimpleNamespace(seeds=2, size='4x3', clock='render'))
+            with open(file, encoding='utf-8') as text:
+                lines = text.read()
+            for plot in os.listdir(os.path.join(folder, 'versus-plots')):
+                xml.etree.ElementTree.parse(os.path.join(folder, 'versus-plots', plot))
+        self.assertIn('1.0010 ± 0.0020', lines)
+        self.assertIn('| relative MSE, raw | render | ~ 8 (8 to 8) |', lines)
+
+    def test_axes_have_ticks(self):
+        for low, high in ((1, 2), (0.001, 1), (1e-6, 1e6)):
+            self.assertGreaterEqual(len(plots.Axis([low, high], 0, 100).ticks()), 2)
+
+
+if __name__ == '__main__':
+    unittest.main()
