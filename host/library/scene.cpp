@@ -20,6 +20,7 @@ Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Scene Scene::load(const std::filesystem::path& file, const LoadOptions& options) {
     core::Scene scene = core::load_scene(file, {.parameters = options.definitions, .strict = options.strict});
+    scene.clear_glass = options.clear_glass;
     for (const core::Note& note : scene.notes) {
         core::say_warning(core::to_string(note));
     }

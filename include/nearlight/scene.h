@@ -28,6 +28,9 @@ struct LoadOptions {
     std::map<std::string, std::string> definitions{};
     /// If it is true, load() throws an Error instead of approximating something and noting that.
     bool strict = false;
+    /// If it is true, light passes straight through smooth glass bodies, which is not what glass does: a
+    /// picture for architects (`--glass clear`).
+    bool clear_glass = false;
 };
 
 /// A note about a scene that was loaded: what was approximated, or what is odd about the file.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -88,6 +89,26 @@ TEST_F(LibrarySession, IrradianceFollowsTheInverseSquareLaw) {
         EXPECT_NEAR(light[i].z, 3 * expected[i], 0.06 * expected[i]) << i;
     }
     EXPECT_TRUE(session().irradiance({}, {}, vpls).empty());
+}
+
+/// The floor under a pane of solid glass, which light samples pass only where glass is clear.
+TEST_F(LibrarySession, ClearGlassLetsLightSamplesThrough) {
+    std::ifstream floor(kFloor);
+    std::string text(std::istreambuf_iterator<char>(floor), {});
+    text.insert(text.rfind("</scene>"), R"(<shape type="rectangle">
+            <transform name="to_world"><translate z="0.5"/></transform><bsdf type="dielectric"/></shape>)");
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "nearlight_pane.xml";
+    std::ofstream(file) << text;
+    for (const bool is_clear : {false, true}) {
+        const Scene scene = Scene::load(file, {.clear_glass = is_clear});
+        Session below(Devices::choose(), scene);
+        const VplSet none = below.sample(below.look(), {.vpl_count = 0});
+        const std::vector<Vec3> point{{0, 0, 0}};
+        const std::vector<Vec3> up{{0, 0, 1}};
+        const float light = below.irradiance(point, up, none, {.paths = 0}).front().x;
+        EXPECT_NEAR(light, is_clear ? 0.96f : 0.0f, 0.05f) << (is_clear ? "clear" : "glass");
+    }
+    std::filesystem::remove(file);
 }
 
 TEST_F(LibrarySession, WithoutLightsThereIsDirectLight) {
