@@ -41,9 +41,7 @@ class Denoiser {
     [[nodiscard]] std::string name() const;
     /// Denoises a picture. Light that is negative or not finite counts as black, and the output is finite.
     /// The light of a picture of less than kMinSide rows or columns stays as it is: the library darkens such
-    /// pictures.
-
-    /// Throws Error(ErrorKind::failure) if the library fails.
+    /// pictures. Throws Error(ErrorKind::failure) if the library fails.
     void denoise(const DenoisingTask& task);
 
   private:

@@ -142,8 +142,9 @@ std::optional<PassForecast> PassSchedule::forecast() const {
     if (!error_ || !target_ || samples_.empty()) {
         return std::nullopt;
     }
-    const double missing = std::max(0.0, needed_samples() - done_samples_) / full_samples_;
     const auto done = static_cast<double>(samples_.size());
+    const double unbelieved = *error_ > 0.0 ? believed_passes_ - done : 0.0;
+    const double missing = std::max({0.0, (needed_samples() - done_samples_) / full_samples_, unbelieved});
     const double pass_seconds = vpl_seconds_ + full_samples_ * sample_seconds_.value_or(0.0);
     const double seconds = seconds_before_ + watch_.seconds() + missing * pass_seconds;
     return PassForecast{

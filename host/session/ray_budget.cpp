@@ -156,7 +156,7 @@ void say_candidate(const Candidate& candidate) {
 RayBudget choose_ray_budget(const BudgetPilot& pilot) {
     std::vector<double> squares;
     Candidate best{.budget = {.clamp_radius = pilot.clamp_radius}};
-    const std::size_t radii = pilot.is_open ? kRadiusMultiples.size() : 1;
+    const std::size_t radii = pilot.radius_is_open ? kRadiusMultiples.size() : 1;
     for (const float multiple : std::span(kRadiusMultiples).first(radii)) {
         const PilotLight light = light_of(pilot, multiple * pilot.clamp_radius);
         if (squares.empty()) {

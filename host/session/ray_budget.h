@@ -14,21 +14,21 @@ namespace nearlight::core {
 struct BudgetPilot {
     BandStages& stages;
     const DeviceScene& scene;
-    const PilotView& view;    ///< its receivers stand for those of the picture
-    const VplBuffer& vpls;    ///< one or more
-    uint max_edges = 1;       ///< of a path from a light to a receiver that the camera sees directly
-    float clamp_radius = 0;   ///< m, where the choice starts
-    uint rays_per_pixel = 1;  ///< rays of receivers, on which the choice is to be based
-    bool is_open = false;     ///< whether the radius may be chosen
+    const PilotView& view;        ///< its receivers stand for those of the picture
+    const VplBuffer& vpls;        ///< one or more
+    uint max_edges = 1;           ///< of a path from a light to a receiver that the camera sees directly
+    float clamp_radius = 0;       ///< m, where the choice starts
+    uint rays_per_pixel = 1;      ///< rays of receivers, on which the choice is to be based
+    bool radius_is_open = false;  ///< whether the radius may be chosen
     uint seed = 0;
 };
 
 /// Returns the budget that is expected to need the least time for a given mean squared error, each receiver's
-/// relative to its light. Candidates are 16 to 128 light samples, and, if the radius is open,
-/// its multiples by a power of two from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's
-/// receivers, which gives the VPLs' part of the error as the sum of their squares, and takes two light
-/// samples and two rays at each receiver, whose differences give the parts of both. What rays cost is
-/// counted in units of a typical device, so the result depends on no timing.
+/// relative to its light. Candidates are 16 to 128 light samples, and, if the radius is open, its multiples
+/// by a power of two from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's receivers,
+/// which gives the VPLs' part of the error as the sum of their squares, and takes two light samples and two
+/// rays at each receiver, whose differences give the parts of both. What rays cost is counted in units of a
+/// typical device, so the result depends on no timing.
 RayBudget choose_ray_budget(const BudgetPilot& pilot);
 
 }  // namespace nearlight::core

@@ -26,11 +26,21 @@ void note_pass(const Prepared& pass, RenderReport& report) {
     report.candidates += pass.vpls.candidate_count;
 }
 
+/// The settings of the view, without a pilot that has nothing to decide: all passes but the first have the
+/// budget of the first one.
+ViewSettings view_settings(const RenderSettings& settings) {
+    ViewSettings view = settings.view;
+    const bool is_decided = view.clamp_radius && settings.gather.direct_samples_per_pixel;
+    view.ray_budget_pilot = view.ray_budget_pilot && !is_decided;
+    return view;
+}
+
 }  // namespace
 
 Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report) {
     const Stopwatch watch;
-    Prepared pass{.view = session.look(settings.view, settings.seed), .vpls = {}, .settings = settings};
+    Prepared pass{
+        .view = session.look(view_settings(settings), settings.seed), .vpls = {}, .settings = settings};
     pass.vpls = session.sample(pass.view, settings.sampling, settings.seed);
     note_pass(pass, report);
     report.seconds.generate += watch.seconds();

@@ -126,7 +126,7 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
                                                 .max_edges = view.bounce_count() + 1,
                                                 .clamp_radius = view.clamp_radius,
                                                 .rays_per_pixel = GatherSettings{}.rays_per_pixel,
-                                                .is_open = view.clamp_radius_is_open,
+                                                .radius_is_open = view.clamp_radius_is_open,
                                                 .seed = seed});
         }
         if (pool_.size() > 1) {

@@ -15,7 +15,7 @@ struct View {
     PilotView pilot;            ///< in the memory of the device that led when the view was chosen
     float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
     /// Whether the settings left the clamp radius open. VPLs may then be gathered with a radius of their own
-    /// (VplSet::clamp_radius).
+    /// (VplSet::ray_budget).
     bool clamp_radius_is_open = false;
     bool has_ray_budget_pilot = true;  ///< whether Session::sample() runs the pilot of ray_budget.h
     uint max_depth = 8;                ///< maximum path length, as Mitsuba counts it
