@@ -17,8 +17,14 @@ inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, f
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         return true;  // finding the one window of a room takes more rays than it is worth
     }
-    const LightSample light = sample_emitter(scene, index, x, u);
-    return dot(n, light.direction) > 0.0f && !is_black(light.radiance) && light_is_visible(scene, x, &light);
+    LightSample light;
+    if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
+        const MapSample map = map_sample_towards(scene, sample_sun(scene, u));
+        light = sample_of_sky(scene, x, n, &map);
+    } else {
+        light = sample_emitter(scene, index, x, u);
+    }
+    return dot(n, light.direction) > 0.0f && may_shine(&light) && light_is_visible(scene, x, &light);
 }
 
 inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {

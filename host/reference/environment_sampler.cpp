@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
+
+#include "host/scene/distribution.h"
 
 namespace nearlight::core {
 namespace {
@@ -20,12 +23,30 @@ double step_of(std::span<const float> cdf, uint i) {
 
 }  // namespace
 
+EnvironmentSampler::EnvironmentSampler(const Scene& scene) : table_(build_environment_table(scene)) {
+    if (!exists()) {
+        return;
+    }
+    const std::vector<float> weights = pixel_weights(scene.environment);
+    const std::size_t width = table_.parameters.width;
+    std::vector<double> rows;
+    for (std::size_t row = 0; row < table_.parameters.height; ++row) {
+        const std::vector<double> pixels(weights.begin() + static_cast<std::ptrdiff_t>(row * width),
+                                         weights.begin() + static_cast<std::ptrdiff_t>((row + 1) * width));
+        const std::vector<float> cdf = cumulative_distribution(pixels);
+        column_cdf_.insert(column_cdf_.end(), cdf.begin(), cdf.end());
+        const double zone = double{table_.row_cosines[row]} - double{table_.row_cosines[row + 1]};
+        rows.push_back(zone * std::accumulate(pixels.begin(), pixels.end(), 0.0));
+    }
+    row_cdf_ = cumulative_distribution(rows);
+}
+
 Vec3 EnvironmentSampler::sample(float row, Point2 place) const {
     const Environment& parameters = table_.parameters;
     Pixel pixel;
-    pixel.row = pick_entry(table_.row_cdf, row);
+    pixel.row = pick_entry(row_cdf_, row);
     const std::span columns =
-        std::span(table_.column_cdf).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
+        std::span(column_cdf_).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
     pixel.column = pick_entry(columns, place.x);
     const float before = pixel.column > 0 ? columns[pixel.column - 1] : 0.0f;
     const float share = columns[pixel.column] - before;
@@ -66,8 +87,8 @@ EnvironmentSampler::Pixel EnvironmentSampler::pixel_towards(Vec3 direction) cons
 double EnvironmentSampler::pixel_density(Pixel pixel) const {
     const Environment& parameters = table_.parameters;
     const std::span columns =
-        std::span(table_.column_cdf).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
-    const double probability = step_of(table_.row_cdf, pixel.row) * step_of(columns, pixel.column);
+        std::span(column_cdf_).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
+    const double probability = step_of(row_cdf_, pixel.row) * step_of(columns, pixel.column);
     const double pi = std::numbers::pi;
     const double zone =
         std::cos(pi * pixel.row / parameters.height) - std::cos(pi * (pixel.row + 1) / parameters.height);

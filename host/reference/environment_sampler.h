@@ -3,13 +3,13 @@
 #pragma once
 
 #include "host/reference/sampling.h"
-#include "host/scene/emitters.h"
+#include "host/scene/environment_table.h"
 
 namespace nearlight::core {
 
 class EnvironmentSampler {
   public:
-    explicit EnvironmentSampler(const Scene& scene) : table_(build_environment_table(scene)) {}
+    explicit EnvironmentSampler(const Scene& scene);
 
     [[nodiscard]] bool exists() const { return table_.parameters.width > 0; }
     /// The radius of the sphere around the scene, m.
@@ -27,8 +27,8 @@ class EnvironmentSampler {
     /// A direction that is uniform over the sun's disc.
     [[nodiscard]] Vec3 sample_sun(Point2 place) const;
 
-    /// A direction chosen by the tables. `row` and `place` are uniform in [0, 1). There must be an
-    /// environment.
+    /// A direction chosen by luminance, pixel by pixel. `row` and `place` are uniform in [0, 1). There must
+    /// be an environment.
     [[nodiscard]] Vec3 sample(float row, Point2 place) const;
 
   private:
@@ -44,6 +44,10 @@ class EnvironmentSampler {
     [[nodiscard]] Vec3 pixel_radiance(Pixel pixel) const;
 
     EnvironmentTable table_;
+    // Cumulative distributions of the rows of pixels, and of the pixels of each row: other ones than kernels
+    // have.
+    std::vector<float> row_cdf_;
+    std::vector<float> column_cdf_;
 };
 
 }  // namespace nearlight::core

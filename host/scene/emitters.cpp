@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/emitters.h"
 
+#include <numbers>
+
 #include "host/scene/distribution.h"
+#include "host/scene/environment_table.h"
 #include "host/scene/light_tree.h"
 #include "host/scene/texture.h"
 
@@ -9,22 +12,6 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-
-struct Sphere {
-    Vec3 center{0, 0, 0};
-    float radius = 0;
-};
-
-/// The sphere about the centre of the bounding box, through the farthest vertex in use.
-Sphere bounding_sphere(const Scene& scene) {
-    Sphere sphere{.center = bounds(scene).center()};
-    for (const Triangle& triangle : scene.triangles) {
-        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
-            sphere.radius = std::max(sphere.radius, length(scene.vertices[vertex].position - sphere.center));
-        }
-    }
-    return sphere;
-}
 
 double row_sine(int row, int height) {
     return std::sin(kPiD * (row + 0.5) / height);
@@ -57,12 +44,6 @@ double spot_solid_angle(double beam, double cutoff) {
     const double mean_cosine =
         cutoff - beam > 1e-6 ? (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : std::cos(cutoff);
     return 2 * kPiD * (1 - mean_cosine);
-}
-
-/// 1 − cosine of the half angle under which the sun is seen.
-double sun_height(const EnvironmentLight& environment) {
-    const double sine = std::sin(0.5 * static_cast<double>(environment.sun_half_angle));
-    return 2.0 * sine * sine;
 }
 
 /// The mean of the light's image.
@@ -133,40 +114,6 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     return emitters;
 }
 
-/// The luminance of a pixel. Where radiance is interpolated, its neighbours reach into it, so that it has a
-/// part of their weight: no direction that shines may have the density 0.
-double pixel_weight(const EnvironmentLight& environment, int column, int row) {
-    const auto at = [&](int x, int y) {
-        const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(environment.width) +
-                           static_cast<std::size_t>((x + environment.width) % environment.width);
-        return static_cast<double>(std::max(luminance(environment.radiance[index]), 0.0f));
-    };
-    if (!environment.is_interpolated) {
-        return at(column, row);
-    }
-    double sum = at(column, row);
-    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, environment.height - 1); ++y) {
-        sum += (at(column - 1, y) + at(column, y) + at(column + 1, y)) / 8;
-    }
-    return sum;
-}
-
-void add_distributions(const EnvironmentLight& environment, EnvironmentTable& table) {
-    std::vector<double> row_weights;
-    std::vector<double> weights(static_cast<std::size_t>(environment.width));
-    for (int row = 0; row < environment.height; ++row) {
-        double sum = 0;
-        for (int column = 0; column < environment.width; ++column) {
-            weights[static_cast<std::size_t>(column)] = pixel_weight(environment, column, row);
-            sum += weights[static_cast<std::size_t>(column)];
-        }
-        row_weights.push_back(sum * row_sine(row, environment.height));
-        const std::vector<float> columns = cumulative_distribution(weights);
-        table.column_cdf.insert(table.column_cdf.end(), columns.begin(), columns.end());
-    }
-    table.row_cdf = cumulative_distribution(row_weights);
-}
-
 }  // namespace
 
 bool is_delta_light(const Emitter& emitter) {
@@ -196,39 +143,6 @@ EmitterTable build_emitter_table(const Scene& scene) {
     }
     table.light_tree = build_light_tree(scene, table.emitters);
     table.total_power = static_cast<float>(total);
-    return table;
-}
-
-EnvironmentTable build_environment_table(const Scene& scene) {
-    const EnvironmentLight& environment = scene.environment;
-    EnvironmentTable table;
-    Environment& parameters = table.parameters;
-    const Sphere sphere = bounding_sphere(scene);
-    parameters.scene_center = sphere.center;
-    parameters.scene_radius = sphere.radius;
-    parameters.sun_direction = environment.sun_direction;
-    parameters.sun_radiance = environment.sun_radiance;
-    parameters.sun_height = static_cast<float>(sun_height(environment));
-    parameters.sun_half_chord = 2.0f * std::sin(0.5f * environment.sun_half_angle);
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {  // the inverse of a rotation is its transpose
-            parameters.world_to_local[row * 3 + column] =
-                static_cast<float>(environment.to_world(column, row));
-        }
-    }
-    if (environment.width == 0 || environment.height == 0) {
-        table.pixels.assign(4, 0.0f);
-        table.row_cdf = table.column_cdf = {1.0f};
-        return table;
-    }
-    parameters.width = static_cast<uint>(environment.width);
-    parameters.height = static_cast<uint>(environment.height);
-    parameters.interpolated = environment.is_interpolated ? 1 : 0;
-    table.pixels.reserve(4 * environment.radiance.size());
-    for (const Vec3 pixel : environment.radiance) {
-        table.pixels.insert(table.pixels.end(), {pixel.x, pixel.y, pixel.z, 1.0f});
-    }
-    add_distributions(environment, table);
     return table;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of all lights, and the tables for importance sampling of an environment.
+// The table of all lights.
 #pragma once
 
 #include <vector>
@@ -25,17 +25,5 @@ struct EmitterTable {
 /// power are left out; the table is empty if nothing emits. `probability` is exactly the step of
 /// `cdf` (distribution.h).
 EmitterTable build_emitter_table(const Scene& scene);
-
-struct EnvironmentTable {
-    Environment parameters{};
-    std::vector<float> pixels;  ///< RGBA radiance, 4·width·height; one zero pixel without an environment
-    /// The cumulative distribution of the rows, `height` entries (distribution.h). The density is constant in
-    /// (column, row) cells of equal angle, in proportion to luminance · sinθ at the cell's centre, the exact
-    /// share of a pixel. Over solid angle it is row_step·column_step·width·height / (2π²·sinθ), where θ is
-    /// that of the direction.
-    std::vector<float> row_cdf;
-    std::vector<float> column_cdf;  ///< the cumulative distribution of each row's columns; width·height
-};
-EnvironmentTable build_environment_table(const Scene& scene);
 
 }  // namespace nearlight::core

@@ -22,6 +22,16 @@ Aabb bounds(const Scene& scene) {
     return box;
 }
 
+Sphere bounding_sphere(const Scene& scene) {
+    Sphere sphere{.center = bounds(scene).center()};
+    for (const Triangle& triangle : scene.triangles) {
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            sphere.radius = std::max(sphere.radius, length(scene.vertices[vertex].position - sphere.center));
+        }
+    }
+    return sphere;
+}
+
 float triangle_area(const Scene& scene, const Triangle& triangle) {
     const Vec3 v0 = scene.vertices[triangle.v0].position;
     const Vec3 a = scene.vertices[triangle.v1].position - v0;

@@ -103,6 +103,14 @@ struct Scene {
 
 /// The box of all vertices that triangles use.
 Aabb bounds(const Scene& scene);
+
+struct Sphere {
+    Vec3 center{0, 0, 0};
+    float radius = 0;
+};
+
+/// The sphere about the centre of that box through the farthest vertex that a triangle uses.
+Sphere bounding_sphere(const Scene& scene);
 /// The area of a triangle, m².
 float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian

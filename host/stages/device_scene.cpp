@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/scene/emitters.h"
+#include "host/scene/environment_table.h"
 #include "host/scene/reflectance.h"
 
 namespace nearlight::core {
@@ -142,6 +143,9 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.environment_pixels = put(environment.pixels);
     on_device.row_cdf = put(environment.row_cdf);
     on_device.column_cdf = put(environment.column_cdf);
+    on_device.row_cosines = put(environment.row_cosines);
+    on_device.block_details = put(environment.block_details);
+    on_device.detail_cdf = put(environment.detail_cdf);
     on_device.light_nodes = put(emitters.light_tree);
     on_device.info = put(std::vector{on_device.host_info});
     return on_device;

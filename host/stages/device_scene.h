@@ -21,6 +21,9 @@ struct DeviceScene {
     Buffer<float> environment_pixels;  ///< RGBA
     Buffer<float> row_cdf;
     Buffer<float> column_cdf;
+    Buffer<float> row_cosines;
+    Buffer<uint> block_details;
+    Buffer<float> detail_cdf;
     Buffer<LightNode> light_nodes;
     Buffer<SceneInfo> info;
 
@@ -43,7 +46,7 @@ struct DeviceScene {
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
         visit(vertex_colors), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
-        visit(light_nodes), visit(info);
+        visit(row_cosines), visit(block_details), visit(detail_cdf), visit(light_nodes), visit(info);
     }
 };
 

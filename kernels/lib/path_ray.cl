@@ -15,17 +15,17 @@
 /// surface also sends `path_ratio` rays for each light sample.
 inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
                                const LightSample* light, uint parts, float path_ratio, uint max_veils) {
-    if (is_black(light->radiance)) {
+    if (!may_shine(light)) {
         return (float3)(0.0f);
     }
     float pdf;
-    const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf) * light->radiance;
+    const float3 value = bsdf_eval(scene, surface, light->direction, parts, &pdf);
     if (is_black(value)) {
         return (float3)(0.0f);
     }
     const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
     const float3 origin = ray_origin(scene, hit, light->direction);
-    return value / (light->pdf + of_rays) * light_transmittance(scene, origin, light, max_veils);
+    return value / (light->pdf + of_rays) * arriving_radiance(scene, origin, light, max_veils);
 }
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
@@ -74,13 +74,18 @@ inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
 /// Radiance that lights send straight along the ray, weighted against light samples of where it was
 /// scattered.
 inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
-    const float3 radiance = hit->t < 0.0f ? environment_radiance(scene, ray->direction)
-                                          : emitted_radiance(scene, hit, ray->direction);
-    if (is_black(radiance) || !(ray->pdf > 0.0f) || ray->veils > NEARLIGHT_MAX_VEILS) {
+    const bool shares = ray->pdf > 0.0f && ray->veils <= NEARLIGHT_MAX_VEILS;
+    if (hit->t < 0.0f) {
+        const MapSample map = map_sample_towards(scene, ray->direction);
+        const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
+        return light_radiance(scene, &sky) * (shares ? ray->pdf / (ray->pdf + sky.pdf) : 1.0f);
+    }
+    const float3 radiance = emitted_radiance(scene, hit, ray->direction);
+    if (is_black(radiance) || !shares) {
         return radiance;
     }
     SurfaceHit seen = *hit;
-    seen.t += hit->t < 0.0f ? 0.0f : ray->passed;
+    seen.t += ray->passed;
     const float of_lights = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
     return radiance * (ray->pdf / (ray->pdf + of_lights));
 }

@@ -56,17 +56,18 @@ inline ReceivedLight nothing_received(void) {
     return none;
 }
 
-/// What a light sample brings to the irradiance of a receiver before visibility, weighted for `path_ratio`
-/// cosine-distributed rays for each light sample.
-inline float3 weighted_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
-                                  float path_ratio) {
+/// What a light sample brings to the irradiance of a receiver through at most `max_veils` veils, weighted for
+/// `path_ratio` cosine-distributed rays for each light sample.
+inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
+                                 float path_ratio, uint max_veils) {
     const float cosine = dot(at->n, light->direction);
-    if (!(cosine > 0.0f) || is_black(light->radiance)) {
+    if (!(cosine > 0.0f) || !may_shine(light)) {
         return (float3)(0.0f);
     }
     const float of_rays = light->is_delta ? 0.0f : path_ratio * cosine * M_1_PI_F;
-    return light->radiance * (cosine * diffuse_transmission(scene, at->curve, cosine) *
-                              receiver_map_factor(at, light->direction) / (light->pdf + of_rays));
+    const float weight = cosine * diffuse_transmission(scene, at->curve, cosine) *
+                         receiver_map_factor(at, light->direction) / (light->pdf + of_rays);
+    return weight > 0.0f ? weight * arriving_radiance(scene, at->x, light, max_veils) : (float3)(0.0f);
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
@@ -77,10 +78,7 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);
-        const float3 arriving = weighted_irradiance(scene, at, &light, 0.0f);
-        if (!is_black(arriving)) {
-            exact += arriving * light_transmittance(scene, at->x, &light, max_veils);
-        }
+        exact += sampled_irradiance(scene, at, &light, 0.0f, max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
@@ -92,10 +90,7 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
         const float2 u = sample_2d(first + s, 1, seed);
         const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
                                                  : sample_light_or_cosine(scene, at->x, at->n, choice, u);
-        const float3 arriving = weighted_irradiance(scene, at, &light, path_ratio);
-        if (!is_black(arriving)) {
-            sum += arriving * light_transmittance(scene, at->x, &light, max_veils);
-        }
+        sum += sampled_irradiance(scene, at, &light, path_ratio, max_veils);
     }
     return exact + sum / (float)sample_count;
 }
@@ -203,6 +198,7 @@ inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, co
         const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
         if (scale != 0.0f) {
             const uint edges = length == 0 ? share->max_edges : way->max_edges;
+
             sum += scale * reflected_light(scene, hit, surface, parts, 1, edges - surfaces - 1, seed);
         }
     }

@@ -20,6 +20,27 @@ inline uint search_cdf(const global float* cdf, uint count, float u) {
     return low;
 }
 
+/// The probability of an entry of a cumulative distribution.
+inline float step_of_cdf(const global float* cdf, uint index) {
+    return index == 0 ? cdf[0] : cdf[index] - cdf[index - 1];
+}
+
+/// An entry of a cumulative distribution that a number has selected.
+typedef struct CdfStep {
+    uint index;
+    float probability;
+    float within;  // where in the entry's part the number lies, uniform in [0, 1)
+} CdfStep;
+
+inline CdfStep choose_step(const global float* cdf, uint count, float u) {
+    CdfStep step;
+    step.index = search_cdf(cdf, count, u);
+    step.probability = step_of_cdf(cdf, step.index);
+    const float low = cdf[step.index] - step.probability;
+    step.within = clamp((u - low) / fmax(step.probability, 1e-20f), 0.0f, 0x1.fffffep-1f);
+    return step;
+}
+
 /// A direction about +Z with the density cosθ/π.
 inline float3 square_to_cosine_hemisphere(float2 u) {
     const float r = sqrt(u.x);

@@ -16,14 +16,15 @@
         const global Vec3 *restrict scene_vertex_colors, const global float *restrict scene_curves,          \
         const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
-        const global float *restrict scene_column_cdf, const global LightNode *restrict scene_light_nodes,   \
-        const global SceneInfo *restrict scene_info
+        const global float *restrict scene_column_cdf, const global float *restrict scene_row_cosines,       \
+        const global uint *restrict scene_block_details, const global float *restrict scene_detail_cdf,      \
+        const global LightNode *restrict scene_light_nodes, const global SceneInfo *restrict scene_info
 #define SCENE_VIEW                                                                                        \
     {                                                                                                     \
         scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,           \
             scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_curves,             \
             scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf, \
-            scene_light_nodes, scene_info                                                                 \
+            scene_row_cosines, scene_block_details, scene_detail_cdf, scene_light_nodes, scene_info       \
     }
 
 typedef struct SceneView {
@@ -40,8 +41,12 @@ typedef struct SceneView {
     const global Emitter* emitters;
     const global Environment* environment;
     const global float4* environment_pixels;
-    const global float* row_cdf;
-    const global float* column_cdf;
+    const global float* row_cdf;     // of the environment's rows of blocks (light/environment.cl)
+    const global float* column_cdf;  // of the blocks of each row
+    const global float*
+        row_cosines;  // of the polar angles where rows of pixels begin, and where the last ends
+    const global uint* block_details;  // for each block, where its part of detail_cdf begins
+    const global float* detail_cdf;    // of the rows of a block, and then of the pixels of each row
     const global LightNode* light_nodes;
     const global SceneInfo* info;
 } SceneView;

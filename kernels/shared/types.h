@@ -162,7 +162,12 @@ typedef struct Environment {
     float sun_half_chord;  // length of the vector from that one to the rim
     Vec3 sun_radiance;
     uint interpolated;  // 1: radiance is interpolated between pixels; 0: it is constant over a pixel
+    uint block_size;    // columns and rows of pixels of a block (lib/light/environment.cl)
+    uint block_columns, block_rows;
 } Environment;
+
+/// Where the table of blocks says that a block has no details: its density is constant.
+#define NEARLIGHT_NO_DETAIL 0xffffffffu
 
 /// Cells of a reconstruction filter's table, from the middle of the pixel to the filter's radius.
 #define NEARLIGHT_FILTER_CELLS 120
@@ -367,7 +372,7 @@ NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Emitter, 96);
 NEARLIGHT_CHECK_SHARED(LightNode, 64);
-NEARLIGHT_CHECK_SHARED(Environment, 96);
+NEARLIGHT_CHECK_SHARED(Environment, 108);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);

@@ -134,7 +134,7 @@ TEST(EmitterTable, SpotPowerIsTheIntegralOfItsFalloff) {
 
 TEST(EmitterTable, EnvironmentPowerIsWhatEntersTheSceneSphere) {
     Scene scene = area_light_scene({0, 0, 0});
-    const double radius = build_environment_table(scene).parameters.scene_radius;
+    const double radius = bounding_sphere(scene).radius;
     EXPECT_FLOAT_EQ(static_cast<float>(radius), std::sqrt(2.0f));
     scene.environment = sky(1, 1);
     scene.environment.radiance = {{2, 2, 2}};
@@ -152,60 +152,6 @@ TEST(EmitterTable, EnvironmentPowerIsWhatEntersTheSceneSphere) {
     EXPECT_NEAR(table.emitters[0].radiance.x, mean.x, 1e-6);
     EXPECT_NEAR(table.emitters[0].radiance.y, mean.y, 1e-6);
     EXPECT_NEAR(table.emitters[0].radiance.z, mean.z, 1e-6);
-}
-
-TEST(EnvironmentTable, CellsAreInProportionToLuminanceTimesSine) {
-    Scene scene = area_light_scene({0, 0, 0});
-    scene.environment = sky(9, 6);
-    for (int column = 0; column < 9; ++column) {
-        scene.environment.radiance[2 * 9 + column] = {0, 0, 0};  // a dark row
-    }
-    const EnvironmentTable table = build_environment_table(scene);
-    ASSERT_EQ(table.row_cdf.size(), 6u);
-    ASSERT_EQ(table.column_cdf.size(), 54u);
-    double total = 0;
-    const auto weight = [&](int row, int column) {
-        return luminance(scene.environment.radiance[row * 9 + column]) * std::sin(kPiD * (row + 0.5) / 6);
-    };
-    for (int i = 0; i < 54; ++i) {
-        total += weight(i / 9, i % 9);
-    }
-    for (int row = 0; row < 6; ++row) {
-        EXPECT_EQ(table.column_cdf[row * 9 + 8], 1.0f);
-        const double row_step = table.row_cdf[row] - (row > 0 ? table.row_cdf[row - 1] : 0.0f);
-        for (int column = 0; column < 9; ++column) {
-            const int i = row * 9 + column;
-            const double step = table.column_cdf[i] - (column > 0 ? table.column_cdf[i - 1] : 0.0f);
-            EXPECT_NEAR(row_step * step, weight(row, column) / total, 1e-5);
-        }
-    }
-    EXPECT_EQ(table.row_cdf[5], 1.0f);
-    EXPECT_EQ(table.row_cdf[2], table.row_cdf[1]);
-}
-
-TEST(EnvironmentTable, PixelsAndFrame) {
-    Scene scene = area_light_scene({0, 0, 0});
-    scene.environment = sky(2, 1);
-    scene.environment.to_world = rotation(0, 1, 0, 90);
-    const EnvironmentTable table = build_environment_table(scene);
-    EXPECT_EQ(table.parameters.width, 2u);
-    EXPECT_EQ(table.parameters.height, 1u);
-    ASSERT_EQ(table.pixels.size(), 8u);
-    EXPECT_FLOAT_EQ(table.pixels[4], 0.1f);
-    EXPECT_FLOAT_EQ(table.pixels[5], 1.0f);
-    EXPECT_FLOAT_EQ(table.pixels[6], 0.5f);
-    const float* m = table.parameters.world_to_local;  // takes world +X to local +Z
-    EXPECT_NEAR(m[0], 0.0f, 1e-6f);
-    EXPECT_NEAR(m[6], 1.0f, 1e-6f);
-}
-
-TEST(EnvironmentTable, WithoutEnvironmentThereIsOneBlackPixel) {
-    const EnvironmentTable table = build_environment_table(area_light_scene({1, 1, 1}));
-    EXPECT_EQ(table.parameters.width, 0u);
-    EXPECT_EQ(table.pixels, std::vector<float>(4, 0.0f));
-    EXPECT_EQ(table.row_cdf, std::vector<float>{1.0f});
-    EXPECT_EQ(table.column_cdf, std::vector<float>{1.0f});
-    EXPECT_FLOAT_EQ(table.parameters.scene_center.x, 1.0f);
 }
 
 }  // namespace

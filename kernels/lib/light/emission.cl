@@ -45,17 +45,20 @@ inline float entry_area(const SceneView* scene) {
 
 inline EmittedParticle emit_from_environment(const SceneView* scene, bool is_sun, float2 u_position,
                                              float2 u_direction) {
-    EmittedParticle particle;
-    float pdf;
-    float3 radiance;
     float3 from;
+    float3 radiance;
+    float pdf;
     if (is_sun) {
         from = sample_sun(scene, u_direction);
         radiance = load3(scene->environment->sun_radiance);
         pdf = 1.0f / (2.0f * M_PI_F * scene->environment->sun_height);
     } else {
-        from = sample_environment(scene, u_direction, &pdf, &radiance);
+        const MapSample map = sample_map(scene, u_direction);
+        from = map.direction;
+        radiance = map_radiance(scene, map.place);
+        pdf = map.pdf;
     }
+    EmittedParticle particle;
     particle.origin = entry_point(scene, from, u_position);
     particle.direction = -from;
     particle.flux = pdf > 0.0f ? radiance * (entry_area(scene) / pdf) : (float3)(0.0f);

@@ -15,51 +15,54 @@ inline float3 rotate_to_world(const global float* m, float3 v) {
                     m[2] * v.x + m[5] * v.y + m[8] * v.z);
 }
 
-/// Column and row of the environment pixel that a world direction looks at. In the light's frame the
-/// direction is (sinφ·sinθ, cosθ, −cosφ·sinθ), with φ = 2π·column/width and θ = π·row/height.
-inline uint2 environment_pixel(const SceneView* scene, float3 direction) {
+/// Where on the map a world direction looks: (column ÷ width, row ÷ height), from 0 to 1. In the light's
+/// frame the direction is (sinφ·sinθ, cosθ, −cosφ·sinθ), with φ = 2π·column/width and θ = π·row/height.
+inline float2 map_place(const SceneView* scene, float3 direction) {
     const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
-    const float u = atan2(d.x, -d.z) * (0.5f / M_PI_F);
-    const float v = acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F;
-    const uint width = scene->environment->width;
-    const uint height = scene->environment->height;
-    return (uint2)(min((uint)((u - floor(u)) * (float)width), width - 1),
-                   min((uint)(v * (float)height), height - 1));
+    const float turn = atan2(d.x, -d.z) * (0.5f / M_PI_F);
+    return (float2)(turn - floor(turn), acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F);
 }
 
-inline float3 map_pixel(const SceneView* scene, uint column, uint row) {
+inline uint2 pixel_at(const SceneView* scene, float2 place) {
+    const uint width = scene->environment->width;
+    const uint height = scene->environment->height;
+    return (uint2)(min((uint)(place.x * (float)width), width - 1),
+                   min((uint)(place.y * (float)height), height - 1));
+}
+
+inline float3 pixel_radiance(const SceneView* scene, uint column, uint row) {
     return scene->environment_pixels[row * scene->environment->width + column].xyz;
 }
 
 /// Radiance of an interpolated map, as Mitsuba's `envmap` reads it: columns have their centres at (i +
 /// 0.5)/width and go around, and rows lie at i/(height − 1), the first and the last at the poles.
-inline float3 interpolated_radiance(const SceneView* scene, float3 direction) {
-    const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
+inline float3 interpolated_radiance(const SceneView* scene, float2 place) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
-    const float u = atan2(d.x, -d.z) * (0.5f / M_PI_F);
-    const float x = (u - floor(u)) * (float)width + (float)width - 0.5f;
-    const float y = acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F * (float)(height - 1);
+    const float x = place.x * (float)width + (float)width - 0.5f;
+    const float y = place.y * (float)(height - 1);
     const uint column = (uint)x;
     const uint row = min((uint)y, height > 1 ? height - 2 : 0);
     const uint left = column % width;
     const uint right = (column + 1) % width;
     const uint below = min(row + 1, height - 1);
     const float fx = x - (float)column;
-    return mix(mix(map_pixel(scene, left, row), map_pixel(scene, right, row), fx),
-               mix(map_pixel(scene, left, below), map_pixel(scene, right, below), fx), y - (float)row);
+    return mix(mix(pixel_radiance(scene, left, row), pixel_radiance(scene, right, row), fx),
+               mix(pixel_radiance(scene, left, below), pixel_radiance(scene, right, below), fx),
+               y - (float)row);
 }
 
-/// Radiance of the map alone, without a sun.
-inline float3 map_radiance(const SceneView* scene, float3 direction) {
-    if (scene->environment->width == 0) {
-        return (float3)(0.0f);
-    }
+inline bool has_map(const SceneView* scene) {
+    return scene->environment->width > 0;
+}
+
+/// Radiance of the map alone, without a sun. There must be a map.
+inline float3 map_radiance(const SceneView* scene, float2 place) {
     if (scene->environment->interpolated) {
-        return interpolated_radiance(scene, direction);
+        return interpolated_radiance(scene, place);
     }
-    const uint2 pixel = environment_pixel(scene, direction);
-    return map_pixel(scene, pixel.x, pixel.y);
+    const uint2 pixel = pixel_at(scene, place);
+    return pixel_radiance(scene, pixel.x, pixel.y);
 }
 
 /// Whether a unit direction meets the sun. The chord tells small angles apart, which a cosine does not.
@@ -83,53 +86,117 @@ inline float3 sample_sun(const SceneView* scene, float2 u) {
                           load3(scene->environment->sun_direction));
 }
 
+/// What the sun adds to the map's radiance.
+inline float3 sun_radiance(const SceneView* scene, float3 direction) {
+    return meets_sun(scene, direction) ? load3(scene->environment->sun_radiance) : (float3)(0.0f);
+}
+
 inline float3 environment_radiance(const SceneView* scene, float3 direction) {
-    const float3 map = map_radiance(scene, direction);
-    return meets_sun(scene, direction) ? map + load3(scene->environment->sun_radiance) : map;
+    const float3 map = has_map(scene) ? map_radiance(scene, map_place(scene, direction)) : (float3)(0.0f);
+    return map + sun_radiance(scene, direction);
 }
 
-/// Density (per steradian) with which sample_environment() chooses directions inside a pixel. The cosine of
-/// the polar angle is uniform inside a pixel, so the density is constant there.
-inline float environment_pixel_pdf(const SceneView* scene, uint2 pixel) {
-    const uint width = scene->environment->width;
-    const uint height = scene->environment->height;
-    const global float* row = scene->column_cdf + pixel.y * width;
-    const float p_row = scene->row_cdf[pixel.y] - (pixel.y == 0 ? 0.0f : scene->row_cdf[pixel.y - 1]);
-    const float p_column = row[pixel.x] - (pixel.x == 0 ? 0.0f : row[pixel.x - 1]);
-    const float top = cos(M_PI_F * (float)pixel.y / (float)height);
-    const float bottom = cos(M_PI_F * (float)(pixel.y + 1) / (float)height);
-    return p_row * p_column * (float)width / (2.0f * M_PI_F * fmax(top - bottom, 1e-12f));
+/// A part of the map that the tables choose as a whole: a block of pixels, or one pixel of a block in which
+/// radiance varies. The density of directions is constant inside.
+typedef struct MapRegion {
+    uint2 first, end;  // columns and rows [first, end)
+    float probability;
+} MapRegion;
+
+inline MapRegion block_of_map(const SceneView* scene, uint2 block) {
+    const uint size = scene->environment->block_size;
+    MapRegion region;
+    region.first = block * size;
+    region.end = (uint2)(min(region.first.x + size, scene->environment->width),
+                         min(region.first.y + size, scene->environment->height));
+    region.probability = 0.0f;
+    return region;
 }
 
-/// Density with which sample_environment() chooses a direction; 0 without an environment.
-inline float map_pdf(const SceneView* scene, float3 direction) {
-    return scene->environment->width == 0 ? 0.0f
-                                          : environment_pixel_pdf(scene, environment_pixel(scene, direction));
+/// Per steradian. The cosine of the polar angle and the azimuth are uniform inside a region.
+inline float region_pdf(const SceneView* scene, const MapRegion* region) {
+    const float zone = scene->row_cosines[region->first.y] - scene->row_cosines[region->end.y];
+    const float turn =
+        (float)(region->end.x - region->first.x) / (float)scene->environment->width * 2.0f * M_PI_F;
+    return region->probability / (turn * fmax(zone, 1e-12f));
 }
 
-/// A world direction, chosen by the tables. `pdf` gets its density (per steradian), and `radiance` what the
-/// map sends from there.
-inline float3 sample_environment(const SceneView* scene, float2 u, float* pdf, float3* radiance) {
-    const uint width = scene->environment->width;
-    const uint height = scene->environment->height;
-    uint2 pixel;
-    pixel.y = search_cdf(scene->row_cdf, height, u.y);
-    const global float* row = scene->column_cdf + pixel.y * width;
-    pixel.x = search_cdf(row, width, u.x);
-    const float row_low = pixel.y == 0 ? 0.0f : scene->row_cdf[pixel.y - 1];
-    const float column_low = pixel.x == 0 ? 0.0f : row[pixel.x - 1];
-    const float fy = clamp((u.y - row_low) / fmax(scene->row_cdf[pixel.y] - row_low, 1e-20f), 0.0f, 1.0f);
-    const float fx = clamp((u.x - column_low) / fmax(row[pixel.x] - column_low, 1e-20f), 0.0f, 1.0f);
-    const float top = cos(M_PI_F * (float)pixel.y / (float)height);
-    const float bottom = cos(M_PI_F * (float)(pixel.y + 1) / (float)height);
-    const float cosine = mix(top, bottom, fy);
+/// The region that holds a pixel.
+inline MapRegion region_of_pixel(const SceneView* scene, uint2 pixel) {
+    const uint2 block = pixel / scene->environment->block_size;
+    const uint columns = scene->environment->block_columns;
+    MapRegion region = block_of_map(scene, block);
+    region.probability =
+        step_of_cdf(scene->row_cdf, block.y) * step_of_cdf(scene->column_cdf + block.y * columns, block.x);
+    const uint detail = scene->block_details[block.y * columns + block.x];
+    if (detail != NEARLIGHT_NO_DETAIL) {
+        const uint2 size = region.end - region.first;
+        const uint2 place = pixel - region.first;
+        const global float* rows = scene->detail_cdf + detail;
+        region.probability *=
+            step_of_cdf(rows, place.y) * step_of_cdf(rows + size.y + place.y * size.x, place.x);
+        region.first = pixel;
+        region.end = pixel + 1;
+    }
+    return region;
+}
+
+/// The region that u selects, and u's place inside of it.
+inline MapRegion choose_region(const SceneView* scene, float2* u) {
+    const uint columns = scene->environment->block_columns;
+    const CdfStep row = choose_step(scene->row_cdf, scene->environment->block_rows, u->y);
+    const CdfStep column = choose_step(scene->column_cdf + row.index * columns, columns, u->x);
+    MapRegion region = block_of_map(scene, (uint2)(column.index, row.index));
+    region.probability = row.probability * column.probability;
+    *u = (float2)(column.within, row.within);
+    const uint detail = scene->block_details[row.index * columns + column.index];
+    if (detail != NEARLIGHT_NO_DETAIL) {
+        const uint2 size = region.end - region.first;
+        const global float* rows = scene->detail_cdf + detail;
+        const CdfStep y = choose_step(rows, size.y, u->y);
+        const CdfStep x = choose_step(rows + size.y + y.index * size.x, size.x, u->x);
+        region.probability *= y.probability * x.probability;
+        region.first += (uint2)(x.index, y.index);
+        region.end = region.first + 1;
+        *u = (float2)(x.within, y.within);
+    }
+    return region;
+}
+
+/// A direction towards the map.
+typedef struct MapSample {
+    float3 direction;  // in the world
+    float2 place;      // where it looks, as map_place() has it
+    float pdf;         // with which sample_map() chooses the direction, per steradian; 0 without a map
+} MapSample;
+
+inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
+    MapSample sample;
+    sample.direction = direction;
+    sample.place = (float2)(0.0f);
+    sample.pdf = 0.0f;
+    if (has_map(scene)) {
+        sample.place = map_place(scene, direction);
+        const MapRegion region = region_of_pixel(scene, pixel_at(scene, sample.place));
+        sample.pdf = region_pdf(scene, &region);
+    }
+    return sample;
+}
+
+/// A direction that the tables choose. There must be a map.
+inline MapSample sample_map(const SceneView* scene, float2 u) {
+    const MapRegion region = choose_region(scene, &u);
+    const float cosine = mix(scene->row_cosines[region.first.y], scene->row_cosines[region.end.y], u.y);
     const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));
-    const float phi = 2.0f * M_PI_F * ((float)pixel.x + fx) / (float)width;
-    *pdf = environment_pixel_pdf(scene, pixel);
-    const float3 direction = rotate_to_world(scene->environment->world_to_local,
-                                             (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
-    *radiance = map_radiance(scene, direction);
-    return direction;
+    const float turn =
+        mix((float)region.first.x, (float)region.end.x, u.x) / (float)scene->environment->width;
+    const float phi = 2.0f * M_PI_F * turn;
+    MapSample sample;
+    sample.direction = rotate_to_world(scene->environment->world_to_local,
+                                       (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
+    sample.place = (float2)(turn, acos(cosine) / M_PI_F);
+    sample.pdf = region_pdf(scene, &region);
+    return sample;
 }
 
 #endif

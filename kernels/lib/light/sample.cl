@@ -13,25 +13,49 @@
 #include "lib/light/triangle.cl"
 
 /// Light that arrives at x from one direction, before visibility. For delta lights `radiance` is an
-/// irradiance across the direction (intensity/r²), and pdf the probability of choosing the light.
+/// irradiance across the direction (intensity/r²), and pdf the probability of choosing the light. Radiance of
+/// the environment's map is looked up when it is known to arrive (light_radiance), because a map is large and
+/// far from the processor.
 typedef struct LightSample {
     float3 direction;  // unit, from x
     float3 target;     // end of the shadow segment, stands off its surface; undefined if infinite
-    float3 radiance;
-    float pdf;      // per steradian, with the probability of choosing the light
-    uint infinite;  // 1: the light comes from infinitely far away
+    float3 radiance;   // without that of the map
+    float pdf;         // per steradian, with the probability of choosing the light
+    uint infinite;     // 1: the light comes from infinitely far away
     uint is_delta;
+    uint on_map;   // 1: the direction looks at the map
+    float2 place;  // where on the map
 } LightSample;
 
-inline LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
+inline LightSample no_light(float3 x) {
     LightSample sample;
+    sample.direction = (float3)(0.0f, 0.0f, 1.0f);
+    sample.target = x;
+    sample.radiance = (float3)(0.0f);
+    sample.pdf = 0.0f;
+    sample.infinite = 1;
+    sample.is_delta = 0;
+    sample.on_map = 0;
+    sample.place = (float2)(0.0f);
+    return sample;
+}
+
+/// Whether the sample may bring light.
+inline bool may_shine(const LightSample* light) {
+    return light->on_map || !is_black(light->radiance);
+}
+
+inline float3 light_radiance(const SceneView* scene, const LightSample* light) {
+    return light->on_map ? light->radiance + map_radiance(scene, light->place) : light->radiance;
+}
+
+inline LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
+    LightSample sample = no_light(x);
     sample.pdf = 1.0f;
     sample.is_delta = 1;
     if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
         sample.direction = -load3(emitter->direction);
-        sample.target = x;
         sample.radiance = load3(emitter->radiance);
-        sample.infinite = 1;
         return sample;
     }
     sample.target = load3(emitter->position);
@@ -49,26 +73,13 @@ inline LightSample sample_area_light(const SceneView* scene, const global Emitte
     const TriangleSample on_light = sample_triangle(scene, emitter->triangle, x, u);
     float3 normal;
     const float3 point = triangle_point(scene, emitter->triangle, on_light.barycentrics, &normal);
-    LightSample sample;
+    LightSample sample = no_light(x);
     sample.target = offset_point(scene, point, normal);
     sample.direction = on_light.direction;
     sample.radiance = on_light.pdf > 0.0f ? triangle_radiance(scene, emitter->triangle, on_light.barycentrics)
                                           : (float3)(0.0f);
     sample.pdf = on_light.pdf;
     sample.infinite = 0;
-    sample.is_delta = 0;
-    return sample;
-}
-
-/// A sample of no use.
-inline LightSample no_light(float3 x) {
-    LightSample sample;
-    sample.direction = (float3)(0.0f, 0.0f, 1.0f);
-    sample.target = x;
-    sample.radiance = (float3)(0.0f);
-    sample.pdf = 0.0f;
-    sample.infinite = 1;
-    sample.is_delta = 0;
     return sample;
 }
 
@@ -78,25 +89,12 @@ inline bool is_distant(const global Emitter* emitter) {
     return emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN;
 }
 
-/// Light from the entry `index` of the table, with the density that it has once this light is chosen.
+/// Light from the entry `index` of the table, which is neither the map nor the sun, with the density that it
+/// has once this light is chosen.
 inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         return sample_area_light(scene, emitter, x, u);
-    }
-    if (is_distant(emitter)) {
-        LightSample sample;
-        if (emitter->type == NEARLIGHT_EMITTER_SUN) {
-            sample.direction = sample_sun(scene, u);
-            sample.radiance = load3(emitter->radiance);
-            sample.pdf = 1.0f / (2.0f * M_PI_F * scene->environment->sun_height);
-        } else {
-            sample.direction = sample_environment(scene, u, &sample.pdf, &sample.radiance);
-        }
-        sample.target = x;
-        sample.infinite = 1;
-        sample.is_delta = 0;
-        return sample;
     }
     return sample_delta(scene, emitter, x);
 }
@@ -111,16 +109,28 @@ inline bool has_sampled_lights(const SceneView* scene) {
     return scene->info->emitter_count > exact_light_count(scene);
 }
 
-/// Density with which sample_light() picks a direction in which nothing is met.
-inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction) {
+/// Density with which sample_light() picks a direction in which nothing is met. `map_density` is
+/// MapSample.pdf there.
+inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction, float map_density) {
     float pdf = 0.0f;
     for (uint index = scene->info->emitter_count; index > 0 && is_distant(scene->emitters + index - 1);
          --index) {
         const bool is_sun = scene->emitters[index - 1].type == NEARLIGHT_EMITTER_SUN;
-        pdf += choice_probability(scene, index - 1, x, n) *
-               (is_sun ? sun_pdf(scene, direction) : map_pdf(scene, direction));
+        pdf +=
+            choice_probability(scene, index - 1, x, n) * (is_sun ? sun_pdf(scene, direction) : map_density);
     }
     return pdf;
+}
+
+/// A sample of the sky: of the map, and of the sun where the direction meets it.
+inline LightSample sample_of_sky(const SceneView* scene, float3 x, float3 n, const MapSample* map) {
+    LightSample sample = no_light(x);
+    sample.direction = map->direction;
+    sample.radiance = sun_radiance(scene, map->direction);
+    sample.pdf = distant_pdf(scene, x, n, map->direction, map->pdf);
+    sample.on_map = has_map(scene);
+    sample.place = map->place;
+    return sample;
 }
 
 /// Light at x, whose surface has the normal n (zero: light counts from both sides), from one of the lights
@@ -132,12 +142,15 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
     if (index == ~0u) {
         return no_light(x);
     }
+    const global Emitter* emitter = scene->emitters + index;
+    if (is_distant(emitter)) {
+        const MapSample map = emitter->type == NEARLIGHT_EMITTER_SUN
+                                  ? map_sample_towards(scene, sample_sun(scene, u))
+                                  : sample_map(scene, u);
+        return sample_of_sky(scene, x, n, &map);
+    }
     LightSample sample = sample_emitter(scene, index, x, u);
     sample.pdf *= probability;
-    if (is_distant(scene->emitters + index)) {
-        sample.radiance = environment_radiance(scene, sample.direction);
-        sample.pdf = distant_pdf(scene, x, n, sample.direction);
-    }
     return sample;
 }
 
@@ -148,7 +161,7 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
         return 0.0f;
     }
     if (hit->t < 0.0f) {
-        return distant_pdf(scene, x, n, direction);
+        return distant_pdf(scene, x, n, direction, map_sample_towards(scene, direction).pdf);
     }
     const float cosine = -dot(hit->geometric, direction);
     if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission.value))) {
@@ -175,25 +188,21 @@ inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, floa
     if (index == ~0u) {
         return no_light(x);
     }
-    LightSample light;
-    if (scene->emitters[index].type != NEARLIGHT_EMITTER_ENVIRONMENT) {
-        light = sample_emitter(scene, index, x, u);
-    } else {
-        if (choice.y < 0.5f) {
-            light.direction = to_world_frame(square_to_cosine_hemisphere(u), n);
-            const uint2 pixel = environment_pixel(scene, light.direction);
-            light.radiance = map_radiance(scene, light.direction);
-            light.pdf = environment_pixel_pdf(scene, pixel);
-        } else {
-            light.direction = sample_environment(scene, u, &light.pdf, &light.radiance);
-        }
-        light.pdf = 0.5f * (light.pdf + fmax(0.0f, dot(n, light.direction)) * M_1_PI_F);
-        light.target = x;
-        light.infinite = 1;
-        light.is_delta = 0;
+    if (!is_distant(scene->emitters + index)) {
+        LightSample light = sample_emitter(scene, index, x, u);
+        light.pdf *= probability;
+        return light;
     }
-    light.pdf *= probability;
-    return light;
+    MapSample map;
+    if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
+        map = map_sample_towards(scene, sample_sun(scene, u));
+    } else if (choice.y < 0.5f) {
+        map = map_sample_towards(scene, to_world_frame(square_to_cosine_hemisphere(u), n));
+    } else {
+        map = sample_map(scene, u);
+    }
+    map.pdf = 0.5f * (map.pdf + fmax(0.0f, dot(n, map.direction)) * M_1_PI_F);
+    return sample_of_sky(scene, x, n, &map);
 }
 
 #endif

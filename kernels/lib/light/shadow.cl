@@ -110,4 +110,10 @@ inline float3 light_transmittance(const SceneView* scene, float3 x, const LightS
                              distance * NEARLIGHT_SEGMENT_T_MAX, min(max_veils, (uint)NEARLIGHT_MAX_VEILS));
 }
 
+/// What arrives at x of a light sample's radiance, likewise.
+inline float3 arriving_radiance(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {
+    const float3 remains = light_transmittance(scene, x, light, max_veils);
+    return is_black(remains) ? remains : remains * light_radiance(scene, light);
+}
+
 #endif
