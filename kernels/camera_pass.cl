@@ -57,12 +57,6 @@ inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
     return second;
 }
 
-/// How a surface asks lights.
-typedef struct LightQuota {
-    uint samples;
-    uint max_veils;  // that a shadow ray may pass
-} LightQuota;
-
 /// The random numbers of a path at one surface.
 typedef struct SurfaceNumbers {
     float model;  // for masks and blends
@@ -90,6 +84,17 @@ inline uint light_sample_count(const CameraPath* path, float3 specular, uint max
     return max(1u, (uint)ceil((float)max_count * weight));
 }
 
+/// How many of `max_count` rays a surface sends in search of lights: highlights on what the camera sees
+/// straight or in mirrors and glass are the largest part of the noise of glossy rooms.
+inline uint light_ray_count(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface,
+                            uint max_count) {
+    const bool is_glass = surface->bsdf.model == NEARLIGHT_BSDF_DIELECTRIC;  // its two ways divide the path
+    return path->mode == BSDF_CAMERA && has_sampled_lights(scene) && !is_glass &&
+                   !is_delta_only(&surface->bsdf)
+               ? max_count
+               : 1;
+}
+
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
 /// branch 1 the reflection.
@@ -99,8 +104,11 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
     if (quota.samples == 0) {
         return WAY_END;
     }
-    path->emitted += path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, quota.samples,
-                                                            quota.max_veils, numbers->light_seed);
+    path->emitted +=
+        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota, numbers->light_seed);
+    path->emitted +=
+        looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
+                         path->sample % NEARLIGHT_SEQUENCE_RECEIVERS * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
     const float reflected = reflection_probability(surface, numbers->direction);
     if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
@@ -112,7 +120,7 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
         return WAY_END;
     }
     if (path->ray.veils == 0) {
-        path->ray.pdf /= (float)quota.samples;
+        share_lights(&path->ray, &quota);
         path->mode = path->ray.pdf > 0.0f ? BSDF_RADIANCE : path->mode;
     }
     return WAY_ON;
@@ -137,6 +145,7 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
     }
     if (quota.samples > 0) {
         quota.samples = light_sample_count(path, specular, quota.samples);
+        quota.rays = light_ray_count(scene, path, surface, quota.rays);
     }
     return follow_specular(scene, path, hit, surface, branch, quota, numbers);
 }
@@ -215,6 +224,7 @@ inline void set_receiver(const SceneView* scene, const global CloseRange* close_
 typedef struct CameraLimits {
     uint max_edges;      // from the camera to a light; 1 sees lights themselves only
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
+    uint light_rays;     // of those that the camera sees, or sees in mirrors and through glass
     float min_weight;    // the light of receivers that weigh less than this is traced at once
 } CameraLimits;
 
@@ -222,7 +232,7 @@ typedef struct CameraLimits {
 /// but it shows in the other layers.
 inline LightQuota quota_at(const CameraLimits* limits, uint step) {
     const bool is_last = step + 1 >= limits->max_edges;
-    const LightQuota quota = {is_last ? 0 : limits->light_samples,
+    const LightQuota quota = {is_last ? 0 : limits->light_samples, limits->light_rays,
                               is_last ? 0 : limits->max_edges - step - 2};
     return quota;
 }
@@ -341,7 +351,7 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, PacketOrder order, uint first_tile_row,
                         uint tile_row_count, uint first_sample, uint sequence_length, uint max_edges,
-                        uint light_samples, float min_weight, uint seed,
+                        uint light_samples, uint light_rays, float min_weight, uint seed,
                         global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -359,7 +369,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, order.branch_count, seed);
-    const CameraLimits limits = {max_edges, light_samples, min_weight};
+    const CameraLimits limits = {max_edges, light_samples, light_rays, min_weight};
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;

@@ -289,7 +289,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->default_str("on");
     command
         .add_option("--rays", settings.gather.rays_per_pixel,
-                    "Rays per pixel for what --compensate brings back")
+                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and windows in rough "
+                    "reflections")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();

@@ -30,6 +30,7 @@ CameraBand with_light(CameraBand batch, const Picture& picture) {
     batch.max_depth = picture.view.max_depth;
     batch.min_weight = picture.settings.compensate ? kMinReceiverWeight : 0.0f;
     batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
+    batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
     return batch;
 }
 

@@ -40,7 +40,7 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uin
                               packet_order(band, image_width), band.first_tile_row,
                               whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
                               band.first_sample, band.samples_per_pixel, band.max_depth, band.light_samples,
-                              band.min_weight, seed, receivers, vertices);
+                              band.light_rays, band.min_weight, seed, receivers, vertices);
 }
 
 }  // namespace nearlight::core

@@ -24,6 +24,9 @@ struct CameraBand {
     /// Samples of area lights and the environment at each surface that reflects other than by a Lambertian
     /// part; at least 1.
     uint light_samples = 1;
+    /// Rays that each of these surfaces sends in search of such lights where the camera sees it straight or
+    /// in mirrors and through glass; the first of them goes on as the path. At least 1.
+    uint light_rays = 1;
     /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
     float min_weight = 0.0f;
 };

@@ -81,7 +81,8 @@ struct GatherSettings {
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
     /// other ways than Lambertian. Without them, the picture lacks that light.
     bool compensate = true;
-    std::uint32_t rays_per_pixel = 64;  ///< rays of receivers, if `compensate` is set
+    /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections.
+    std::uint32_t rays_per_pixel = 64;
     bool indirect_only = false;         ///< the layer of direct light has emission only
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.

@@ -28,26 +28,33 @@ inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, co
     return value / (light->pdf + of_rays) * arriving_radiance(scene, origin, light, max_veils);
 }
 
+/// How a surface asks lights: by light samples, and by rays that follow the BSDF.
+typedef struct LightQuota {
+    uint samples;
+    uint rays;       // the first goes on as the path, and the others only look for lights
+    uint max_veils;  // that light may pass
+} LightQuota;
+
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
-/// from lights or through at most `max_veils` veils, as far as light samples bring it: rays that follow the
-/// BSDF bring the rest.
+/// from lights or through veils, as far as light samples bring it: rays that follow the BSDF bring the rest.
 inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                              uint parts, uint sample_count, uint max_veils, uint seed) {
+                              uint parts, const LightQuota* quota, uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
-        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, max_veils);
+        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, quota->max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
     }
+    const float path_ratio = (float)quota->rays / (float)quota->samples;
     float3 sum = (float3)(0.0f);
-    for (uint s = 0; s < sample_count; ++s) {
+    for (uint s = 0; s < quota->samples; ++s) {
         const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
                                                sample_2d(s, 1, seed));
-        sum += reflected_sample(scene, hit, surface, &light, parts, 1.0f / (float)sample_count, max_veils);
+        sum += reflected_sample(scene, hit, surface, &light, parts, path_ratio, quota->max_veils);
     }
-    return exact + sum / (float)sample_count;
+    return exact + sum / (float)quota->samples;
 }
 
 /// A ray on its way, and what multiple importance sampling must know of the point that scattered it, which
@@ -58,6 +65,7 @@ typedef struct PathRay {
     float3 scattered_at;
     float3 normal;  // where it was scattered
     float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
+    float share;    // of the light straight from where it was scattered; rays beside it bring the rest
     float passed;   // distance from scattered_at to the last veil
     uint veils;     // passed since then
 } PathRay;
@@ -67,6 +75,7 @@ inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
     ray->origin = ray->scattered_at = origin;
     ray->normal = normal;
     ray->pdf = pdf;
+    ray->share = 1.0f;
     ray->passed = 0.0f;
     ray->veils = 0;
 }
@@ -78,7 +87,7 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
     if (hit->t < 0.0f) {
         const MapSample map = map_sample_towards(scene, ray->direction);
         const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
-        return light_radiance(scene, &sky) * (shares ? ray->pdf / (ray->pdf + sky.pdf) : 1.0f);
+        return light_radiance(scene, &sky) * (shares ? ray->share * ray->pdf / (ray->pdf + sky.pdf) : 1.0f);
     }
     const float3 radiance = emitted_radiance(scene, hit, ray->direction);
     if (is_black(radiance) || !shares) {
@@ -87,7 +96,7 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
     SurfaceHit seen = *hit;
     seen.t += ray->passed;
     const float of_lights = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
-    return radiance * (ray->pdf / (ray->pdf + of_lights));
+    return radiance * (ray->share * ray->pdf / (ray->pdf + of_lights));
 }
 
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
@@ -105,6 +114,50 @@ inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* 
                   sample.is_delta ? 0.0f : sample.pdf);
     }
     return !is_black(ray->throughput);
+}
+
+/// Tells a ray that was scattered how its surface asks lights. Light in a mirror image is its own.
+inline void share_lights(PathRay* ray, const LightQuota* quota) {
+    if (ray->pdf > 0.0f) {
+        ray->pdf *= (float)quota->rays / (float)quota->samples;
+        ray->share = 1.0f / (float)quota->rays;
+    }
+}
+
+/// Light that the ray meets straight or through at most `max_veils` veils, times its throughput.
+inline float3 light_along(const SceneView* scene, PathRay ray, uint max_veils) {
+    float3 sum = (float3)(0.0f);
+    float t_min = 0.0f;
+    while (!is_black(ray.throughput)) {
+        const SurfaceHit hit = trace_between(scene, ray.scattered_at, ray.direction, t_min, INFINITY);
+        sum += ray.throughput * met_light(scene, &ray, &hit);
+        if (hit.t < 0.0f || ray.veils >= min(max_veils, (uint)NEARLIGHT_MAX_VEILS) ||
+            scene->info->veils == NEARLIGHT_VEILS_NONE) {
+            break;
+        }
+        ray.throughput *= veil_transmittance(scene, &hit, ray.direction);
+        ++ray.veils;
+        t_min = beyond_surface(scene, &hit, ray.direction);
+    }
+    return sum;
+}
+
+/// What all rays of a quota but the first find, times the throughput of the ray that arrives. `first` is the
+/// number of the first of them in the sequence of `key`.
+inline float3 looked_for_light(const SceneView* scene, const PathRay* arriving, const SurfaceHit* hit,
+                               const SurfaceBsdf* surface, uint parts, const LightQuota* quota, uint first,
+                               uint key) {
+    float3 sum = (float3)(0.0f);
+    for (uint i = 0; i + 1 < quota->rays; ++i) {
+        PathRay ray = *arriving;
+        if (scatter_ray(scene, &ray, hit, surface, parts, sample_2d(first + i, 0, key).x,
+                        sample_2d(first + i, 1, key)) &&
+            ray.pdf > 0.0f) {
+            share_lights(&ray, quota);
+            sum += light_along(scene, ray, quota->max_veils);
+        }
+    }
+    return sum;
 }
 
 #endif

@@ -12,9 +12,7 @@ namespace nearlight::core::test {
 
 struct SceneOnDevice {
     SceneOnDevice(Device& device, Scene a_scene)
-        : scene(std::move(a_scene)),
-          bvh(build_scene_bvh(scene)),
-          buffers(upload_scene(device, scene, bvh)) {}
+        : scene(std::move(a_scene)), bvh(build_scene_bvh(scene)), buffers(upload_scene(device, scene, bvh)) {}
 
     Scene scene;
     Bvh bvh;

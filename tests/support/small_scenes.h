@@ -78,6 +78,16 @@ inline void add_inward_sphere(Scene& scene, float radius, int subdivisions, uint
     }
 }
 
+inline void set_constant_sky(Scene& scene, Vec3 radiance) {
+    scene.environment = {.width = 1, .height = 1, .radiance = {radiance}, .to_world = {}};
+}
+
+inline Material coated(Scene& scene, Vec3 base, const Coat& coat) {
+    Material material = plastic_material(scene, coat);
+    material.reflectance = parameter_of(base);
+    return material;
+}
+
 inline void add_point_light(Scene& scene, Vec3 position, Vec3 intensity) {
     Emitter light{};
     light.type = NEARLIGHT_EMITTER_POINT;

@@ -75,6 +75,11 @@ inline float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, 
     return sum;
 }
 
+/// Where, along the unit direction of a ray that met a surface, one would start that leaves its other side.
+inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+    return hit->t + ray_epsilon(hit->position, scene->info->extent) / fabs(dot(hit->geometric, direction));
+}
+
 /// What remains of light on the ray from x between t_min and t_max; nothing where it meets more veils than
 /// `max_veils`.
 inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min, float t_max,
@@ -89,8 +94,7 @@ inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 directi
         if (is_black(remains)) {
             return remains;
         }
-        // Here a ray would start that left the veil's other side.
-        t_min = hit.t + ray_epsilon(hit.position, scene->info->extent) / fabs(dot(hit.geometric, direction));
+        t_min = beyond_surface(scene, &hit, direction);
     }
 }
 
