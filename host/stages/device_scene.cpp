@@ -2,6 +2,7 @@
 #include "host/stages/device_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/scene/emitters.h"
 #include "host/scene/environment_table.h"
@@ -37,24 +38,28 @@ TexturePool pool_textures(const Scene& scene) {
     return pool;
 }
 
-/// Averages what surfaces reflect or let through over the centroids of a sample of triangles. That is good
+/// Averages what surfaces reflect or let through over triangles that lie equal areas apart. That is good
 /// enough for the length of light walks, which is all that it steers.
-float estimate_mean_albedo(const Scene& scene) {
-    const std::size_t stride = std::max<std::size_t>(1, scene.triangles.size() / 65536);
-    double weighted = 0;
-    double total = 0;
-    for (std::size_t i = 0; i < scene.triangles.size(); i += stride) {
-        const Triangle& triangle = scene.triangles[i];
-        const Material& material = scene.materials[triangle.material];
+float estimate_mean_albedo(const Scene& scene, double total_area) {
+    constexpr int kSamples = 1024;
+    const double step = total_area / kSamples;
+    double passed = 0;
+    double next = 0.5 * step;
+    double sum = 0;
+    for (const Triangle& triangle : scene.triangles) {
+        passed += triangle_area(scene, triangle);
+        if (!(next < passed)) {
+            continue;
+        }
         const Vertex& a = scene.vertices[triangle.v0];
         const Vertex& b = scene.vertices[triangle.v1];
         const Vertex& c = scene.vertices[triangle.v2];
-        const double area = triangle_area(scene, triangle);
-        weighted +=
-            area * luminance(mean_reflectance(scene, material, (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
-        total += area;
+        const double count = std::floor((passed - next) / step) + 1;
+        sum += count * luminance(mean_reflectance(scene, scene.materials[triangle.material],
+                                                  (a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3));
+        next += count * step;
     }
-    return total > 0 ? static_cast<float>(weighted / total) : 0.5f;
+    return total_area > 0 ? static_cast<float>(sum / kSamples) : 0.5f;
 }
 
 /// The flags that say which sides of a material have a Lambertian part.
@@ -122,11 +127,11 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.host_info = describe(scene, emitters);
     on_device.divides_paths = std::ranges::any_of(
         scene.materials, [&](const Material& material) { return has_two_ways(scene, material); });
-    on_device.mean_albedo = estimate_mean_albedo(scene);
     on_device.total_power = emitters.total_power;
     for (const Triangle& triangle : scene.triangles) {
         on_device.total_area += triangle_area(scene, triangle);
     }
+    on_device.mean_albedo = estimate_mean_albedo(scene, on_device.total_area);
 
     const auto put = [&]<typename T>(const std::vector<T>& values) {
         return Buffer<T>(device, std::span<const T>(values));

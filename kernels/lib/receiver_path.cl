@@ -164,6 +164,11 @@ inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsd
     return way;
 }
 
+/// Whether VPLs bring all light of the Lambertian part of a first surface whose normal no map turned.
+inline bool vpls_bring_diffuse(const RayShare* share) {
+    return share->of_vpls == 1.0f && share->vpl_edges <= share->max_edges;
+}
+
 /// The first surface that a ray met, and how the ray goes on from it.
 inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
                                  const RayShare* share, float2 u, Continuation* way) {
@@ -171,7 +176,7 @@ inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, 
     float3 seen = direction;
 #pragma unroll 1
     for (uint view = 0; view < 2; ++view) {
-        surface = surface_bsdf(scene, hit, seen, BSDF_RADIANCE, u.x);
+        surface = surface_bsdf_of(scene, hit, seen, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
         if (view == 0) {
             *way = choose_continuation(scene, &surface, share, u.y);
         }

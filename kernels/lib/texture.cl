@@ -15,6 +15,9 @@ typedef struct TextureValue {
 
 /// The index of the texel that stands at place i of a row or column of n texels.
 inline int wrap_texel(int i, int n, uint wrap) {
+    if (i >= 0 && i < n) {
+        return i;  // most do, and are spared the divisions
+    }
     if (wrap == NEARLIGHT_WRAP_CLAMP) {
         return clamp(i, 0, n - 1);
     }

@@ -107,12 +107,13 @@ inline float3 bsdf_albedo(const SceneView* scene, const SurfaceBsdf* s) {
 }
 
 /// The BSDF of the point that a ray along `direction` met. `u` (uniform in [0, 1)) decides by chance at masks
-/// and blends. Where the side reflects nothing, the BSDF is diffuse and black.
-inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
-                                float u) {
+/// and blends. Where the side reflects nothing, the BSDF is diffuse and black. Where `without_diffuse` is
+/// set, D need not be known, and is black where its colour would be looked up for nothing.
+inline SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
+                                   float u, bool without_diffuse) {
     SurfaceBsdf s = bare_surface(hit, direction, mode);
     s.unscaled = scene->info->veils == NEARLIGHT_VEILS_CLEAR;
-    resolve_material(scene, hit, &s, u);
+    resolve_material(scene, hit, &s, u, without_diffuse);
     const float3 wo = world_to_frame(&s.frame, s.wo);
     const float diffuse = luminance(d_albedo(scene, &s.bsdf, wo.z));
     const float specular = luminance(s_albedo(&s.bsdf, wo));
@@ -121,6 +122,12 @@ inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, f
         s.s_share = clamp(specular / (diffuse + specular), 0.05f, 0.95f);
     }
     return s;
+}
+
+/// The BSDF of the point with all of its parts.
+inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
+                                float u) {
+    return surface_bsdf_of(scene, hit, direction, mode, u, false);
 }
 
 /// Shadowing by the bumps that a map stands for, as light sees them that has this cosine to the mesh's

@@ -329,8 +329,15 @@ inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mo
     return s;
 }
 
+/// Whether the colour `reflectance` of the model counts where D is not asked for.
+inline bool needs_reflectance(const SurfaceBsdf* s, uint model, bool without_diffuse) {
+    return !without_diffuse || s->mapped == MAPPED_TURNED || model == NEARLIGHT_BSDF_PRINCIPLED;
+}
+
 /// Resolves the material of the hit into s->bsdf and s->frame. `u` decides by chance at masks and blends.
-inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s, float u) {
+/// Without D, its colour is not looked up, and D is black, except under a map that turned the normal.
+inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s, float u,
+                             bool without_diffuse) {
     const global Material* material = scene->materials + hit->material;
     float turn = 1.0f;  // −1 where a two-sided material turned the frame over
     bool aligned = false;
@@ -343,8 +350,13 @@ inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, Surf
             s->frame.n *= turn;
             aligned = true;
         }
-        const TextureValue value = look_up(scene, &material->reflectance, hit);
-        if (material->model < NEARLIGHT_BSDF_MASK) {
+        const uint model = material->model;
+        TextureValue value;
+        value.color = (float3)(0.0f);
+        if (model >= NEARLIGHT_BSDF_MASK || needs_reflectance(s, model, without_diffuse)) {
+            value = look_up(scene, &material->reflectance, hit);
+        }
+        if (model < NEARLIGHT_BSDF_MASK) {
             look_up_bsdf(scene, hit, s, material, value.color);
             return;
         }
