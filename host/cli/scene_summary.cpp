@@ -22,6 +22,7 @@ struct LightCounts {
     std::size_t projectors = 0;
     std::size_t directional = 0;
     std::size_t triangles = 0;
+    std::size_t spheres = 0;
     float power = 0.0f;  ///< luminance of all flux, W
 };
 
@@ -31,9 +32,13 @@ LightCounts count_lights(const Scene& scene) {
         return static_cast<std::size_t>(std::count_if(table.emitters.begin(), table.emitters.end(),
                                                       [&](const Emitter& e) { return e.type == type; }));
     };
-    return {count(NEARLIGHT_EMITTER_POINT),     count(NEARLIGHT_EMITTER_SPOT),
-            count(NEARLIGHT_EMITTER_PROJECTOR), count(NEARLIGHT_EMITTER_DIRECTIONAL),
-            count(NEARLIGHT_EMITTER_TRIANGLE),  table.total_power};
+    return {count(NEARLIGHT_EMITTER_POINT),
+            count(NEARLIGHT_EMITTER_SPOT),
+            count(NEARLIGHT_EMITTER_PROJECTOR),
+            count(NEARLIGHT_EMITTER_DIRECTIONAL),
+            count(NEARLIGHT_EMITTER_TRIANGLE),
+            count(NEARLIGHT_EMITTER_SPHERE),
+            table.total_power};
 }
 
 std::uint64_t texel_count(const Scene& scene) {
@@ -135,6 +140,7 @@ Json json_lights(const Scene& scene) {
             {"projectors", lights.projectors},
             {"directional", lights.directional},
             {"triangles", lights.triangles},
+            {"spheres", lights.spheres},
             {"environment",
              environment.width > 0 ? Json::array({environment.width, environment.height}) : Json()},
             {"power", lights.power}};
@@ -301,10 +307,11 @@ std::string scene_summary_text(const Scene& scene) {
            row("materials", materials.empty() ? "none" : materials) +
            row("textures", fmt::format("{} of {} images, {} texels", scene.textures.size(),
                                        scene.images.size(), texel_count(scene))) +
-           row("lights",
-               fmt::format("{} points, {} spots, {} projectors, {} directional, {} triangles, {}; {:.6g} W",
-                           lights.points, lights.spots, lights.projectors, lights.directional,
-                           lights.triangles, text_environment(scene.environment), lights.power)) +
+           row("lights", fmt::format("{} points, {} spots, {} projectors, {} directional, {} triangles, {} "
+                                     "spheres, {}; {:.6g} W",
+                                     lights.points, lights.spots, lights.projectors, lights.directional,
+                                     lights.triangles, lights.spheres, text_environment(scene.environment),
+                                     lights.power)) +
            row("camera",
                fmt::format("{}, {}x{}, {}, at {} towards {}", kind_of(scene.camera), scene.camera.width,
                            scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),

@@ -97,8 +97,9 @@ BvhHit closest_hit(const Bvh& bvh, const RayQuery& ray) {
 }
 
 RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
-    if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
-        const ReceiverPoint point = points.on_front(scene.triangles[emitter.triangle], random);
+    if (is_area_light(emitter)) {
+        const uint offset = emitter.triangle_count > 1 ? random.next() % emitter.triangle_count : 0;
+        const ReceiverPoint point = points.on_front(scene.triangles[emitter.triangle + offset], random);
         return endless_ray(point.position, cosine_direction(point.normal, random));
     }
     return endless_ray(emitter.position, sphere_direction(random));

@@ -7,6 +7,7 @@
 
 #include "host/base/math.h"
 #include "host/reference/delta_light.h"
+#include "host/reference/seen_sphere.h"
 #include "host/reference/spherical_triangle.h"
 #include "host/reference/surface.h"
 #include "host/scene/ray_epsilon.h"
@@ -122,6 +123,21 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     return pick;
 }
 
+LightPick LightSampler::sphere_pick(const Emitter& emitter, Vec3 position, Point2 u) const {
+    const SeenSphere seen(emitter, position);
+    LightPick pick;
+    pick.can_be_met = true;
+    if (!(seen.solid_angle() > 0.0)) {
+        return pick;
+    }
+    pick.direction = seen.sample(u);
+    const Vec3 entry = seen.entry(pick.direction);
+    pick.target = stand_off(entry, normalize(entry - emitter.position), extent_);
+    pick.density = 1.0 / seen.solid_angle();
+    pick.radiance = emitter.radiance;
+    return pick;
+}
+
 LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) const {
     (void)normal;
     const auto lights = std::span(table_.emitters).subspan(sampled_first_);
@@ -152,6 +168,8 @@ LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) c
     }
     if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         pick = triangle_pick(emitter, position, random.place);
+    } else if (emitter.type == NEARLIGHT_EMITTER_SPHERE) {
+        pick = sphere_pick(emitter, position, random.place);
     } else {
         pick = exact_light(scene_, emitter, position);
     }
@@ -161,13 +179,14 @@ LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) c
 
 const Emitter* LightSampler::emitter_of_triangle(uint triangle) const {
     const auto lights = std::span(table_.emitters).subspan(table_.delta_emitter_count);
-    const auto found =
-        std::lower_bound(lights.begin(), lights.end(), triangle, [](const Emitter& emitter, uint wanted) {
-            return emitter.type == NEARLIGHT_EMITTER_TRIANGLE && emitter.triangle < wanted;
-        });
-    const bool is_found =
-        found != lights.end() && found->type == NEARLIGHT_EMITTER_TRIANGLE && found->triangle == triangle;
-    return is_found ? &*found : nullptr;
+    const auto behind = std::partition_point(lights.begin(), lights.end(), [&](const Emitter& emitter) {
+        return is_area_light(emitter) && emitter.triangle <= triangle;
+    });
+    if (behind == lights.begin()) {
+        return nullptr;
+    }
+    const Emitter& last = *(behind - 1);
+    return triangle < last.triangle + last.triangle_count ? &last : nullptr;
 }
 
 double LightSampler::distant_density(Vec3 direction) const {
@@ -196,6 +215,9 @@ double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHi
     const double light_cosine = -dot(triangle_normal(hit.triangle), direction);
     if (!(light_cosine > 0.0)) {
         return 0.0;
+    }
+    if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
+        return choice_probability(*emitter) * SeenSphere(*emitter, position).density(direction);
     }
     const SphericalTriangle seen(corners_of(hit.triangle), position);
     return choice_probability(*emitter) * (seen.solid_angle() > 0.0

@@ -62,6 +62,7 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
         case NEARLIGHT_EMITTER_SPOT:
             return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
         case NEARLIGHT_EMITTER_TRIANGLE:
+        case NEARLIGHT_EMITTER_SPHERE:
             return kPiD * emitter.area * radiance;
         case NEARLIGHT_EMITTER_DIRECTIONAL:
             return scene_disc * radiance;
@@ -75,28 +76,54 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
     }
 }
 
-/// All lights, even those without power, with probabilities that are not yet filled in.
-std::vector<Emitter> collect_emitters(const Scene& scene) {
-    std::vector<Emitter> emitters = scene.delta_emitters;
+Emitter triangle_emitter(const Scene& scene, uint triangle, Vec3 radiance) {
+    Emitter emitter{};
+    emitter.type = NEARLIGHT_EMITTER_TRIANGLE;
+    emitter.triangle = triangle;
+    emitter.triangle_count = 1;
+    emitter.radiance = radiance;
+    emitter.area = triangle_area(scene, scene.triangles[triangle]);
+    return emitter;
+}
+
+Emitter sphere_emitter(const SphereLamp& lamp, Vec3 radiance) {
+    Emitter emitter{};
+    emitter.type = NEARLIGHT_EMITTER_SPHERE;
+    emitter.position = lamp.center;
+    emitter.radius = lamp.radius;
+    emitter.outer_radius = lamp.outer_radius;
+    emitter.triangle = lamp.first_triangle;
+    emitter.triangle_count = lamp.triangle_count;
+    emitter.radiance = radiance;
+    emitter.area = 4.0f * kPi * lamp.radius * lamp.radius;
+    return emitter;
+}
+
+/// Adds the emissive triangles, and the spheres in place of theirs.
+void add_area_lights(const Scene& scene, std::vector<Emitter>& emitters) {
     // A texture counts by its mean, which only steers the choice of lights.
     std::vector<Vec3> mean_emission;
     for (const Material& material : scene.materials) {
         const bool emits = !is_zero(material.emission.value);
         mean_emission.push_back(emits ? mean_value(scene, material.emission) : Vec3{0, 0, 0});
     }
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const Triangle& triangle = scene.triangles[i];
-        const Vec3 emission = mean_emission[triangle.material];
-        if (is_zero(emission)) {
-            continue;
+    auto lamp = scene.sphere_lamps.begin();
+    for (uint i = 0; i < scene.triangles.size(); ++i) {
+        const Vec3 emission = mean_emission[scene.triangles[i].material];
+        if (lamp != scene.sphere_lamps.end() && lamp->first_triangle == i) {
+            emitters.push_back(sphere_emitter(*lamp, emission));
+            i += lamp->triangle_count - 1;
+            ++lamp;
+        } else if (!is_zero(emission)) {
+            emitters.push_back(triangle_emitter(scene, i, emission));
         }
-        Emitter emitter{};
-        emitter.type = NEARLIGHT_EMITTER_TRIANGLE;
-        emitter.triangle = static_cast<uint>(i);
-        emitter.radiance = emission;
-        emitter.area = triangle_area(scene, triangle);
-        emitters.push_back(emitter);
     }
+}
+
+/// All lights, even those without power, with probabilities that are not yet filled in.
+std::vector<Emitter> collect_emitters(const Scene& scene) {
+    std::vector<Emitter> emitters = scene.delta_emitters;
+    add_area_lights(scene, emitters);
     if (scene.environment.sun_half_angle > 0.0f) {
         Emitter emitter{};
         emitter.type = NEARLIGHT_EMITTER_SUN;
@@ -116,8 +143,12 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
 
 }  // namespace
 
+bool is_area_light(const Emitter& emitter) {
+    return emitter.type == NEARLIGHT_EMITTER_TRIANGLE || emitter.type == NEARLIGHT_EMITTER_SPHERE;
+}
+
 bool is_delta_light(const Emitter& emitter) {
-    return emitter.type != NEARLIGHT_EMITTER_TRIANGLE && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT &&
+    return !is_area_light(emitter) && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT &&
            emitter.type != NEARLIGHT_EMITTER_SUN;
 }
 

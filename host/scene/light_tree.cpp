@@ -7,6 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "host/scene/emitters.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -21,6 +23,9 @@ double light_axis_component(Vec3 v, int axis) {
 struct NormalCone {
     Vec3 axis{0, 0, 1};
     double angle = -1.0;
+    double cosine = 1.0;  ///< of the angle
+
+    static NormalCone of(Vec3 axis, double angle) { return {axis, angle, std::cos(angle)}; }
 };
 
 /// A cone that contains both.
@@ -30,19 +35,24 @@ NormalCone joined(const NormalCone& a, const NormalCone& b) {
     }
     const NormalCone& wide = a.angle > b.angle ? a : b;
     const NormalCone& narrow = a.angle > b.angle ? b : a;
-    const double between = std::acos(std::clamp(static_cast<double>(dot(a.axis, b.axis)), -1.0, 1.0));
+    const double cosine = std::clamp(static_cast<double>(dot(a.axis, b.axis)), -1.0, 1.0);
+    // Most lights are flat, and their normals mostly lie inside already, which a comparison tells.
+    if (wide.angle >= std::numbers::pi || (narrow.angle == 0.0 && cosine >= wide.cosine)) {
+        return wide;
+    }
+    const double between = std::acos(cosine);
     if (std::min(between + narrow.angle, std::numbers::pi) <= wide.angle) {
         return wide;
     }
     const double angle = 0.5 * (wide.angle + between + narrow.angle);
     const Vec3 sideways = narrow.axis - wide.axis * dot(wide.axis, narrow.axis);
     if (angle >= std::numbers::pi || !(length(sideways) > 1e-6f)) {
-        return {wide.axis, std::numbers::pi};
+        return NormalCone::of(wide.axis, std::numbers::pi);
     }
     const double turn = angle - wide.angle;
-    return {normalize(wide.axis * static_cast<float>(std::cos(turn)) +
-                      normalize(sideways) * static_cast<float>(std::sin(turn))),
-            angle};
+    return NormalCone::of(normalize(wide.axis * static_cast<float>(std::cos(turn)) +
+                                    normalize(sideways) * static_cast<float>(std::sin(turn))),
+                          angle);
 }
 
 /// What is known of a set of lights.
@@ -57,13 +67,13 @@ struct LightBounds {
         power += other.power;
     }
     /// The cost of a node with these lights: its power, the area of its box, and the solid angle into which
-    /// it may send light, weighted by the cosine of the angle beyond the cone.
+    /// it may send light, weighted by the cosine of the angle beyond the cone. With the cone's angle o and
+    /// w = min(o + π/2, π), that is 2π(1 − cos o) + π/2·(2w·sin o − cos(o − 2w) − 2o·sin o + cos o).
     [[nodiscard]] double cost() const {
-        const double o = std::max(0.0, cone.angle);
-        const double w = std::min(o + kHalfPi, std::numbers::pi);
-        const double orientation =
-            2 * std::numbers::pi * (1 - std::cos(o)) +
-            kHalfPi * (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
+        const double sine = std::sqrt(std::max(0.0, 1.0 - cone.cosine * cone.cosine));
+        const double beyond = cone.angle <= kHalfPi ? 2.0 * (kHalfPi * sine + cone.cosine)
+                                                    : 2.0 * (std::numbers::pi - cone.angle) * sine;
+        const double orientation = 2 * std::numbers::pi * (1 - cone.cosine) + kHalfPi * beyond;
         const Vec3 size = box.size();
         // A line has no area but may be split, too.
         const double area = static_cast<double>(box.half_area()) +
@@ -78,26 +88,54 @@ struct TreeLight {
     uint emitter = 0;  ///< index into the table
 };
 
+/// A light's power in the tree is π times its greatest intensity: the flux of a triangle, but a quarter of
+/// that of a sphere, which shines to all sides. So lights that are equally bright from their best side count
+/// alike.
 TreeLight make_light(const Scene& scene, const Emitter& emitter, uint index) {
-    const Triangle& triangle = scene.triangles[emitter.triangle];
     TreeLight light;
     light.emitter = index;
-    for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
-        light.bounds.box.extend(scene.vertices[vertex].position);
+    const double flux = static_cast<double>(kPi) * emitter.area * luminance(emitter.radiance);
+    if (emitter.type == NEARLIGHT_EMITTER_SPHERE) {
+        const Vec3 half_size = Vec3{1, 1, 1} * emitter.outer_radius;
+        light.bounds.box = {emitter.position - half_size, emitter.position + half_size};
+        light.bounds.cone = NormalCone::of({0, 0, 1}, std::numbers::pi);
+        light.bounds.power = 0.25 * flux;
+    } else {
+        const Triangle& triangle = scene.triangles[emitter.triangle];
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            light.bounds.box.extend(scene.vertices[vertex].position);
+        }
+        const Vec3 v0 = scene.vertices[triangle.v0].position;
+        light.bounds.cone.axis = normalize(
+            cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
+        light.bounds.cone.angle = 0.0;
+        light.bounds.power = flux;
     }
-    const Vec3 v0 = scene.vertices[triangle.v0].position;
-    light.bounds.cone.axis = normalize(
-        cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
-    light.bounds.cone.angle = 0.0;
-    light.bounds.power = static_cast<double>(kPi) * emitter.area * luminance(emitter.radiance);
     light.center = light.bounds.box.center();
     return light;
 }
 
+/// Bins of equal width along an axis, to which lights belong by their centres.
+class LightBins {
+  public:
+    LightBins(const Aabb& centers, int axis)
+        : axis_(axis),
+          low_(light_axis_component(centers.min, axis)),
+          scale_(kBins / (light_axis_component(centers.max, axis) - low_)) {}
+    [[nodiscard]] std::size_t of(const TreeLight& light) const {
+        const double place = (light_axis_component(light.center, axis_) - low_) * scale_;
+        return static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, kBins - 1));
+    }
+
+  private:
+    int axis_;
+    double low_, scale_;
+};
+
 /// Where the lights of a node are parted: those before a border between bins along an axis.
 struct LightSplit {
     int axis = -1;  ///< −1: no split was found
-    int border = 0;
+    std::size_t border = 0;
     double cost = kInfinity;
 };
 
@@ -118,12 +156,6 @@ class LightTreeBuilder {
     std::size_t part(std::size_t first, std::size_t end, const LightBounds& bounds, int depth);
     [[nodiscard]] LightSplit best_split(std::span<const TreeLight> lights, const Aabb& centers,
                                         const LightBounds& bounds) const;
-    static int bin_of(const TreeLight& light, const Aabb& centers, int axis) {
-        const double low = light_axis_component(centers.min, axis);
-        const double extent = light_axis_component(centers.max, axis) - low;
-        const double place = (light_axis_component(light.center, axis) - low) / extent;
-        return std::clamp(static_cast<int>(place * kBins), 0, kBins - 1);
-    }
 
     std::vector<TreeLight>& lights_;
     std::vector<Emitter>& emitters_;
@@ -140,8 +172,9 @@ LightSplit LightTreeBuilder::best_split(std::span<const TreeLight> lights, const
             continue;
         }
         std::array<LightBounds, kBins> bins;
+        const LightBins mapping(centers, axis);
         for (const TreeLight& light : lights) {
-            bins[static_cast<std::size_t>(bin_of(light, centers, axis))].extend(light.bounds);
+            bins[mapping.of(light)].extend(light.bounds);
         }
         // Thin boxes, which splits along short axes leave, cost more.
         const double thinness = max_component(size) / std::max(extent, 1e-20);
@@ -156,7 +189,7 @@ LightSplit LightTreeBuilder::best_split(std::span<const TreeLight> lights, const
             sum.extend(bins[i - 1]);
             const double cost = thinness * (sum.cost() + behind[i]);
             if (sum.power > 0.0 && behind[i] >= 0.0 && cost < best.cost) {
-                best = {axis, static_cast<int>(i), cost};
+                best = {axis, i, cost};
             }
         }
     }
@@ -172,13 +205,13 @@ std::size_t LightTreeBuilder::part(std::size_t first, std::size_t end, const Lig
     for (auto light = begin; light != behind; ++light) {
         centers.extend(light->center);
     }
-    // Where halves would just fit into the depth that remains, they are taken.
-    const bool must_halve = depth + std::bit_width(count - 1) >= NEARLIGHT_MAX_LIGHT_TREE_DEPTH;
+    // Two lights have only halves. Where halves would just fit into the depth that remains, they are taken.
+    const bool must_halve = count == 2 || depth + std::bit_width(count - 1) >= NEARLIGHT_MAX_LIGHT_TREE_DEPTH;
     const LightSplit split = must_halve ? LightSplit{} : best_split({begin, behind}, centers, bounds);
     if (split.axis >= 0) {
-        const auto middle = std::partition(begin, behind, [&](const TreeLight& light) {
-            return bin_of(light, centers, split.axis) < split.border;
-        });
+        const LightBins mapping(centers, split.axis);
+        const auto middle = std::partition(
+            begin, behind, [&](const TreeLight& light) { return mapping.of(light) < split.border; });
         if (middle != begin && middle != behind) {
             return static_cast<std::size_t>(middle - lights_.begin());
         }
@@ -222,7 +255,7 @@ void LightTreeBuilder::add_node(std::size_t first, std::size_t end, int depth, u
 std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters) {
     std::vector<TreeLight> lights;
     for (std::size_t i = 0; i < emitters.size(); ++i) {
-        if (emitters[i].type == NEARLIGHT_EMITTER_TRIANGLE) {
+        if (is_area_light(emitters[i])) {
             lights.push_back(make_light(scene, emitters[i], static_cast<uint>(i)));
         }
     }

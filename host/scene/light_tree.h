@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of emissive triangles, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
+// The tree of area lights, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
 // Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018].
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace nearlight::core {
 
-/// Fewer emissive triangles than this are chosen by power, which is quicker.
+/// Fewer area lights than this are chosen by power, which is quicker.
 inline constexpr std::size_t kMinTreeLights = 8;
 
-/// Builds the tree of all emissive triangles in the table of lights, and writes Emitter::tree_way of each.
+/// Builds the tree of all triangles and spheres in the table of lights, and writes Emitter::tree_way of each.
 /// The tree is empty if there are fewer than kMinTreeLights of them. Node 0 is the root, and the first child
 /// of a node stands behind it. No leaf is deeper than NEARLIGHT_MAX_LIGHT_TREE_DEPTH.
 std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters);

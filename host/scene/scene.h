@@ -39,6 +39,15 @@ struct SceneTexture {
     int image = -1;        ///< index into Scene::images, for NEARLIGHT_TEXTURE_BITMAP
 };
 
+/// A sphere of even radiance that shines outwards, for which triangles of the scene stand. It is one light.
+struct SphereLamp {
+    Vec3 center{0, 0, 0};
+    float radius = 0.0f;        ///< m
+    float outer_radius = 0.0f;  ///< all its triangles lie within this distance of the centre, m
+    uint first_triangle = 0;    ///< index into Scene::triangles
+    uint triangle_count = 0;
+};
+
 /// Light from all directions, as a latitude-longitude map; 1 × 1 pixel if it is constant. The centre of pixel
 /// (column i, row j) shines from the local direction (sin φ·sin θ, cos θ, −cos φ·sin θ) with φ = 2π·(i +
 /// 0.5)/width and θ = π·(j + 0.5)/height, as in Mitsuba's `envmap`; radiance is constant over a pixel.
@@ -90,7 +99,8 @@ struct Scene {
     std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
+    std::vector<Emitter> delta_emitters;   ///< probabilities are filled in later
+    std::vector<SphereLamp> sphere_lamps;  ///< in the order of their triangles
     EnvironmentLight environment;
     SceneCamera camera;
     /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights

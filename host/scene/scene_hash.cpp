@@ -44,6 +44,9 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     for (const Emitter& emitter : scene.delta_emitters) {
         hasher.add(essence(emitter));
     }
+    for (const SphereLamp& lamp : scene.sphere_lamps) {
+        hasher.add(lamp);
+    }
     hasher.add(scene.environment.width);
     hasher.add(scene.environment.height);
     hasher.add_array(scene.environment.radiance);

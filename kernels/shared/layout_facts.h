@@ -41,6 +41,7 @@
     OFFSET(Emitter, radiance)                       \
     OFFSET(Emitter, cutoff_angle)                   \
     OFFSET(Emitter, image)                          \
+    OFFSET(Emitter, triangle_count)                 \
     SIZE(LightNode)                                 \
     OFFSET(LightNode, cos_spread)                   \
     OFFSET(LightNode, emitter)                      \

@@ -8,6 +8,7 @@
 
 #include "host/base/random.h"
 #include "host/scene/emitters.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -30,27 +31,34 @@ Scene many_lamps(std::size_t count, const std::function<Vec3(std::size_t)>& posi
     return scene;
 }
 
+/// Expects all triangles of the light within the node's box, and their normals within its cone.
+void expect_inside(const Scene& scene, const Emitter& emitter, const LightNode& node) {
+    for (uint i = 0; i < emitter.triangle_count; ++i) {
+        const Triangle& triangle = scene.triangles[emitter.triangle + i];
+        const Vec3 v0 = scene.vertices[triangle.v0].position;
+        const Vec3 normal = normalize(
+            cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            const Vec3 p = scene.vertices[vertex].position;
+            ASSERT_EQ(min(p, node.low), node.low);
+            ASSERT_EQ(max(p, node.high), node.high);
+        }
+        ASSERT_GE(dot(normal, node.axis), node.cos_spread - 1e-6f);
+    }
+}
+
 /// Walks down to every leaf by the way that its emitter has, and checks the bounds on the way.
 void expect_good_tree(const Scene& scene) {
     const EmitterTable table = build_emitter_table(scene);
     ASSERT_EQ(table.light_tree.size(), 2 * table.emitters.size() - 1);
     for (uint index = 0; index < table.emitters.size(); ++index) {
         const Emitter& emitter = table.emitters[index];
-        const Triangle& triangle = scene.triangles[emitter.triangle];
-        const Vec3 v0 = scene.vertices[triangle.v0].position;
-        const Vec3 normal = normalize(
-            cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
         uint way = emitter.tree_way;
         std::size_t node = 0;
         int depth = 0;
         for (;; ++depth) {
             const LightNode& at = table.light_tree[node];
-            for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
-                const Vec3 p = scene.vertices[vertex].position;
-                ASSERT_EQ(min(p, at.low), at.low);
-                ASSERT_EQ(max(p, at.high), at.high);
-            }
-            ASSERT_GE(dot(normal, at.axis), at.cos_spread - 1e-6f);
+            expect_inside(scene, emitter, at);
             if (at.second_child == 0) {
                 break;
             }
@@ -62,7 +70,12 @@ void expect_good_tree(const Scene& scene) {
         ASSERT_LE(depth, NEARLIGHT_MAX_LIGHT_TREE_DEPTH);
         ASSERT_EQ(table.light_tree[node].emitter, index);
     }
-    EXPECT_NEAR(table.light_tree[0].power, table.total_power, 1e-4f * table.total_power);
+    double power = 0;
+    for (const Emitter& emitter : table.emitters) {
+        const double part = emitter.type == NEARLIGHT_EMITTER_SPHERE ? 0.25 : 1.0;
+        power += part * emitter.probability * table.total_power;
+    }
+    EXPECT_NEAR(table.light_tree[0].power, power, 1e-4 * power);
 }
 
 TEST(LightTree, EveryLightIsFoundWithinItsBounds) {
@@ -81,6 +94,16 @@ TEST(LightTree, NoTreeIsDeeperThanAWayCanTell) {
         return Vec3{std::exp2(static_cast<float>(i) / 4.0f - 20.0f), 0, 0};
     }));
     expect_good_tree(many_lamps(5000, [](std::size_t) { return Vec3{1, 2, 3}; }));
+}
+
+/// A sphere is one leaf, however many triangles stand for it.
+TEST(LightTree, SpheresAreLeavesBesideTriangles) {
+    Scene scene = many_lamps(20, [](std::size_t i) { return Vec3{static_cast<float>(i), 0, 0}; });
+    for (int i = 0; i < 4; ++i) {
+        small_scenes::add_sphere_lamp(scene, {3.0f * static_cast<float>(i), 2, 1}, 0.3f, {3, 3, 3});
+    }
+    EXPECT_EQ(build_emitter_table(scene).emitters.size(), 24u);
+    expect_good_tree(scene);
 }
 
 TEST(LightTree, AFewLightsHaveNone) {

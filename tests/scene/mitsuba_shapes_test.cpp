@@ -239,5 +239,36 @@ TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
                          "scene.xml:3"));
 }
 
+/// A sphere of even radiance that shines outwards is one light; all others shine by their triangles.
+TEST(MitsubaShape, ShiningSpheresAreOneLightWhereTheyStayRound) {
+    const SceneFiles files;
+    const std::string lamp = "<emitter type='area'><rgb name='radiance' value='1 2 3'/></emitter>";
+    const std::string place = "<point name='center' x='1' y='2' z='3'/><float name='radius' value='0.5'/>";
+    const Scene scene =
+        files.load_xml(shape("cube") + shape("sphere", lamp + place +
+                                                           to_world("<scale value='2'/>"
+                                                                    "<rotate x='1' angle='30'/>"
+                                                                    "<translate y='1'/>")));
+    ASSERT_EQ(scene.sphere_lamps.size(), 1u);
+    const SphereLamp& found = scene.sphere_lamps[0];
+    EXPECT_FLOAT_EQ(found.radius, 1.0f);
+    EXPECT_GT(found.outer_radius, found.radius);
+    EXPECT_LT(found.outer_radius, 1.001f * found.radius);
+    EXPECT_EQ(found.first_triangle, 12u);
+    EXPECT_EQ(found.first_triangle + found.triangle_count, scene.triangles.size());
+    const double angle = std::numbers::pi / 6;
+    expect_near(found.center,
+                {2, static_cast<float>(4 * std::cos(angle) - 6 * std::sin(angle) + 1),
+                 static_cast<float>(4 * std::sin(angle) + 6 * std::cos(angle))},
+                1e-5f);
+    for (const std::string& other :
+         {shape("sphere", place), shape("cube", lamp), shape("sphere", lamp + to_world("<scale y='1.01'/>")),
+          shape("sphere", lamp + to_world("<scale x='-1'/>")),
+          shape("sphere", lamp + "<boolean name='flip_normals' value='true'/>"),
+          shape("sphere", "<emitter type='area'><texture name='radiance' type='checkerboard'/></emitter>")}) {
+        EXPECT_TRUE(files.load_xml(other).sphere_lamps.empty()) << other;
+    }
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -10,6 +10,7 @@
 
 #include "host/image/image.h"
 #include "host/scene/material_model.h"
+#include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_loader.h"
 
@@ -86,6 +87,26 @@ inline Material coated(Scene& scene, Vec3 base, const Coat& coat) {
     Material material = plastic_material(scene, coat);
     material.reflectance = parameter_of(base);
     return material;
+}
+
+/// A shining sphere, which is one light, with the triangles that stand for it.
+inline void add_sphere_lamp(Scene& scene, Vec3 center, float radius, Vec3 radiance) {
+    Material material = lambertian({0, 0, 0});
+    material.emission = parameter_of(radiance);
+    const uint index = add_material(scene, material);
+    SphereLamp lamp{.center = center, .radius = radius, .outer_radius = radius};
+    lamp.first_triangle = static_cast<uint>(scene.triangles.size());
+    const Mesh mesh = mitsuba::sphere_mesh();
+    const auto first = static_cast<uint>(scene.vertices.size());
+    for (const Vec3 position : mesh.positions) {
+        const Vec3 placed = scene.vertices[add_vertex(scene, center + position * radius)].position;
+        lamp.outer_radius = std::max(lamp.outer_radius, length(placed - center));
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        scene.triangles.push_back({first + a, first + b, first + c, index});
+    }
+    lamp.triangle_count = static_cast<uint>(mesh.triangles.size());
+    scene.sphere_lamps.push_back(lamp);
 }
 
 inline void add_point_light(Scene& scene, Vec3 position, Vec3 intensity) {

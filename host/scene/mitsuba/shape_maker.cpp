@@ -52,6 +52,38 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
+// The factor of a transform that scales alike in all directions and turns the frame as it likes; 0 for
+// others.
+double even_scale(const Mat4& m) {
+    const double volume = linear_determinant(m);
+    const double scale = std::cbrt(volume);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            const double product = m(0, i) * m(0, j) + m(1, i) * m(1, j) + m(2, i) * m(2, j);
+            if (!(std::abs(product - (i == j ? scale * scale : 0.0)) <= 1e-5 * scale * scale)) {
+                return 0.0;
+            }
+        }
+    }
+    return scale > 0.0 && std::isfinite(scale) ? scale : 0.0;
+}
+
+// The sphere that the triangles from first_triangle to the last of the scene stand for.
+SphereLamp sphere_lamp(const Scene& scene, std::size_t first_triangle, const Mat4& to_world, double radius) {
+    SphereLamp lamp;
+    lamp.center = transform_point(to_world, {0, 0, 0});
+    lamp.radius = lamp.outer_radius = static_cast<float>(radius);
+    lamp.first_triangle = static_cast<uint>(first_triangle);
+    lamp.triangle_count = static_cast<uint>(scene.triangles.size() - first_triangle);
+    for (const Triangle& triangle : std::span(scene.triangles).subspan(first_triangle)) {
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            const float distance = length(scene.vertices[vertex].position - lamp.center);
+            lamp.outer_radius = std::max(lamp.outer_radius, distance);
+        }
+    }
+    return lamp;
+}
+
 // Which of the meshes of a file the shape is.
 int shape_index(const Object& shape) {
     const double index = shape.number("shape_index", 0.0);
@@ -110,13 +142,22 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
     if (!shape.nested("medium").empty() || !shape.nested("subsurface").empty()) {
         fail(shape.where, "participating media are not supported");
     }
-    const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emission(shape));
+    const Parameter emitted = emission(shape);
+    const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
+    const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
+    const std::size_t first_triangle = scene_.triangles.size();
     append_mesh(scene_, mesh,
                 {.to_world = to_world,
                  .materials = {&material, 1},
                  .face_normals = shape.boolean("face_normals", mesh.face_normals),
-                 .flip_normals = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world)},
+                 .flip_normals = flips},
                 notes_);
+    const double radius = even_scale(to_world);
+    const bool is_even = emitted.texture < 0 && !is_zero(emitted.value);
+    const bool is_whole = scene_.triangles.size() - first_triangle == mesh.triangles.size();
+    if (shape.type == "sphere" && is_even && is_whole && !flips && radius > 0.0) {
+        scene_.sphere_lamps.push_back(sphere_lamp(scene_, first_triangle, to_world, radius));
+    }
     if (shape.has("max_smooth_angle")) {
         note(notes_, shape.where,
              "'max_smooth_angle' is ignored; normals are smooth, or flat with face_normals");

@@ -41,11 +41,16 @@ typedef struct CdfRange {
     float low, high;
 } CdfRange;
 
-/// The part of the distribution that belongs to emissive triangles.
-inline CdfRange triangle_share(const SceneView* scene) {
+/// Whether the light is a triangle or a sphere.
+inline bool is_area_light(const global Emitter* emitter) {
+    return emitter->type == NEARLIGHT_EMITTER_TRIANGLE || emitter->type == NEARLIGHT_EMITTER_SPHERE;
+}
+
+/// The part of the distribution that belongs to area lights.
+inline CdfRange area_light_share(const SceneView* scene) {
     const uint delta_count = scene->info->delta_emitter_count;
     uint end = scene->info->emitter_count;
-    while (end > delta_count && scene->emitters[end - 1].type != NEARLIGHT_EMITTER_TRIANGLE) {
+    while (end > delta_count && !is_area_light(scene->emitters + end - 1)) {
         --end;  // the environment and its sun
     }
     CdfRange share;
@@ -55,14 +60,14 @@ inline CdfRange triangle_share(const SceneView* scene) {
 }
 
 /// Chooses among the lights that are not summed exactly, for a receiver at x with the normal n (zero: light
-/// counts from all sides); there must be a light. All triangles together have the share of their power, and
+/// counts from all sides); there must be a light. All area lights together have the share of their power, and
 /// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
 /// ~0u if the choice brings nothing.
 inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
     const float low = exact_share(scene);
     const float place = low + u * (1.0f - low);
     if (scene->info->light_node_count > 0) {
-        const CdfRange share = triangle_share(scene);
+        const CdfRange share = area_light_share(scene);
         if (place >= share.low && (place < share.high || share.high >= 1.0f)) {
             const float width = share.high - share.low;
             const float within = fmin((place - share.low) / width, 0x1.fffffep-1f);
@@ -82,31 +87,34 @@ inline float choice_probability(const SceneView* scene, uint index, float3 x, fl
         return 0.0f;
     }
     const float sampled_share = 1.0f - exact_share(scene);
-    if (scene->info->light_node_count > 0 && scene->emitters[index].type == NEARLIGHT_EMITTER_TRIANGLE) {
-        const CdfRange share = triangle_share(scene);
+    if (scene->info->light_node_count > 0 && is_area_light(scene->emitters + index)) {
+        const CdfRange share = area_light_share(scene);
         return light_tree_probability(scene, index, x, n) * (share.high - share.low) / sampled_share;
     }
     return scene->emitters[index].probability / sampled_share;
 }
 
-/// The entry of a triangle in the table, or ~0u for a triangle that does not emit. Triangles lie in the table
-/// in ascending order, between the delta lights and the environment.
+/// The entry of a triangle in the table, by itself or as a part of a sphere, or ~0u for a triangle that does
+/// not emit. Area lights lie in the table by ascending triangles, between the delta lights and the
+/// environment.
 inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
-    uint low = scene->info->delta_emitter_count;
+    const uint first = scene->info->delta_emitter_count;
+    uint low = first;
     uint high = scene->info->emitter_count;
     while (low < high) {
         const uint middle = (low + high) / 2;
         const global Emitter* emitter = scene->emitters + middle;
-        if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE && emitter->triangle < triangle) {
+        if (is_area_light(emitter) && emitter->triangle <= triangle) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    const bool is_found = low < scene->info->emitter_count &&
-                          scene->emitters[low].type == NEARLIGHT_EMITTER_TRIANGLE &&
-                          scene->emitters[low].triangle == triangle;
-    return is_found ? low : ~0u;
+    if (low == first) {
+        return ~0u;
+    }
+    const global Emitter* found = scene->emitters + low - 1;
+    return triangle - found->triangle < found->triangle_count ? low - 1 : ~0u;
 }
 
 #endif

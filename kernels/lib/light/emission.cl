@@ -29,6 +29,24 @@ inline EmittedParticle emit_from_triangle(const SceneView* scene, const global E
     return particle;
 }
 
+/// A particle of a uniform point of the sphere, which starts where it leaves the last of the sphere's
+/// triangles behind.
+inline EmittedParticle emit_from_sphere(const SceneView* scene, const global Emitter* emitter,
+                                        float2 u_position, float2 u_direction) {
+    EmittedParticle particle;
+    const float3 normal = square_to_cone(u_position, -1.0f);
+    particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
+    const float radius = emitter->radius;
+    const float rise = radius * dot(normal, particle.direction);
+    const float outer = emitter->outer_radius;
+    const float way = sqrt(rise * rise + (outer - radius) * (outer + radius)) - rise;
+    const float3 from_center = radius * normal + way * particle.direction;
+    particle.origin = offset_point(scene, load3(emitter->position) + from_center, from_center / outer);
+    particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
+    particle.from_delta = 0;
+    return particle;
+}
+
 /// Where light that travels along −`from` enters the scene: a point on a disk of the scene's size that faces
 /// the light.
 inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
@@ -109,6 +127,8 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         particle = emit_from_triangle(scene, emitter, u_position, u_direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
+        particle = emit_from_sphere(scene, emitter, u_position, u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
         particle =
             emit_from_environment(scene, emitter->type == NEARLIGHT_EMITTER_SUN, u_position, u_direction);

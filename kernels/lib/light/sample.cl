@@ -10,6 +10,7 @@
 #include "lib/light/choice.cl"
 #include "lib/light/delta.cl"
 #include "lib/light/environment.cl"
+#include "lib/light/sphere.cl"
 #include "lib/light/triangle.cl"
 
 /// Light that arrives at x from one direction, before visibility. For delta lights `radiance` is an
@@ -68,8 +69,8 @@ inline LightSample sample_delta(const SceneView* scene, const global Emitter* em
     return sample;
 }
 
-inline LightSample sample_area_light(const SceneView* scene, const global Emitter* emitter, float3 x,
-                                     float2 u) {
+inline LightSample sample_triangle_light(const SceneView* scene, const global Emitter* emitter, float3 x,
+                                         float2 u) {
     const TriangleSample on_light = sample_triangle(scene, emitter->triangle, x, u);
     float3 normal;
     const float3 point = triangle_point(scene, emitter->triangle, on_light.barycentrics, &normal);
@@ -78,6 +79,18 @@ inline LightSample sample_area_light(const SceneView* scene, const global Emitte
     sample.direction = on_light.direction;
     sample.radiance = on_light.pdf > 0.0f ? triangle_radiance(scene, emitter->triangle, on_light.barycentrics)
                                           : (float3)(0.0f);
+    sample.pdf = on_light.pdf;
+    sample.infinite = 0;
+    return sample;
+}
+
+inline LightSample sample_sphere_light(const SceneView* scene, const global Emitter* emitter, float3 x,
+                                       float2 u) {
+    const SphereSample on_light = sample_sphere(emitter, x, u);
+    LightSample sample = no_light(x);
+    sample.target = offset_point(scene, on_light.point, on_light.normal);
+    sample.direction = on_light.direction;
+    sample.radiance = on_light.pdf > 0.0f ? load3(emitter->radiance) : (float3)(0.0f);
     sample.pdf = on_light.pdf;
     sample.infinite = 0;
     return sample;
@@ -94,7 +107,10 @@ inline bool is_distant(const global Emitter* emitter) {
 inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
-        return sample_area_light(scene, emitter, x, u);
+        return sample_triangle_light(scene, emitter, x, u);
+    }
+    if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
+        return sample_sphere_light(scene, emitter, x, u);
     }
     return sample_delta(scene, emitter, x);
 }
@@ -168,9 +184,14 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
         return 0.0f;
     }
     const uint index = emitter_of_triangle(scene, hit->triangle);
-    return index == ~0u ? 0.0f
-                        : choice_probability(scene, index, x, n) *
-                              triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
+    if (index == ~0u) {
+        return 0.0f;
+    }
+    const global Emitter* emitter = scene->emitters + index;
+    return choice_probability(scene, index, x, n) *
+           (emitter->type == NEARLIGHT_EMITTER_SPHERE
+                ? sphere_pdf(emitter, x, direction)
+                : triangle_pdf(scene, hit->triangle, x, hit->t, cosine));
 }
 
 inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses an emissive triangle for a receiver by walking down a tree of light bounds, at each node to the
+// Chooses an area light for a receiver by walking down a tree of light bounds, at each node to the
 // child that could bring more [Conty Estévez & Kulla, Importance Sampling of Many Lights with Adaptive Tree
 // Splitting, 2018]. host/scene/light_tree.cpp builds it.
 #ifndef NEARLIGHT_LIB_LIGHT_TREE
@@ -68,7 +68,7 @@ inline float first_child_probability(const SceneView* scene, uint node, float3 x
     return first + second > 0.0f ? first / (first + second) : -1.0f;
 }
 
-/// The index of the chosen triangle in the table of lights, or ~0u if none brings anything. `probability`
+/// The index of the chosen light in the table of lights, or ~0u if none brings anything. `probability`
 /// gets that of the choice.
 inline uint choose_in_light_tree(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
     uint node = 0;
@@ -87,7 +87,7 @@ inline uint choose_in_light_tree(const SceneView* scene, float3 x, float3 n, flo
     return scene->light_nodes[node].emitter;
 }
 
-/// The probability with which choose_in_light_tree() picks the triangle at `index` of the table.
+/// The probability with which choose_in_light_tree() picks the light at `index` of the table.
 inline float light_tree_probability(const SceneView* scene, uint index, float3 x, float3 n) {
     uint way = scene->emitters[index].tree_way;
     uint node = 0;
