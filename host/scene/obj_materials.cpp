@@ -3,7 +3,9 @@
 
 #include <tiny_obj_loader.h>
 
+#include <cmath>
 #include <istream>
+#include <map>
 
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
@@ -84,6 +86,28 @@ bool is_mirror(const tinyobj::material_t& source) {
     return source.illum == 3 || source.illum == 5;
 }
 
+// Whether the entry has the extension for physically based rendering.
+bool is_physically_based(const tinyobj::material_t& source) {
+    return source.roughness > 0 || source.metallic > 0 || !source.roughness_texname.empty() ||
+           !source.metallic_texname.empty();
+}
+
+// The illumination model 1 has no highlights, whatever Ks says.
+bool has_highlight(const tinyobj::material_t& source) {
+    return source.illum != 1 && !is_zero(clamped(to_vec3(source.specular)));
+}
+
+// The microfacets of Beckmann's distribution that are as rough as a highlight with the exponent Ns [Walter et
+// al., Microfacet Models for Refraction through Rough Surfaces, 2007].
+double alpha_of_exponent(double exponent) {
+    return std::sqrt(2.0 / (std::min(std::max(0.0, exponent), 1e6) + 2.0));
+}
+
+// The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
+double index_of(const tinyobj::material_t& source) {
+    return static_cast<double>(source.ior > 1.001f ? source.ior : 1.5f);
+}
+
 // A material library's entry, and where notes of it point.
 struct MaterialSource {
     const MaterialLibrary& library;
@@ -101,13 +125,12 @@ class ObjMaterials {
         const Parameter emission = parameter_of(max(to_vec3(source.entry.emission), {0, 0, 0}));
         if (is_glass(source.entry)) {
             approximate(source, "a transparent material is rendered as a thin pane of glass");
-            Material pane = thin_dielectric_material(
-                static_cast<double>(source.entry.ior > 1.001f ? source.entry.ior : 1.5f));
+            Material pane = thin_dielectric_material(index_of(source.entry));
             pane.emission = emission;
             scene_.materials.push_back(pane);
             return static_cast<uint>(scene_.materials.size() - 1);
         }
-        Material side = is_mirror(source.entry) ? mirror(source) : diffuse(source);
+        Material side = opaque(source);
         side.emission = emission;
         return add_mask(source, add_two_sided(scene_, side));
     }
@@ -124,10 +147,64 @@ class ObjMaterials {
             !source.entry.normal_texname.empty()) {
             approximate(source, "bump, displacement and normal maps of OBJ materials are left out");
         }
-        if (source.entry.roughness > 0 || source.entry.metallic > 0 ||
-            !source.entry.roughness_texname.empty() || !source.entry.metallic_texname.empty()) {
-            approximate(source, "roughness and metalness (Pr, Pm) of OBJ materials are left out");
+        if (source.entry.sheen > 0 || source.entry.clearcoat_thickness > 0 || source.entry.anisotropy > 0) {
+            approximate(source,
+                        "sheen, clear coat and anisotropy (Ps, Pc, aniso) of OBJ materials are left out");
         }
+        if (has_highlight(source.entry) && !source.entry.specular_highlight_texname.empty()) {
+            approximate(source, "textures of the exponent (map_Ns) of OBJ materials are left out");
+        }
+    }
+
+    Material opaque(const MaterialSource& source) {
+        if (is_physically_based(source.entry)) {
+            return principled(source);
+        }
+        if (is_mirror(source.entry)) {
+            return mirror(source);
+        }
+        return has_highlight(source.entry) ? plastic(source) : diffuse(source);
+    }
+
+    // The share `number`, times a texture if the file names one.
+    Parameter share(const MaterialSource& source, float number, const std::string& texture,
+                    const char* keyword) {
+        Parameter parameter = parameter_of(std::clamp(number, 0.0f, 1.0f));
+        if (!texture.empty()) {
+            const int image = load(source, texture, keyword, {.gamma = 1.0f, .is_number = true});
+            parameter.texture = image < 0 ? -1 : add_texture(scene_, plain_texture(image));
+            if (parameter.texture >= 0 && number <= 0.0f) {
+                parameter.value = {1, 1, 1};
+            }
+        }
+        return parameter;
+    }
+
+    Material principled(const MaterialSource& source) {
+        Material material = principled_material(scene_, index_of(source.entry));
+        material.reflectance = diffuse(source).reflectance;
+        material.roughness = share(source, source.entry.roughness, source.entry.roughness_texname, "map_Pr");
+        material.metallic = share(source, source.entry.metallic, source.entry.metallic_texname, "map_Pm");
+        return material;
+    }
+
+    // A base of Kd under a rough coat, whose reflections Ks tints.
+    Material plastic(const MaterialSource& source) {
+        const Coat coat{.eta = index_of(source.entry),
+                        .alpha = alpha_of_exponent(static_cast<double>(source.entry.shininess)),
+                        .beckmann = true};
+        const auto [known, is_new] = coats_.try_emplace(coat);
+        if (is_new) {
+            known->second = plastic_material(scene_, coat);
+        }
+        Material material = known->second;
+        material.reflectance = diffuse(source).reflectance;
+        material.specular = parameter_of(clamped(to_vec3(source.entry.specular)));
+        if (!source.entry.specular_texname.empty()) {
+            const int image = load(source, source.entry.specular_texname, "map_Ks", {});
+            material.specular.texture = image < 0 ? -1 : add_texture(scene_, plain_texture(image));
+        }
+        return material;
     }
 
     int load(const MaterialSource& source, const std::string& name, const char* keyword,
@@ -186,6 +263,7 @@ class ObjMaterials {
     Scene& scene_;
     NoteSink& notes_;
     TextureLoader textures_;
+    std::map<Coat, Material> coats_;
 };
 
 }  // namespace

@@ -149,6 +149,50 @@ TEST(Obj, MaterialsLightsAndMissingOnes) {
     EXPECT_TRUE(scene.delta_emitters.empty());
 }
 
+// The material on both sides of the only triangle, with this text as the entry of the library.
+Material only_material(const SceneFiles& files, const std::string& entry, Scene* scene = nullptr) {
+    files.write("m.mtl", "newmtl m\n" + entry);
+    const Scene loaded = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    if (scene != nullptr) {
+        *scene = loaded;
+    }
+    return loaded.materials[loaded.materials[loaded.triangles.at(0).material].child[0]];
+}
+
+TEST(Obj, HighlightsAreRoughPlastic) {
+    const SceneFiles files;
+    const Material plastic = only_material(files, "Kd 0.5 0.4 0.3\nKs 0.2 0.3 0.4\nNs 98\nNi 1.6\nillum 2\n");
+    EXPECT_EQ(plastic.model, NEARLIGHT_BSDF_PLASTIC);
+    expect_near(plastic.reflectance.value, {0.5f, 0.4f, 0.3f});
+    expect_near(plastic.specular.value, {0.2f, 0.3f, 0.4f});
+    EXPECT_NEAR(plastic.roughness.value.x, std::sqrt(2.0 / 100.0), 1e-6);
+    EXPECT_FLOAT_EQ(plastic.eta.x, 1.6f);
+    EXPECT_NE(plastic.flags & NEARLIGHT_MATERIAL_BECKMANN, 0u);
+    EXPECT_FLOAT_EQ(only_material(files, "Ks 0.5 0.5 0.5\nNs 10\nNi 1\n").eta.x, 1.5f);
+    for (const char* matt : {"Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 1\n", "Kd 1 1 1\nKs 0 0 0\nNs 50\nillum 2\n"}) {
+        EXPECT_EQ(only_material(files, matt).model, NEARLIGHT_BSDF_DIFFUSE) << matt;
+    }
+    Scene scene;
+    EXPECT_EQ(only_material(files, "Ks 1 1 1\nNs -5\nmap_Ks gone.png\nmap_Ns gone.png\n", &scene).model,
+              NEARLIGHT_BSDF_PLASTIC);
+    EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "map_Ns"));
+}
+
+TEST(Obj, RoughnessAndMetalnessArePrincipled) {
+    const SceneFiles files;
+    const Material metal =
+        only_material(files, "Kd 0.9 0.6 0.2\nKs 0.5 0.5 0.5\nNs 30\nPr 0.3\nPm 1\nillum 3\n");
+    EXPECT_EQ(metal.model, NEARLIGHT_BSDF_PRINCIPLED);
+    expect_near(metal.reflectance.value, {0.9f, 0.6f, 0.2f});
+    EXPECT_FLOAT_EQ(metal.roughness.value.x, 0.3f);
+    EXPECT_FLOAT_EQ(metal.metallic.value.x, 1.0f);
+    EXPECT_FLOAT_EQ(only_material(files, "Kd 1 1 1\nPr 7\n").roughness.value.x, 1.0f);
+    Scene scene;
+    only_material(files, "Kd 1 1 1\nPm 0.5\nPs 0.3\nPc 0.2\n", &scene);
+    EXPECT_TRUE(has_note(scene, "m.mtl:1: sheen, clear coat"));
+}
+
 TEST(Obj, GetsACameraThatSeesEverythingAndALight) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v -3 0 -1\nv 5 0 2\nv 0 4 0\nf 1 2 3\n");
