@@ -142,6 +142,25 @@ TEST(SurfaceBsdf, ANormalMapTurnsTheNormal) {
     expect_color(mapped.seen_from(normalize(Vec3d{-0.9, 0, 0.2})).normal(), {-0.6, 0, 0.8}, 1e-6);
 }
 
+/// As in Mitsuba, what passes a hole of a mask under a map is shadowed by the map like all else.
+TEST(SurfaceBsdf, AMapShadowsTheHolesOfAMask) {
+    constexpr Vec3 kTilted{0.6f, 0, 0.8f};
+    const BsdfCase mapped = wrapped([&](Scene& scene) {
+        const uint child = add_material(scene, lambertian(kRed));
+        const uint mask = add_material(scene, mask_material(parameter_of(0.0f), child));
+        return add_material(scene,
+                            normal_map_material(parameter_of(kTilted * 0.5f + Vec3{1, 1, 1} * 0.5f), mask));
+    });
+    const Vec3d wo = towards(std::sqrt(0.5));
+    const SurfaceDraw draw = mapped.seen_from(wo).sample(0.5, {0.1, 0.2, 0.3});
+    EXPECT_TRUE(draw.is_delta);
+    EXPECT_FALSE(draw.is_straight);
+    expect_color(draw.wi, -wo);
+    // At 45° the shadowing is 2/(1 + √(1 + α²)), α² = tan²/8 of the map's angle.
+    const double shadowing = 2 / (1 + std::sqrt(1 + 0.125 * 0.36 / 0.64));
+    expect_color(draw.weight, {shadowing, shadowing, shadowing}, 1e-6);
+}
+
 TEST(SurfaceBsdf, ABumpMapTiltsByItsSlope) {
     // Between the centres of its two texels, 0.5 apart, the height rises by 51/255 · 2 m along u.
     const BsdfCase bumped = wrapped([](Scene& scene) {

@@ -195,7 +195,7 @@ SurfaceDraw SurfaceBsdf::sample_specular(BsdfRandom random) const {
     }
     static_cast<BsdfDraw&>(draw) = specular_->sample(parameters_, wo_, random);
     draw.wi = frame_.to_world(draw.wi);
-    const double shadowing = parameters_.model == NEARLIGHT_BSDF_NULL ? 1 : map_shadowing(draw.wi);
+    const double shadowing = map_shadowing(draw.wi);
     draw.weight *= shadowing * radiance_scale(draw.eta);
     draw.pdf = shadowing > 0 ? draw.pdf : 0;
     draw.is_straight = draw.is_straight && turn_count_ == 0;  // maps block shadow rays

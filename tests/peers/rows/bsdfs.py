@@ -150,6 +150,8 @@ def _mixed():
         'bumpmap': (bump(red, scale=2.0), 'furnace area mesh'),
         'bumpmap-plastic': (bump(bsdf('roughplastic', alpha=0.2), scale=1.0), 'point'),
         'bumpmap-metal': (bump(metal, scale=1.0), 'sky'),
+        'bumpmap-mask': (bump(bsdf('mask', red, opacity=0.4), scale=2.0), 'area sheet'),
+        'mask-bumpmap': (bsdf('mask', bump(red, scale=2.0), opacity=0.4), 'area sheet'),
         'normalmap': (normal(red), 'furnace point area mesh'),
         'normalmap-plastic': (normal(bsdf('plastic')), 'area'),
         'normalmap-metal': (normal(metal), 'sky'),
