@@ -23,6 +23,7 @@ struct LightCounts {
     std::size_t directional = 0;
     std::size_t triangles = 0;
     std::size_t spheres = 0;
+    std::size_t cylinders = 0;
     float power = 0.0f;  ///< luminance of all flux, W
 };
 
@@ -32,13 +33,10 @@ LightCounts count_lights(const Scene& scene) {
         return static_cast<std::size_t>(std::count_if(table.emitters.begin(), table.emitters.end(),
                                                       [&](const Emitter& e) { return e.type == type; }));
     };
-    return {count(NEARLIGHT_EMITTER_POINT),
-            count(NEARLIGHT_EMITTER_SPOT),
-            count(NEARLIGHT_EMITTER_PROJECTOR),
-            count(NEARLIGHT_EMITTER_DIRECTIONAL),
-            count(NEARLIGHT_EMITTER_TRIANGLE),
-            count(NEARLIGHT_EMITTER_SPHERE),
-            table.total_power};
+    return {count(NEARLIGHT_EMITTER_POINT),     count(NEARLIGHT_EMITTER_SPOT),
+            count(NEARLIGHT_EMITTER_PROJECTOR), count(NEARLIGHT_EMITTER_DIRECTIONAL),
+            count(NEARLIGHT_EMITTER_TRIANGLE),  count(NEARLIGHT_EMITTER_SPHERE),
+            count(NEARLIGHT_EMITTER_CYLINDER),  table.total_power};
 }
 
 std::uint64_t texel_count(const Scene& scene) {
@@ -141,6 +139,7 @@ Json json_lights(const Scene& scene) {
             {"directional", lights.directional},
             {"triangles", lights.triangles},
             {"spheres", lights.spheres},
+            {"cylinders", lights.cylinders},
             {"environment",
              environment.width > 0 ? Json::array({environment.width, environment.height}) : Json()},
             {"power", lights.power}};
@@ -308,10 +307,10 @@ std::string scene_summary_text(const Scene& scene) {
            row("textures", fmt::format("{} of {} images, {} texels", scene.textures.size(),
                                        scene.images.size(), texel_count(scene))) +
            row("lights", fmt::format("{} points, {} spots, {} projectors, {} directional, {} triangles, {} "
-                                     "spheres, {}; {:.6g} W",
+                                     "spheres, {} cylinders, {}; {:.6g} W",
                                      lights.points, lights.spots, lights.projectors, lights.directional,
-                                     lights.triangles, lights.spheres, text_environment(scene.environment),
-                                     lights.power)) +
+                                     lights.triangles, lights.spheres, lights.cylinders,
+                                     text_environment(scene.environment), lights.power)) +
            row("camera",
                fmt::format("{}, {}x{}, {}, at {} towards {}", kind_of(scene.camera), scene.camera.width,
                            scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),

@@ -7,6 +7,7 @@
 
 #include "host/base/math.h"
 #include "host/reference/delta_light.h"
+#include "host/reference/seen_cylinder.h"
 #include "host/reference/seen_sphere.h"
 #include "host/reference/spherical_triangle.h"
 #include "host/reference/surface.h"
@@ -32,6 +33,24 @@ Point2 weights_at(const std::array<Vec3, 3>& corners, Vec3 point) {
     const float weight1 = dot(cross(point - corners[0], edge2), normal) * scale;
     const float weight2 = dot(cross(edge1, point - corners[0]), normal) * scale;
     return {std::clamp(weight1, 0.0f, 1.0f), std::clamp(weight2, 0.0f, 1.0f)};
+}
+
+/// A sample of a sphere or cylinder, as it is seen.
+template <typename Seen>
+LightPick round_pick(const Emitter& emitter, const Seen& seen, Point2 u, float extent) {
+    LightPick pick;
+    pick.can_be_met = true;
+    if (!seen.is_seen()) {
+        return pick;
+    }
+    pick.direction = seen.sample(u);
+    const Vec3 entry = seen.entry(pick.direction);
+    pick.target = stand_off(entry, seen.outwards(entry), extent);
+    pick.density = seen.density(pick.direction);
+    if (pick.density > 0.0) {
+        pick.radiance = emitter.radiance;
+    }
+    return pick;
 }
 
 }  // namespace
@@ -123,21 +142,6 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     return pick;
 }
 
-LightPick LightSampler::sphere_pick(const Emitter& emitter, Vec3 position, Point2 u) const {
-    const SeenSphere seen(emitter, position);
-    LightPick pick;
-    pick.can_be_met = true;
-    if (!(seen.solid_angle() > 0.0)) {
-        return pick;
-    }
-    pick.direction = seen.sample(u);
-    const Vec3 entry = seen.entry(pick.direction);
-    pick.target = stand_off(entry, normalize(entry - emitter.position), extent_);
-    pick.density = 1.0 / seen.solid_angle();
-    pick.radiance = emitter.radiance;
-    return pick;
-}
-
 LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) const {
     (void)normal;
     const auto lights = std::span(table_.emitters).subspan(sampled_first_);
@@ -169,7 +173,9 @@ LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) c
     if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         pick = triangle_pick(emitter, position, random.place);
     } else if (emitter.type == NEARLIGHT_EMITTER_SPHERE) {
-        pick = sphere_pick(emitter, position, random.place);
+        pick = round_pick(emitter, SeenSphere(emitter, position), random.place, extent_);
+    } else if (emitter.type == NEARLIGHT_EMITTER_CYLINDER) {
+        pick = round_pick(emitter, SeenCylinder(emitter, position), random.place, extent_);
     } else {
         pick = exact_light(scene_, emitter, position);
     }
@@ -218,6 +224,9 @@ double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHi
     }
     if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
         return choice_probability(*emitter) * SeenSphere(*emitter, position).density(direction);
+    }
+    if (emitter->type == NEARLIGHT_EMITTER_CYLINDER) {
+        return choice_probability(*emitter) * SeenCylinder(*emitter, position).density(direction);
     }
     const SphericalTriangle seen(corners_of(hit.triangle), position);
     return choice_probability(*emitter) * (seen.solid_angle() > 0.0

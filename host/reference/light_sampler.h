@@ -75,7 +75,6 @@ class LightSampler {
 
   private:
     [[nodiscard]] LightPick triangle_pick(const Emitter& emitter, Vec3 position, Point2 u) const;
-    [[nodiscard]] LightPick sphere_pick(const Emitter& emitter, Vec3 position, Point2 u) const;
     [[nodiscard]] std::array<Vec3, 3> corners_of(uint triangle) const;
     [[nodiscard]] Vec3 triangle_normal(uint triangle) const;
     [[nodiscard]] const Emitter* emitter_of_triangle(uint triangle) const;

@@ -11,6 +11,8 @@ class SeenSphere {
     /// The light, a sphere of the table of lights, seen from `position`.
     SeenSphere(const Emitter& light, Vec3 position);
 
+    /// Whether the position lies outside.
+    [[nodiscard]] bool is_seen() const { return sine_ > 0.0; }
     /// Steradians; 0 where the position lies no farther from the centre than the sphere's triangles do.
     [[nodiscard]] double solid_angle() const;
     /// A unit vector, uniform over the solid angle, which must be greater than 0.
@@ -20,6 +22,8 @@ class SeenSphere {
     /// The first point in a direction of sample() that is as near to the centre as the sphere's triangles
     /// are.
     [[nodiscard]] Vec3 entry(Vec3 direction) const;
+    /// The unit vector from the centre to a point.
+    [[nodiscard]] Vec3 outwards(Vec3 point) const { return normalize(point - (position_ + to_center_)); }
 
   private:
     Vec3 position_, to_center_;

@@ -63,6 +63,7 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
             return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
         case NEARLIGHT_EMITTER_TRIANGLE:
         case NEARLIGHT_EMITTER_SPHERE:
+        case NEARLIGHT_EMITTER_CYLINDER:
             return kPiD * emitter.area * radiance;
         case NEARLIGHT_EMITTER_DIRECTIONAL:
             return scene_disc * radiance;
@@ -86,20 +87,23 @@ Emitter triangle_emitter(const Scene& scene, uint triangle, Vec3 radiance) {
     return emitter;
 }
 
-Emitter sphere_emitter(const SphereLamp& lamp, Vec3 radiance) {
+Emitter round_emitter(const RoundLamp& lamp, Vec3 radiance) {
     Emitter emitter{};
-    emitter.type = NEARLIGHT_EMITTER_SPHERE;
+    const bool is_sphere = is_zero(lamp.axis);
+    emitter.type = is_sphere ? NEARLIGHT_EMITTER_SPHERE : NEARLIGHT_EMITTER_CYLINDER;
     emitter.position = lamp.center;
+    emitter.direction = normalize(lamp.axis);
+    emitter.length = length(lamp.axis);
     emitter.radius = lamp.radius;
     emitter.outer_radius = lamp.outer_radius;
     emitter.triangle = lamp.first_triangle;
     emitter.triangle_count = lamp.triangle_count;
     emitter.radiance = radiance;
-    emitter.area = 4.0f * kPi * lamp.radius * lamp.radius;
+    emitter.area = 2.0f * kPi * lamp.radius * (is_sphere ? 2.0f * lamp.radius : emitter.length);
     return emitter;
 }
 
-/// Adds the emissive triangles, and the spheres in place of theirs.
+/// Adds the emissive triangles, and the spheres and cylinders in place of theirs.
 void add_area_lights(const Scene& scene, std::vector<Emitter>& emitters) {
     // A texture counts by its mean, which only steers the choice of lights.
     std::vector<Vec3> mean_emission;
@@ -107,11 +111,11 @@ void add_area_lights(const Scene& scene, std::vector<Emitter>& emitters) {
         const bool emits = !is_zero(material.emission.value);
         mean_emission.push_back(emits ? mean_value(scene, material.emission) : Vec3{0, 0, 0});
     }
-    auto lamp = scene.sphere_lamps.begin();
+    auto lamp = scene.round_lamps.begin();
     for (uint i = 0; i < scene.triangles.size(); ++i) {
         const Vec3 emission = mean_emission[scene.triangles[i].material];
-        if (lamp != scene.sphere_lamps.end() && lamp->first_triangle == i) {
-            emitters.push_back(sphere_emitter(*lamp, emission));
+        if (lamp != scene.round_lamps.end() && lamp->first_triangle == i) {
+            emitters.push_back(round_emitter(*lamp, emission));
             i += lamp->triangle_count - 1;
             ++lamp;
         } else if (!is_zero(emission)) {
@@ -144,7 +148,8 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
 }  // namespace
 
 bool is_area_light(const Emitter& emitter) {
-    return emitter.type == NEARLIGHT_EMITTER_TRIANGLE || emitter.type == NEARLIGHT_EMITTER_SPHERE;
+    return emitter.type == NEARLIGHT_EMITTER_TRIANGLE || emitter.type == NEARLIGHT_EMITTER_SPHERE ||
+           emitter.type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
 bool is_delta_light(const Emitter& emitter) {

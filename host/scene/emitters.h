@@ -8,7 +8,7 @@
 
 namespace nearlight::core {
 
-/// Whether the light is a triangle or a sphere.
+/// Whether the light is a triangle, sphere or cylinder.
 bool is_area_light(const Emitter& emitter);
 /// Whether the light shines from a single point or in a single direction, so that no path can hit it.
 bool is_delta_light(const Emitter& emitter);
@@ -21,7 +21,7 @@ struct EmitterTable {
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };
 /// Makes the table of all lights. Probabilities are in proportion to the luminance of emitted power:
-/// π·area·radiance of a triangle or sphere, 4π·intensity of a point, the intensity of a spot integrated over
+/// π·area·radiance of an area light, 4π·intensity of a point, the intensity of a spot integrated over
 /// its falloff, that of a projector over its image, and all light of the environment or of a directional
 /// light that enters the sphere around the scene, πR²·∫ L dω and πR²·E. Images count by their mean. Lights
 /// without power are left out; the table is empty if nothing emits. `probability` is exactly the step of

@@ -88,18 +88,21 @@ struct TreeLight {
     uint emitter = 0;  ///< index into the table
 };
 
-/// A light's power in the tree is π times its greatest intensity: the flux of a triangle, but a quarter of
-/// that of a sphere, which shines to all sides. So lights that are equally bright from their best side count
-/// alike.
+/// A light's power in the tree is π times its greatest intensity, which is the flux of a triangle, but a
+/// quarter of that of a sphere and 1/π of that of a cylinder, which shine to all sides. So lights that are
+/// equally bright from their best side count alike.
 TreeLight make_light(const Scene& scene, const Emitter& emitter, uint index) {
     TreeLight light;
     light.emitter = index;
     const double flux = static_cast<double>(kPi) * emitter.area * luminance(emitter.radiance);
-    if (emitter.type == NEARLIGHT_EMITTER_SPHERE) {
+    if (emitter.type != NEARLIGHT_EMITTER_TRIANGLE) {
         const Vec3 half_size = Vec3{1, 1, 1} * emitter.outer_radius;
-        light.bounds.box = {emitter.position - half_size, emitter.position + half_size};
+        for (const Vec3 end : {emitter.position, emitter.position + emitter.direction * emitter.length}) {
+            light.bounds.box.extend(end - half_size);
+            light.bounds.box.extend(end + half_size);
+        }
         light.bounds.cone = NormalCone::of({0, 0, 1}, std::numbers::pi);
-        light.bounds.power = 0.25 * flux;
+        light.bounds.power = flux * (emitter.type == NEARLIGHT_EMITTER_SPHERE ? 0.25 : 1 / std::numbers::pi);
     } else {
         const Triangle& triangle = scene.triangles[emitter.triangle];
         for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {

@@ -39,11 +39,13 @@ struct SceneTexture {
     int image = -1;        ///< index into Scene::images, for NEARLIGHT_TEXTURE_BITMAP
 };
 
-/// A sphere of even radiance that shines outwards, for which triangles of the scene stand. It is one light.
-struct SphereLamp {
-    Vec3 center{0, 0, 0};
+/// A sphere or open cylinder of even radiance that shines outwards, for which triangles of the scene stand.
+/// It is one light.
+struct RoundLamp {
+    Vec3 center{0, 0, 0};       ///< of the sphere, or of one end of the cylinder
+    Vec3 axis{0, 0, 0};         ///< of the cylinder, from that end to the other; zero for a sphere
     float radius = 0.0f;        ///< m
-    float outer_radius = 0.0f;  ///< all its triangles lie within this distance of the centre, m
+    float outer_radius = 0.0f;  ///< all its triangles lie within this distance of the centre or axis, m
     uint first_triangle = 0;    ///< index into Scene::triangles
     uint triangle_count = 0;
 };
@@ -99,8 +101,8 @@ struct Scene {
     std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;
     std::vector<TextureImage> images;
-    std::vector<Emitter> delta_emitters;   ///< probabilities are filled in later
-    std::vector<SphereLamp> sphere_lamps;  ///< in the order of their triangles
+    std::vector<Emitter> delta_emitters;  ///< probabilities are filled in later
+    std::vector<RoundLamp> round_lamps;   ///< in the order of their triangles
     EnvironmentLight environment;
     SceneCamera camera;
     /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights

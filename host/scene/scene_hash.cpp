@@ -44,7 +44,7 @@ void add_lights(Hasher& hasher, const Scene& scene) {
     for (const Emitter& emitter : scene.delta_emitters) {
         hasher.add(essence(emitter));
     }
-    for (const SphereLamp& lamp : scene.sphere_lamps) {
+    for (const RoundLamp& lamp : scene.round_lamps) {
         hasher.add(lamp);
     }
     hasher.add(scene.environment.width);

@@ -108,24 +108,25 @@ typedef struct Triangle {
 #define NEARLIGHT_EMITTER_PROJECTOR 5u
 #define NEARLIGHT_EMITTER_SUN 6u
 #define NEARLIGHT_EMITTER_SPHERE 7u
+#define NEARLIGHT_EMITTER_CYLINDER 8u
 
 /// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
-/// then the area lights (emissive triangles and spheres) in the order of their triangles, then the sun and
-/// the environment. An entry is chosen with `probability`, in proportion to its emitted power.
+/// then the area lights (emissive triangles, spheres and cylinders) in the order of their triangles, then the
+/// sun and the environment. An entry is chosen with `probability`, in proportion to its emitted power.
 ///
-/// A sphere is one light, although rays meet the triangles that stand for it.
+/// A sphere or cylinder is one light, although rays meet the triangles that stand for it.
 ///
 /// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
 /// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
 /// image, inside the image only, so that an even image lights a plane across its axis evenly.
 typedef struct Emitter {
-    Vec3 position;  // point, spot and projector; sphere: its centre
+    Vec3 position;  // point, spot and projector; sphere: its centre; cylinder: the middle of one end
     uint type;
-    Vec3 direction;  // spot and projector: unit vector along the axis; directional: that of the light
-    uint triangle;   // triangle: index into the triangle array; sphere: of its first triangle
+    Vec3 direction;  // spot, projector, cylinder: unit vector along the axis; directional: that of the light
+    uint triangle;   // area light: index into the triangle array of its first triangle
     Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
-                     // direction, W/m²; triangle, sphere, sun: radiance; environment: mean radiance
-    float area;      // triangle, sphere: m²; projector: of its image at the distance 1; sun: steradians
+                     // direction, W/m²; area lights, sun: radiance; environment: mean radiance
+    float area;      // area lights: m²; projector: of its image at the distance 1; sun: steradians
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
@@ -135,10 +136,10 @@ typedef struct Emitter {
     Vec3 y_axis;
     uint tree_way;  // area light: the way to it through the tree of lights, the lowest bit first; 1: second
                     // child
-    float radius;   // sphere: m
-    float outer_radius;   // sphere: all its triangles lie within this distance of its centre, m
+    float radius;   // sphere, cylinder: m
+    float outer_radius;   // all its triangles lie within this distance of its centre or axis, m
+    float length;         // cylinder: m
     uint triangle_count;  // area light: triangles that belong to it, from `triangle` on
-    uint pad0;
 } Emitter;
 
 /// A node of the tree of area lights: the bounds of all lights below it. The first child stands behind

@@ -72,7 +72,9 @@ void expect_good_tree(const Scene& scene) {
     }
     double power = 0;
     for (const Emitter& emitter : table.emitters) {
-        const double part = emitter.type == NEARLIGHT_EMITTER_SPHERE ? 0.25 : 1.0;
+        const double part = emitter.type == NEARLIGHT_EMITTER_SPHERE     ? 0.25
+                            : emitter.type == NEARLIGHT_EMITTER_CYLINDER ? 1 / std::numbers::pi
+                                                                         : 1.0;
         power += part * emitter.probability * table.total_power;
     }
     EXPECT_NEAR(table.light_tree[0].power, power, 1e-4 * power);
@@ -96,13 +98,14 @@ TEST(LightTree, NoTreeIsDeeperThanAWayCanTell) {
     expect_good_tree(many_lamps(5000, [](std::size_t) { return Vec3{1, 2, 3}; }));
 }
 
-/// A sphere is one leaf, however many triangles stand for it.
-TEST(LightTree, SpheresAreLeavesBesideTriangles) {
+/// A sphere or cylinder is one leaf, however many triangles stand for it.
+TEST(LightTree, RoundLightsAreLeavesBesideTriangles) {
     Scene scene = many_lamps(20, [](std::size_t i) { return Vec3{static_cast<float>(i), 0, 0}; });
     for (int i = 0; i < 4; ++i) {
         small_scenes::add_sphere_lamp(scene, {3.0f * static_cast<float>(i), 2, 1}, 0.3f, {3, 3, 3});
     }
-    EXPECT_EQ(build_emitter_table(scene).emitters.size(), 24u);
+    small_scenes::add_cylinder_lamp(scene, {1, 2, 3}, 70, 0.2f, 4, {2, 2, 2});
+    EXPECT_EQ(build_emitter_table(scene).emitters.size(), 25u);
     expect_good_tree(scene);
 }
 

@@ -239,8 +239,9 @@ TEST(MitsubaTexture, OneFileIsOneImageAndAMissingOneIsGrey) {
                          "scene.xml:3"));
 }
 
-/// A sphere of even radiance that shines outwards is one light; all others shine by their triangles.
-TEST(MitsubaShape, ShiningSpheresAreOneLightWhereTheyStayRound) {
+/// A sphere or cylinder of even radiance that shines outwards is one light; all others shine by their
+/// triangles.
+TEST(MitsubaShape, RoundLampsAreOneLightWhereTheyStayRound) {
     const SceneFiles files;
     const std::string lamp = "<emitter type='area'><rgb name='radiance' value='1 2 3'/></emitter>";
     const std::string place = "<point name='center' x='1' y='2' z='3'/><float name='radius' value='0.5'/>";
@@ -249,8 +250,8 @@ TEST(MitsubaShape, ShiningSpheresAreOneLightWhereTheyStayRound) {
                                                            to_world("<scale value='2'/>"
                                                                     "<rotate x='1' angle='30'/>"
                                                                     "<translate y='1'/>")));
-    ASSERT_EQ(scene.sphere_lamps.size(), 1u);
-    const SphereLamp& found = scene.sphere_lamps[0];
+    ASSERT_EQ(scene.round_lamps.size(), 1u);
+    const RoundLamp& found = scene.round_lamps[0];
     EXPECT_FLOAT_EQ(found.radius, 1.0f);
     EXPECT_GT(found.outer_radius, found.radius);
     EXPECT_LT(found.outer_radius, 1.001f * found.radius);
@@ -261,12 +262,24 @@ TEST(MitsubaShape, ShiningSpheresAreOneLightWhereTheyStayRound) {
                 {2, static_cast<float>(4 * std::cos(angle) - 6 * std::sin(angle) + 1),
                  static_cast<float>(4 * std::sin(angle) + 6 * std::cos(angle))},
                 1e-5f);
+    const Scene tube = files.load_xml(
+        shape("cylinder", lamp +
+                              "<point name='p0' x='1' y='2' z='3'/><point name='p1' x='1' y='2' z='7'/>"
+                              "<float name='radius' value='0.5'/>" +
+                              to_world("<scale x='2' y='2' z='3'/>")));
+    ASSERT_EQ(tube.round_lamps.size(), 1u);
+    expect_near(tube.round_lamps[0].center, {2, 4, 9}, 1e-5f);
+    expect_near(tube.round_lamps[0].axis, {0, 0, 12}, 1e-5f);
+    EXPECT_FLOAT_EQ(tube.round_lamps[0].radius, 1.0f);
+    EXPECT_LT(tube.round_lamps[0].outer_radius, 1.001f);
     for (const std::string& other :
-         {shape("sphere", place), shape("cube", lamp), shape("sphere", lamp + to_world("<scale y='1.01'/>")),
+         {shape("sphere", place), shape("cube", lamp), shape("cylinder", lamp + to_world("<scale x='2'/>")),
+          shape("cylinder", lamp + to_world("<matrix value='1 0 0 0 0 1 0.1 0 0 0 1 0 0 0 0 1'/>")),
+          shape("sphere", lamp + to_world("<scale y='1.01'/>")),
           shape("sphere", lamp + to_world("<scale x='-1'/>")),
           shape("sphere", lamp + "<boolean name='flip_normals' value='true'/>"),
           shape("sphere", "<emitter type='area'><texture name='radiance' type='checkerboard'/></emitter>")}) {
-        EXPECT_TRUE(files.load_xml(other).sphere_lamps.empty()) << other;
+        EXPECT_TRUE(files.load_xml(other).round_lamps.empty()) << other;
     }
 }
 

@@ -107,8 +107,7 @@ EnvironmentLight make_sky(Sky sky) {
     return environment;
 }
 
-/// Lamps above and beside the origin, some behind others, and a sky. The area lights are just as many as make
-/// a tree.
+/// Lamps above and beside the origin, some behind others, and a sky. The area lights are enough for a tree.
 Scene lamps_and_sky(Sky sky) {
     Scene scene;
     const auto lamp = [&](Vec3 radiance) {
@@ -121,6 +120,7 @@ Scene lamps_and_sky(Sky sky) {
     add_triangle(scene, {-3, 0, 3}, {-2, 1, 1}, {-3, 2, 0}, lamp({8, 4, 4}));          // to the left
     add_quad(scene, {-0.2f, -0.2f, -1}, {0, 0.4f, 0}, {0.4f, 0, 0}, lamp({9, 9, 9}));  // back side
     add_sphere_lamp(scene, {0.3f, -2.5f, 1.2f}, 0.6f, {4, 2, 7});
+    add_cylinder_lamp(scene, {-1.2f, -0.5f, 0.5f}, 50, 0.2f, 1.5f, {5, 3, 4});
     if (sky != Sky::none) {
         scene.environment = make_sky(sky);
     }

@@ -10,6 +10,7 @@
 
 #include "host/image/image.h"
 #include "host/scene/material_model.h"
+#include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_loader.h"
@@ -89,24 +90,35 @@ inline Material coated(Scene& scene, Vec3 base, const Coat& coat) {
     return material;
 }
 
-/// A shining sphere, which is one light, with the triangles that stand for it.
-inline void add_sphere_lamp(Scene& scene, Vec3 center, float radius, Vec3 radiance) {
+/// A shining shape of Mitsuba's, which is one light, with the triangles that stand for it.
+inline void add_round_lamp(Scene& scene, const std::string& type, const Mat4& to_world, Vec3 radiance) {
     Material material = lambertian({0, 0, 0});
     material.emission = parameter_of(radiance);
     const uint index = add_material(scene, material);
-    SphereLamp lamp{.center = center, .radius = radius, .outer_radius = radius};
-    lamp.first_triangle = static_cast<uint>(scene.triangles.size());
-    const Mesh mesh = mitsuba::sphere_mesh();
+    const Mesh mesh = type == "sphere" ? mitsuba::sphere_mesh() : mitsuba::cylinder_mesh();
+    const std::size_t first_triangle = scene.triangles.size();
     const auto first = static_cast<uint>(scene.vertices.size());
     for (const Vec3 position : mesh.positions) {
-        const Vec3 placed = scene.vertices[add_vertex(scene, center + position * radius)].position;
-        lamp.outer_radius = std::max(lamp.outer_radius, length(placed - center));
+        add_vertex(scene, transform_point(to_world, position));
     }
     for (const auto& [a, b, c] : mesh.triangles) {
         scene.triangles.push_back({first + a, first + b, first + c, index});
     }
-    lamp.triangle_count = static_cast<uint>(mesh.triangles.size());
-    scene.sphere_lamps.push_back(lamp);
+    scene.round_lamps.push_back(mitsuba::round_lamp(scene, type, to_world, first_triangle).value());
+}
+
+inline void add_sphere_lamp(Scene& scene, Vec3 center, float radius, Vec3 radiance) {
+    add_round_lamp(scene, "sphere",
+                   translation(center.x, center.y, center.z) * scaling(radius, radius, radius), radiance);
+}
+
+/// A cylinder about an axis that is turned by `degrees` from +Z towards −Y.
+inline void add_cylinder_lamp(Scene& scene, Vec3 end, double degrees, float radius, float length,
+                              Vec3 radiance) {
+    add_round_lamp(
+        scene, "cylinder",
+        translation(end.x, end.y, end.z) * rotation(1, 0, 0, degrees) * scaling(radius, radius, length),
+        radiance);
 }
 
 inline void add_point_light(Scene& scene, Vec3 position, Vec3 intensity) {

@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/shape_maker.h"
 
 #include "host/scene/file_text.h"
+#include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj_loader.h"
@@ -50,38 +51,6 @@ Mat4 local_placement(const Object& shape) {
     return shape.type == "sphere"     ? sphere_placement(shape)
            : shape.type == "cylinder" ? cylinder_placement(shape)
                                       : Mat4{};
-}
-
-// The factor of a transform that scales alike in all directions and turns the frame as it likes; 0 for
-// others.
-double even_scale(const Mat4& m) {
-    const double volume = linear_determinant(m);
-    const double scale = std::cbrt(volume);
-    for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) {
-            const double product = m(0, i) * m(0, j) + m(1, i) * m(1, j) + m(2, i) * m(2, j);
-            if (!(std::abs(product - (i == j ? scale * scale : 0.0)) <= 1e-5 * scale * scale)) {
-                return 0.0;
-            }
-        }
-    }
-    return scale > 0.0 && std::isfinite(scale) ? scale : 0.0;
-}
-
-// The sphere that the triangles from first_triangle to the last of the scene stand for.
-SphereLamp sphere_lamp(const Scene& scene, std::size_t first_triangle, const Mat4& to_world, double radius) {
-    SphereLamp lamp;
-    lamp.center = transform_point(to_world, {0, 0, 0});
-    lamp.radius = lamp.outer_radius = static_cast<float>(radius);
-    lamp.first_triangle = static_cast<uint>(first_triangle);
-    lamp.triangle_count = static_cast<uint>(scene.triangles.size() - first_triangle);
-    for (const Triangle& triangle : std::span(scene.triangles).subspan(first_triangle)) {
-        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
-            const float distance = length(scene.vertices[vertex].position - lamp.center);
-            lamp.outer_radius = std::max(lamp.outer_radius, distance);
-        }
-    }
-    return lamp;
 }
 
 // Which of the meshes of a file the shape is.
@@ -152,11 +121,12 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
                  .face_normals = shape.boolean("face_normals", mesh.face_normals),
                  .flip_normals = flips},
                 notes_);
-    const double radius = even_scale(to_world);
     const bool is_even = emitted.texture < 0 && !is_zero(emitted.value);
     const bool is_whole = scene_.triangles.size() - first_triangle == mesh.triangles.size();
-    if (shape.type == "sphere" && is_even && is_whole && !flips && radius > 0.0) {
-        scene_.sphere_lamps.push_back(sphere_lamp(scene_, first_triangle, to_world, radius));
+    if (is_even && is_whole && !flips) {
+        if (const std::optional<RoundLamp> lamp = round_lamp(scene_, shape.type, to_world, first_triangle)) {
+            scene_.round_lamps.push_back(*lamp);
+        }
     }
     if (shape.has("max_smooth_angle")) {
         note(notes_, shape.where,

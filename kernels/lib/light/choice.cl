@@ -41,9 +41,10 @@ typedef struct CdfRange {
     float low, high;
 } CdfRange;
 
-/// Whether the light is a triangle or a sphere.
+/// Whether the light is a triangle, sphere or cylinder.
 inline bool is_area_light(const global Emitter* emitter) {
-    return emitter->type == NEARLIGHT_EMITTER_TRIANGLE || emitter->type == NEARLIGHT_EMITTER_SPHERE;
+    return emitter->type == NEARLIGHT_EMITTER_TRIANGLE || emitter->type == NEARLIGHT_EMITTER_SPHERE ||
+           emitter->type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
 /// The part of the distribution that belongs to area lights.
@@ -94,9 +95,9 @@ inline float choice_probability(const SceneView* scene, uint index, float3 x, fl
     return scene->emitters[index].probability / sampled_share;
 }
 
-/// The entry of a triangle in the table, by itself or as a part of a sphere, or ~0u for a triangle that does
-/// not emit. Area lights lie in the table by ascending triangles, between the delta lights and the
-/// environment.
+/// The entry of a triangle in the table, by itself or as a part of a sphere or cylinder, or ~0u for a
+/// triangle that does not emit. Area lights lie in the table by ascending triangles, between the delta lights
+/// and the environment.
 inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
     const uint first = scene->info->delta_emitter_count;
     uint low = first;

@@ -29,19 +29,28 @@ inline EmittedParticle emit_from_triangle(const SceneView* scene, const global E
     return particle;
 }
 
-/// A particle of a uniform point of the sphere, which starts where it leaves the last of the sphere's
-/// triangles behind.
-inline EmittedParticle emit_from_sphere(const SceneView* scene, const global Emitter* emitter,
-                                        float2 u_position, float2 u_direction) {
+/// A particle of a uniform point of a sphere or cylinder, which starts where it leaves the last of the
+/// light's triangles behind.
+inline EmittedParticle emit_from_round_light(const SceneView* scene, const global Emitter* emitter,
+                                             float2 u_position, float2 u_direction) {
+    const bool is_sphere = emitter->type == NEARLIGHT_EMITTER_SPHERE;
+    const float3 axis = load3(emitter->direction);
+    const float phi = 2.0f * M_PI_F * u_position.y;
+    const float3 normal = is_sphere ? square_to_cone(u_position, -1.0f)
+                                    : to_world_frame((float3)(cos(phi), sin(phi), 0.0f), axis);
+    const float3 center =
+        load3(emitter->position) + (is_sphere ? (float3)(0.0f) : u_position.x * emitter->length * axis);
     EmittedParticle particle;
-    const float3 normal = square_to_cone(u_position, -1.0f);
     particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
     const float radius = emitter->radius;
-    const float rise = radius * dot(normal, particle.direction);
     const float outer = emitter->outer_radius;
-    const float way = sqrt(rise * rise + (outer - radius) * (outer + radius)) - rise;
-    const float3 from_center = radius * normal + way * particle.direction;
-    particle.origin = offset_point(scene, load3(emitter->position) + from_center, from_center / outer);
+    const float along = is_sphere ? 0.0f : dot(particle.direction, axis);
+    const float rise = radius * dot(normal, particle.direction);
+    const float gap = (outer - radius) * (outer + radius);
+    const float way = gap / fmax(rise + sqrt(rise * rise + (1.0f - along * along) * gap), 1e-30f);
+    const float3 exit = radius * normal + way * particle.direction;
+    const float3 outwards = (exit - way * along * axis) / outer;
+    particle.origin = offset_point(scene, center + exit, outwards);
     particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
     particle.from_delta = 0;
     return particle;
@@ -127,8 +136,8 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         particle = emit_from_triangle(scene, emitter, u_position, u_direction);
-    } else if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
-        particle = emit_from_sphere(scene, emitter, u_position, u_direction);
+    } else if (is_area_light(emitter)) {
+        particle = emit_from_round_light(scene, emitter, u_position, u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
         particle =
             emit_from_environment(scene, emitter->type == NEARLIGHT_EMITTER_SUN, u_position, u_direction);

@@ -8,9 +8,9 @@
 #define NEARLIGHT_LIB_LIGHT_SAMPLE
 
 #include "lib/light/choice.cl"
+#include "lib/light/cylinder.cl"
 #include "lib/light/delta.cl"
 #include "lib/light/environment.cl"
-#include "lib/light/sphere.cl"
 #include "lib/light/triangle.cl"
 
 /// Light that arrives at x from one direction, before visibility. For delta lights `radiance` is an
@@ -84,9 +84,10 @@ inline LightSample sample_triangle_light(const SceneView* scene, const global Em
     return sample;
 }
 
-inline LightSample sample_sphere_light(const SceneView* scene, const global Emitter* emitter, float3 x,
-                                       float2 u) {
-    const SphereSample on_light = sample_sphere(emitter, x, u);
+inline LightSample sample_round_light(const SceneView* scene, const global Emitter* emitter, float3 x,
+                                      float2 u) {
+    const RoundSample on_light = emitter->type == NEARLIGHT_EMITTER_SPHERE ? sample_sphere(emitter, x, u)
+                                                                           : sample_cylinder(emitter, x, u);
     LightSample sample = no_light(x);
     sample.target = offset_point(scene, on_light.point, on_light.normal);
     sample.direction = on_light.direction;
@@ -109,8 +110,8 @@ inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, 
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         return sample_triangle_light(scene, emitter, x, u);
     }
-    if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
-        return sample_sphere_light(scene, emitter, x, u);
+    if (is_area_light(emitter)) {
+        return sample_round_light(scene, emitter, x, u);
     }
     return sample_delta(scene, emitter, x);
 }
@@ -188,10 +189,15 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
         return 0.0f;
     }
     const global Emitter* emitter = scene->emitters + index;
-    return choice_probability(scene, index, x, n) *
-           (emitter->type == NEARLIGHT_EMITTER_SPHERE
-                ? sphere_pdf(emitter, x, direction)
-                : triangle_pdf(scene, hit->triangle, x, hit->t, cosine));
+    float pdf;
+    if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
+        pdf = sphere_pdf(emitter, x, direction);
+    } else if (emitter->type == NEARLIGHT_EMITTER_CYLINDER) {
+        pdf = cylinder_pdf(emitter, x, direction);
+    } else {
+        pdf = triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
+    }
+    return choice_probability(scene, index, x, n) * pdf;
 }
 
 inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {

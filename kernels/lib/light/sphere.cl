@@ -43,15 +43,15 @@ inline float sphere_pdf(const global Emitter* emitter, float3 x, float3 directio
     return dot(past, past) < emitter->radius * emitter->radius ? cone_density(&seen) : 0.0f;
 }
 
-/// A direction from x to a sphere.
-typedef struct SphereSample {
+/// A direction from x to a sphere or cylinder.
+typedef struct RoundSample {
     float3 direction;  // unit
-    float3 point;      // the first on the way that is as near to the centre as the sphere's triangles are
+    float3 point;      // the first on the way that is as far out as the light's triangles may be
     float3 normal;     // of that point
     float pdf;         // per steradian; 0 where x does not lie outside
-} SphereSample;
+} RoundSample;
 
-inline SphereSample sample_sphere(const global Emitter* emitter, float3 x, float2 u) {
+inline RoundSample sample_sphere(const global Emitter* emitter, float3 x, float2 u) {
     const SeenSphere seen = seen_sphere(emitter, x);
     const float distance = sqrt(seen.squared);
     const float height = seen.cone_height * u.x;
@@ -59,7 +59,7 @@ inline SphereSample sample_sphere(const global Emitter* emitter, float3 x, float
     const float sine = sqrt(squared_sine);
     const float phi = 2.0f * M_PI_F * u.y;
     const float outer = emitter->outer_radius;
-    SphereSample sample;
+    RoundSample sample;
     sample.pdf = cone_density(&seen);
     sample.direction = seen.squared > 0.0f
                            ? to_world_frame((float3)(sine * cos(phi), sine * sin(phi), 1.0f - height),

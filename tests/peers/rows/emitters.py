@@ -52,6 +52,8 @@ def _areas():
         'area-sphere': _lit(sphere(area(5), at=(1, 2.4, 1), radius=0.4)),
         'area-sphere-in-view': _lit(sphere(area(3), at=(0.8, 0.8, 0.8), radius=0.25)),
         'area-cylinder': _lit(shape('cylinder', area(6), p0=point(-1, 2.4, 1), p1=point(1, 2.4, 1), radius=0.15)),
+        'area-cylinder-in-view': _lit(shape('cylinder', area(4), p0=point(0.5, 0.15, 0.9), p1=point(1.1, 1.5, 0.2),
+            radius=0.12)),
         'area-cube': _lit(shape('cube', area(4), to_world=place(0.3, (1, 2.4, 1), turn('y', 20)))),
         'area-obj': _lit(mesh('ball.obj', area(5), to_world=place(0.4, (1, 2.4, 1)))),
         'area-ply': _lit(mesh('ball_flat.ply', area(5), to_world=place(0.4, (1, 2.4, 1)))),
