@@ -110,11 +110,10 @@ typedef struct Triangle {
 #define NEARLIGHT_EMITTER_SPHERE 7u
 #define NEARLIGHT_EMITTER_CYLINDER 8u
 
-/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional) first,
-/// then the area lights (emissive triangles, spheres and cylinders) in the order of their triangles, then the
-/// sun and the environment. An entry is chosen with `probability`, in proportion to its emitted power.
-///
-/// A sphere or cylinder is one light, although rays meet the triangles that stand for it.
+/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional), then
+/// area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
+/// environment. An entry is chosen with `probability`, in proportion to its emitted power. A sphere or
+/// cylinder is one light, although rays meet the triangles that stand for it.
 ///
 /// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
 /// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
@@ -134,9 +133,8 @@ typedef struct Emitter {
     Vec3 x_axis;
     uint image;  // index of the texture plus 1; 0: none
     Vec3 y_axis;
-    uint tree_way;  // area light: the way to it through the tree of lights, the lowest bit first; 1: second
-                    // child
-    float radius;   // sphere, cylinder: m
+    uint tree_way;        // area light: its way through the tree of lights, lowest bit first; 1: second child
+    float radius;         // sphere, cylinder: m
     float outer_radius;   // all its triangles lie within this distance of its centre or axis, m
     float length;         // cylinder: m
     uint triangle_count;  // area light: triangles that belong to it, from `triangle` on
