@@ -258,6 +258,24 @@ void add_sampler_options(CLI::App& command, RenderOptions& options) {
         ->type_name("N")
         ->capture_default_str();
     command
+        .add_option_function<std::string>(
+            "--cuts",
+            [&sampling](const std::string& text) {
+                sampling.cuts = text == "on" ? Cuts::on : text == "off" ? Cuts::off : Cuts::automatic;
+            },
+            "on: there are more VPLs than --vpls, and each tile asks about those that could bring it most; "
+            "off: there are as many as --vpls; auto: off, unless --vpl-set is given")
+        ->check(CLI::IsMember({"on", "off", "auto"}))
+        ->type_name("on|off|auto")
+        ->default_str("auto");
+    command
+        .add_option(
+            "--vpl-set", sampling.set_count,
+            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 16 "
+            "times --vpls)")
+        ->check(CLI::Range(1u, 50'000'000u))
+        ->type_name("N");
+    command
         .add_option("--close-fraction", options.close_fraction,
                     "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")
         ->type_name("F")

@@ -49,7 +49,9 @@ struct VplSet {
     std::size_t close_triangles = 0;  ///< triangles that patches were placed on
     std::size_t sparse_count = 0;     ///< VPLs of the sparse sets, which no pixel gathers
     std::size_t candidate_count = 0;  ///< candidates that `vpls` were chosen from; 0: there was no choice
-    float close_fraction = 0.0f;      ///< share of the VPLs for the close range that was used
+    /// With cuts, the number of VPLs that a pixel asks about, which is less than all; 0: it asks about all.
+    std::size_t asked_count = 0;
+    float close_fraction = 0.0f;  ///< share of the VPLs for the close range that was used
     /// If it is set, VPLs are to be gathered with the plan's radii, and local lights supply the rest.
     std::optional<LocalLightPlan> local{};
     /// What is best spent beside these VPLs, if a pilot chose it.

@@ -65,15 +65,31 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
         }
         stages.local_gather->set_vpls(scene, vpls(), *picture.vpls.local);
     }
+    if (picture.vpls.asked_count > 0) {
+        if (!stages.light_cuts) {
+            stages.light_cuts.emplace(stages.device);
+        }
+        cut_tree_ = stages.light_cuts->make_tree(vpls().buffer(), vpls().count());
+    }
 }
 
 const VplBuffer& BandRenderer::vpls() const {
     return picture_.vpls.vpls.is_on(stages_.device) ? picture_.vpls.vpls : own_vpls_;
 }
 
-/// Selects VPLs by Russian roulette if the settings ask for it. Returns nothing otherwise: every bundle then
-/// asks about all VPLs of its stratum.
+/// Selects VPLs by cuts if there are more than a pixel asks about, or else by Russian roulette if the
+/// settings ask for it. Returns nothing otherwise: every bundle then asks about all VPLs of its stratum.
 std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const VplStrata& strata) {
+    if (cut_tree_) {
+        return stages_.light_cuts->select({.vpls = vpls().buffer(),
+                                           .tree = *cut_tree_,
+                                           .receivers = buffers_.receivers,
+                                           .packet_count = packets,
+                                           .strata = strata,
+                                           .clamp_radius = picture_.budget.clamp_radius,
+                                           .asked_count = picture_.vpls.asked_count,
+                                           .seed = picture_.seed});
+    }
     if (!(picture_.settings.roulette > 0.0f)) {
         return std::nullopt;
     }
@@ -107,7 +123,7 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                     .receivers = buffers_.receivers,
                                     .packet_count = packets,
                                     .clamp_radius = picture_.budget.clamp_radius,
-                                    .strata = &strata,
+                                    .strata = cut_tree_ ? nullptr : &strata,
                                     .selection = selection ? &*selection : nullptr,
                                     .curves = scene_.curves_in_use()},
                                    buffers_.gathered, progress);

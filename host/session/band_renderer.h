@@ -13,6 +13,7 @@
 #include "host/stages/camera_pass.h"
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
+#include "host/stages/light_cuts.h"
 #include "host/stages/receiver_paths.h"
 #include "host/stages/roulette.h"
 
@@ -35,6 +36,7 @@ struct BandStages {
     // These stages are made when they are first needed.
     std::optional<LocalGather> local_gather{};
     std::optional<Roulette> roulette{};
+    std::optional<LightCuts> light_cuts{};
 };
 
 /// The parts of a picture's task that are the same for all bands and devices.
@@ -80,7 +82,8 @@ class BandRenderer {
     const Picture& picture_;
     Buffer<Camera> camera_;
     Buffer<CloseRange> close_range_;
-    VplBuffer own_vpls_;  ///< empty if picture.vpls is on this device
+    VplBuffer own_vpls_;               ///< empty if picture.vpls is on this device
+    std::optional<CutTree> cut_tree_;  ///< over the VPLs, if bundles ask cuts
     BatchBuffers buffers_;
 };
 

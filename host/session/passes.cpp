@@ -37,8 +37,13 @@ RenderSettings with_samples(RenderSettings settings, uint samples) {
     const uint strata = gather.strata_or_auto();
     const uint fewer_strata = part_of(strata, samples, whole);
     // A sample asks vpl_count / strata VPLs, so these two keep their quotient.
-    settings.sampling.vpl_count =
-        static_cast<uint>(std::llround(1.0 * settings.sampling.vpl_count * fewer_strata / strata));
+    const auto fewer = [&](uint count) {
+        return static_cast<uint>(std::llround(1.0 * count * fewer_strata / strata));
+    };
+    settings.sampling.vpl_count = fewer(settings.sampling.vpl_count);
+    if (settings.sampling.set_count) {
+        settings.sampling.set_count = fewer(*settings.sampling.set_count);
+    }
     gather.strata = fewer_strata;
     if (gather.direct_samples_per_pixel) {
         gather.direct_samples_per_pixel = part_of(*gather.direct_samples_per_pixel, samples, whole);

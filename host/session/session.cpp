@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/random.h"
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
 #include "host/bvh/bvh_cache.h"
@@ -18,6 +19,7 @@ namespace {
 
 /// The maximum bytes of finished bands that wait for an earlier one.
 constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
+constexpr uint kThinningStream = 0x7417eu;
 
 uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
     const std::size_t band_bytes = std::size_t{width} * plan.tile_rows_per_band * NEARLIGHT_TILE_SIZE *
@@ -66,12 +68,24 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
             .view = pilot,
             .sampler = settings.sampler,
             .policy = settings.policy,
-            .vpl_count = settings.vpl_count,
+            .vpl_count = settings.set_count_or_auto(),
             .bounce_count = view.bounce_count(),
             .close_fraction = settings.close_fraction,
             .close_range = view.close_range,
             .clamp_radius = view.clamp_radius,
             .seed = seed};
+}
+
+/// About `wanted` of the VPLs, evenly along their order and with as much more power.
+VplBuffer thinned(Device& device, const VplBuffer& vpls, std::size_t wanted, uint seed) {
+    const std::vector<Vpl> all = vpls.download();
+    const std::size_t step = all.size() / wanted;
+    std::vector<Vpl> some;
+    for (std::size_t i = Pcg32(seed, kThinningStream).next() % step; i < all.size(); i += step) {
+        some.push_back(all[i]);
+        some.back().power *= static_cast<float>(step);
+    }
+    return {device, some};
 }
 
 }  // namespace
@@ -118,11 +132,16 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
+        if (settings.set_count_or_auto() > settings.vpl_count && set.vpls.count() > settings.vpl_count) {
+            set.asked_count = settings.vpl_count;
+        }
+        const VplBuffer few =
+            set.asked_count > 0 ? thinned(leader.device(), set.vpls, set.asked_count, seed) : VplBuffer();
         if (view.has_ray_budget_pilot && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
             set.ray_budget = choose_ray_budget({.stages = leader.bands,
                                                 .scene = leader.scene,
                                                 .view = pilot,
-                                                .vpls = set.vpls,
+                                                .vpls = set.asked_count > 0 ? few : set.vpls,
                                                 .max_edges = view.bounce_count() + 1,
                                                 .clamp_radius = view.clamp_radius,
                                                 .rays_per_pixel = GatherSettings{}.rays_per_pixel,

@@ -70,7 +70,9 @@ struct GatherInput {
     }
     /// The maximum number of VPLs that a bundle asks about.
     [[nodiscard]] std::size_t asked_count() const {
-        return strata != nullptr ? strata->max_size(vpl_count) : vpl_count;
+        return selection != nullptr ? selection->max_length
+               : strata != nullptr  ? strata->max_size(vpl_count)
+                                    : vpl_count;
     }
     /// The packets that are gathered together. Without strata and selection, the result does not depend on
     /// it.

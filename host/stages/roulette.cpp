@@ -25,7 +25,9 @@ Roulette::Roulette(Device& device)
       whole_set_(device) {}
 
 VplSelection Roulette::select(const RouletteTask& task) {
-    return {.max_bundles = max_bundles(strata_of(task).max_size(task.vpl_count)),
+    const std::size_t max_length = strata_of(task).max_size(task.vpl_count);
+    return {.max_bundles = max_bundles(max_length),
+            .max_length = max_length,
             .lists = [this, task](std::size_t first_bundle, std::size_t end_bundle) -> const VplLists& {
                 return choose(task, first_bundle, end_bundle);
             }};

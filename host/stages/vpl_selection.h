@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The VPLs of a set that each bundle of receivers asks about, where these are not all VPLs. Russian roulette
-// makes such selections (roulette.h); the gather only reads them.
+// (roulette.h) and cuts (light_cuts.h) make such selections; the gather only reads them.
 #pragma once
 
 #include <functional>
@@ -24,6 +24,7 @@ struct VplLists {
 
 struct VplSelection {
     std::size_t max_bundles = 1;  ///< maximum number of bundles in a call of `lists`
+    std::size_t max_length = 0;   ///< maximum number of VPLs in a list
     /// Returns the lists of bundles [first_bundle, end_bundle), at most max_bundles of them. They are valid
     /// until the next call.
     std::function<const VplLists&(std::size_t first_bundle, std::size_t end_bundle)> lists;

@@ -2,6 +2,7 @@
 // The settings of a view, of a set of virtual point lights, of a gather and of a session.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -34,6 +35,14 @@ enum class GatherKernel {
     rays,       ///< one work-item takes one receiver
 };
 
+/// Whether VPL sets hold more VPLs than a pixel asks about, so that each bundle of receivers asks about those
+/// that could bring it most.
+enum class Cuts {
+    automatic,  ///< as `off`, unless a size of the set is given
+    on,
+    off,
+};
+
 /// How much time the bounding volume hierarchy is worth.
 enum class BvhQuality {
     fast,     ///< every triangle is in exactly one leaf
@@ -60,8 +69,21 @@ struct ViewSettings {
 struct SamplingSettings {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
-    std::uint32_t vpl_count = 1000;         ///< target number; light walks decide the exact one
+    /// Target number of VPLs that a pixel asks about; light walks decide the exact one.
+    std::uint32_t vpl_count = 1000;
+    Cuts cuts = Cuts::automatic;
+    /// With cuts, the target number of VPLs in the set; empty: sixteen times `vpl_count`. Without cuts the
+    /// set has `vpl_count`.
+    std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
+
+    /// The number of VPLs in the set.
+    [[nodiscard]] std::uint32_t set_count_or_auto() const {
+        const bool has_cuts = cuts == Cuts::on || (cuts == Cuts::automatic && set_count);
+        return !has_cuts || sampler == SamplerKind::local
+                   ? vpl_count
+                   : std::max(set_count.value_or(16 * vpl_count), vpl_count);
+    }
 };
 
 /// How to make pixels from VPLs and emitters.

@@ -7,7 +7,8 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include bsdf_query.h, film_layers.h, packet_order.h and types.h.
+/// place where it expands must include bsdf_query.h, film_layers.h, light_cut.h, packet_order.h and
+/// types.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -71,6 +72,12 @@
     OFFSET(GatherParams, group_size)                \
     OFFSET(GatherParams, has_curves)                \
     OFFSET(GatherParams, stratum_period)            \
+    SIZE(CutNode)                                   \
+    OFFSET(CutNode, children)                       \
+    SIZE(CutEntry)                                  \
+    OFFSET(CutEntry, bound)                         \
+    SIZE(CutParams)                                 \
+    OFFSET(CutParams, asked)                        \
     SIZE(PacketOrder)                               \
     OFFSET(PacketOrder, bundle_samples)             \
     OFFSET(PacketOrder, interleave)                 \

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// About what VPLs could bring to a bundle of receivers if nothing were in the way.
+#ifndef NEARLIGHT_LIB_CUT_BOUND
+#define NEARLIGHT_LIB_CUT_BOUND
+
+#include "lib/bundle.cl"
+#include "lib/math.cl"
+#include "shared/light_cut.h"
+
+/// Receivers of a bundle in 16 clusters, each in a lane of its own: those of two rows of a tile's pixels.
+typedef struct BundleClusters {
+    float16 x, y, z;     // centres
+    float16 radius;      // of the sphere that holds the receivers
+    float16 nx, ny, nz;  // means of the normals
+    float16 spread;      // max distance of a normal from the mean
+    float16 share;       // the cluster's receivers ÷ those of the bundle; 0: it has none
+} BundleClusters;
+
+/// A node or a single VPL.
+typedef struct Emission {
+    float3 center;
+    float radius;
+    float3 axis;
+    float spread, power;
+} Emission;
+
+// Cosines of a cluster and a node are estimated as their mean plus this part of their uncertainty.
+#ifndef CUT_UNCERTAINTY
+#define CUT_UNCERTAINTY 0.5f
+#endif
+// Distances of a cluster and a node count as at least this part of their radii.
+#ifndef CUT_NEARNESS
+#define CUT_NEARNESS 0.5f
+#endif
+// The minimum cosine of a cluster and a node that may see each other.
+#ifndef CUT_MIN_COSINE
+#define CUT_MIN_COSINE 0.02f
+#endif
+
+inline Emission emission_of_node(const global CutNode* node) {
+    const float3 low = load3(node->low);
+    const float3 high = load3(node->high);
+    Emission emission;
+    emission.center = 0.5f * (low + high);
+    emission.radius = 0.5f * length(high - low);
+    emission.axis = load3(node->axis);
+    emission.spread = node->spread;
+    emission.power = node->power;
+    return emission;
+}
+
+/// The estimated root mean square over the bundle's receivers of the light that VPLs could bring. It is 0
+/// only where none of them brings any: all terms of cosines are estimated from the centres of spheres, and a
+/// point of a sphere adds at most the radius to its numerator.
+inline float cut_bound(const BundleClusters* clusters, const Emission* from, float clamp_radius_squared) {
+    const float16 dx = from->center.x - clusters->x;
+    const float16 dy = from->center.y - clusters->y;
+    const float16 dz = from->center.z - clusters->z;
+    const float16 squared = dx * dx + dy * dy + dz * dz;
+    const float16 distance = sqrt(squared);
+    const float16 radius = clusters->radius + from->radius;
+    const float16 to_receiver = clusters->nx * dx + clusters->ny * dy + clusters->nz * dz;
+    const float16 from_vpl = -(from->axis.x * dx + from->axis.y * dy + from->axis.z * dz);
+    const float16 receiver_slack = radius + clusters->spread * (distance + radius);
+    const float16 vpl_slack = radius + from->spread * (distance + radius);
+    const int16 open = (to_receiver + receiver_slack > 0.0f) & (from_vpl + vpl_slack > 0.0f);
+    const float16 scale = 1.0f / fmax(distance, (float16)1e-30f);
+    const float16 receiver_cosine =
+        clamp((to_receiver + CUT_UNCERTAINTY * receiver_slack) * scale, CUT_MIN_COSINE, 1.0f);
+    const float16 vpl_cosine = clamp((from_vpl + CUT_UNCERTAINTY * vpl_slack) * scale, CUT_MIN_COSINE, 1.0f);
+    const float16 nearness = CUT_NEARNESS * radius;
+    const float16 least = fmax(fmax(nearness * nearness, (float16)clamp_radius_squared), (float16)1e-30f);
+    const float16 term = receiver_cosine * vpl_cosine / fmax(squared, least);
+    const float16 squares = open ? clusters->share * term * term : (float16)0.0f;
+    const float8 a = squares.lo + squares.hi;
+    const float4 b = a.lo + a.hi;
+    return from->power * sqrt(b.x + b.y + b.z + b.w);
+}
+
+#endif
