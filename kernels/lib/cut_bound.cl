@@ -26,15 +26,15 @@ typedef struct Emission {
 
 // Cosines of a cluster and a node are estimated as their mean plus this part of their uncertainty.
 #ifndef CUT_UNCERTAINTY
-#define CUT_UNCERTAINTY 0.5f
+#define CUT_UNCERTAINTY 0.25f
 #endif
 // Distances of a cluster and a node count as at least this part of their radii.
 #ifndef CUT_NEARNESS
-#define CUT_NEARNESS 0.5f
+#define CUT_NEARNESS 0.25f
 #endif
 // The minimum cosine of a cluster and a node that may see each other.
 #ifndef CUT_MIN_COSINE
-#define CUT_MIN_COSINE 0.02f
+#define CUT_MIN_COSINE 0.05f
 #endif
 
 inline Emission emission_of_node(const global CutNode* node) {
@@ -49,9 +49,9 @@ inline Emission emission_of_node(const global CutNode* node) {
     return emission;
 }
 
-/// The estimated root mean square over the bundle's receivers of the light that VPLs could bring. It is 0
-/// only where none of them brings any: all terms of cosines are estimated from the centres of spheres, and a
-/// point of a sphere adds at most the radius to its numerator.
+/// The estimated mean over the bundle's receivers of the light that VPLs could bring. It is 0 only where none
+/// of them brings any: cosines are estimated from the centres of spheres, and numerators are greater by at
+/// most the radii, and by the spread of normals times the distance, for any pair of points in the spheres.
 inline float cut_bound(const BundleClusters* clusters, const Emission* from, float clamp_radius_squared) {
     const float16 dx = from->center.x - clusters->x;
     const float16 dy = from->center.y - clusters->y;
@@ -71,10 +71,10 @@ inline float cut_bound(const BundleClusters* clusters, const Emission* from, flo
     const float16 nearness = CUT_NEARNESS * radius;
     const float16 least = fmax(fmax(nearness * nearness, (float16)clamp_radius_squared), (float16)1e-30f);
     const float16 term = receiver_cosine * vpl_cosine / fmax(squared, least);
-    const float16 squares = open ? clusters->share * term * term : (float16)0.0f;
-    const float8 a = squares.lo + squares.hi;
+    const float16 terms = open ? clusters->share * term : (float16)0.0f;
+    const float8 a = terms.lo + terms.hi;
     const float4 b = a.lo + a.hi;
-    return from->power * sqrt(b.x + b.y + b.z + b.w);
+    return from->power * (b.x + b.y + b.z + b.w);
 }
 
 #endif
