@@ -271,7 +271,7 @@ void add_sampler_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--vpl-set", sampling.set_count,
-            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 16 "
+            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 64 "
             "times --vpls)")
         ->check(CLI::Range(1u, 50'000'000u))
         ->type_name("N");

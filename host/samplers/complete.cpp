@@ -24,6 +24,11 @@
 // all candidates would (balanced_choice.h). The split between close and distant VPLs follows from that. The
 // power of each VPL is divided by the probability that it was drawn with, so there is no bias.
 //
+// Cuts. Where pixels ask about few VPLs of a large set, the deposits that pass the screening are the set.
+// There are so many of them that none is strong and that neighbours are alike, which is what patches and the
+// choice are for; and each bundle of receivers makes a choice of its own, which is better than one for the
+// picture.
+//
 // Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
 // larger sparse set, and short paths for what the bounded gather leaves out.
 #include "host/samplers/complete.h"
@@ -48,6 +53,7 @@ namespace {
 constexpr uint kPointsPerVpl = 2;  ///< points in the close range, which have two sides each
 constexpr uint kDepositsPerVpl = 256;
 constexpr uint kScreenedPerVpl = 10;  ///< deposits that pass the screening
+constexpr uint kDepositsPerVplOfCuts = 4;
 /// The maximum number of deposits. For more VPLs than it allows, there are fewer deposits per VPL.
 constexpr uint kMaxDeposits = 1u << 22u;
 constexpr uint kRoughSparseVpls = 128;
@@ -98,18 +104,19 @@ void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit
 
 /// The number of deposits to trace, which is bounded but at least the number of VPLs.
 uint deposit_count(const SamplingTask& task) {
-    const uint ample = std::min(kMaxDeposits / kDepositsPerVpl, task.vpl_count) * kDepositsPerVpl;
+    const uint per_vpl = task.for_cuts ? kDepositsPerVplOfCuts : kDepositsPerVpl;
+    const uint ample = std::min(kMaxDeposits / per_vpl, task.vpl_count) * per_vpl;
     return std::max(task.vpl_count, ample);
 }
 
-/// Returns the deposits that pass the screening, in their order along the Morton curve.
+/// Returns about `wanted` deposits that pass the screening, in their order along the Morton curve.
 std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
-                                   std::span<const Vpl> deposits) {
+                                   std::span<const Vpl> deposits, std::size_t wanted) {
     const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
     std::vector<float> weights = choice_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
     add_neighbourhood_errors(task, sorted, task.view.few_squared_importons.count, weights);
     Pcg32 random(task.seed, kScreeningStream);
-    return take(resample(weights, std::size_t{task.vpl_count} * kScreenedPerVpl, random.uniform()), sorted);
+    return take(resample(weights, wanted, random.uniform()), sorted);
 }
 
 Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
@@ -123,7 +130,8 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     const Deposits deposits =
         trace_about(stages, task, surface.region(), KeepDeposits::all, deposit_count(task));
     candidates.walks_per_watt = deposits.walk_count / static_cast<double>(task.scene.total_power);
-    const std::vector<Vpl> screened = screened_deposits(stages, task, deposits.vpls);
+    const std::vector<Vpl> screened =
+        screened_deposits(stages, task, deposits.vpls, std::size_t{task.vpl_count} * kScreenedPerVpl);
     candidates.vpls.insert(candidates.vpls.end(), screened.begin(), screened.end());
     return candidates;
 }
@@ -223,9 +231,26 @@ std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3>
     return lit;
 }
 
+VplSet sample_for_cuts(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
+    const std::vector<Vpl> deposits =
+        trace_about(stages, task, region, KeepDeposits::all, deposit_count(task)).vpls;
+    const std::vector<Vpl> vpls = screened_deposits(stages, task, deposits, task.vpl_count);
+    VplSet set;
+    set.vpls = VplBuffer(stages.device, vpls);
+    set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
+    set.distant_count = vpls.size() - set.close_count;
+    set.candidate_count = deposits.size();
+    set.close_fraction =
+        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
+    return set;
+}
+
 }  // namespace
 
 VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
+    if (task.for_cuts) {
+        return sample_for_cuts(stages, task, surface.region());
+    }
     if (surface.empty()) {
         say_warning("nothing is in the close range; all VPLs come from light walks");
     }

@@ -26,6 +26,7 @@ struct SamplingTask {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
     uint vpl_count = 1000;  ///< target number; light walks decide the exact one
+    bool for_cuts = false;  ///< whether pixels ask about few VPLs each, so that the set may be large
     uint bounce_count = 6;  ///< maximum depth of a VPL
     /// The share of vpl_count for the close range, in [0, 1]; if it is empty, a pilot chooses it.
     std::optional<float> close_fraction;

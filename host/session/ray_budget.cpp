@@ -25,6 +25,9 @@ constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in t
 /// No part of a receiver's relative error counts as more. A single ray that met a lamp's reflection would
 /// otherwise decide for the whole picture.
 constexpr double kMaxErrorOfVpls = 0.2;
+/// The squared error of one draw of a cut, relative to the light of all VPLs: it is about 1 where half of
+/// what is drawn is occluded (bench/log/cuts.md).
+constexpr double kErrorOfDraw = 1.0;
 constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;
 
 using Packets = std::vector<IrradiancePacket>;
@@ -105,10 +108,23 @@ std::vector<double> squares_of_light(const PilotLight& light) {
     return sums;
 }
 
-std::vector<ErrorParts> error_parts(const PilotLight& light, std::span<const double> squares) {
+/// The squared error that VPLs leave. With cuts there are two parts: that of the whole set, which is as much
+/// smaller than that of a few VPLs as there are more of them, and that of the draws.
+double error_of_vpls(const BudgetPilot& pilot, Vec3 light, Vec3 squares) {
+    if (pilot.asked_count == 0) {
+        return sum_of(squares);
+    }
+    const double of_set =
+        sum_of(squares) * static_cast<double>(pilot.vpls.count()) / static_cast<double>(pilot.set_count);
+    return of_set + kErrorOfDraw * dot(light, light) / static_cast<double>(pilot.asked_count);
+}
+
+std::vector<ErrorParts> error_parts(const BudgetPilot& pilot, const PilotLight& light,
+                                    std::span<const double> squares) {
     std::vector<ErrorParts> parts(squares.size());
     for (std::size_t i = 0; i < squares.size(); ++i) {
-        const double of_vpls = sum_of(irradiance_at(light.vpl_squares, i));
+        const double of_vpls =
+            error_of_vpls(pilot, irradiance_at(light.vpls, i), irradiance_at(light.vpl_squares, i));
         parts[i] = {.of_ray = std::min(variance_of(light.rays, i) / squares[i], kMaxErrorOfRay),
                     .of_light_sample = std::min(variance_of(light.direct, i) / squares[i], kMaxErrorOfRay),
                     .of_vpls = std::min(of_vpls / squares[i], kMaxErrorOfVpls)};
@@ -162,8 +178,8 @@ RayBudget choose_ray_budget(const BudgetPilot& pilot) {
         if (squares.empty()) {
             squares = squares_of_light(light);
         }
-        const Candidate candidate =
-            best_number(error_parts(light, squares), pilot.rays_per_pixel, multiple * pilot.clamp_radius);
+        const Candidate candidate = best_number(error_parts(pilot, light, squares), pilot.rays_per_pixel,
+                                                multiple * pilot.clamp_radius);
         say_candidate(candidate);
         if (candidate.error_times_cost < best.error_times_cost) {
             best = candidate;

@@ -15,7 +15,9 @@ struct BudgetPilot {
     BandStages& stages;
     const DeviceScene& scene;
     const PilotView& view;        ///< its receivers stand for those of the picture
-    const VplBuffer& vpls;        ///< one or more
+    const VplBuffer& vpls;        ///< one or more; with cuts a few of the set, which stand for all
+    std::size_t asked_count = 0;  ///< VPLs that a pixel asks about with cuts; 0: no cuts
+    std::size_t set_count = 0;    ///< with cuts, the VPLs of the set
     uint max_edges = 1;           ///< of a path from a light to a receiver that the camera sees directly
     float clamp_radius = 0;       ///< m, where the choice starts
     uint rays_per_pixel = 1;      ///< rays of receivers, on which the choice is to be based

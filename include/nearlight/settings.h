@@ -72,7 +72,7 @@ struct SamplingSettings {
     /// Target number of VPLs that a pixel asks about; light walks decide the exact one.
     std::uint32_t vpl_count = 1000;
     Cuts cuts = Cuts::automatic;
-    /// With cuts, the target number of VPLs in the set; empty: sixteen times `vpl_count`. Without cuts the
+    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`. Without cuts the
     /// set has `vpl_count`.
     std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
@@ -82,7 +82,7 @@ struct SamplingSettings {
         const bool has_cuts = cuts == Cuts::on || (cuts == Cuts::automatic && set_count);
         return !has_cuts || sampler == SamplerKind::local
                    ? vpl_count
-                   : std::max(set_count.value_or(16 * vpl_count), vpl_count);
+                   : std::max(set_count.value_or(64 * vpl_count), vpl_count);
     }
 };
 
