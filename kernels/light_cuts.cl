@@ -15,7 +15,6 @@
 // interface.
 
 #include "lib/cut_bound.cl"
-#include "lib/vpl.cl"
 
 // A node is opened if it is worth more than this many VPLs of the bundle.
 #ifndef CUT_OPEN
@@ -106,62 +105,6 @@ kernel void cut_level(global CutNode* nodes, uint first_child, uint child_count,
         spread = nodes[i].power > 0.0f ? fmax(spread, reach) : spread;
     }
     store_node(nodes + first_node + item, low, high, axis, spread, power, first, end - first);
-}
-
-/// The receivers of 16 lanes of a packet.
-inline void add_cluster(BundleClusters* clusters, uint index, const global ReceiverPacket* packet,
-                        uint first_lane) {
-    float3 center = (float3)0.0f, normal = (float3)0.0f;
-    uint count = 0;
-    for (uint lane = first_lane; lane < first_lane + 16; ++lane) {
-        const float3 n = receiver_normal(packet, lane);
-        if (dot(n, n) > 0.0f) {
-            center += receiver_position(packet, lane);
-            normal += n;
-            ++count;
-        }
-    }
-    const float scale = 1.0f / (float)max(count, 1u);
-    center *= scale;
-    normal *= scale;
-    float radius = 0.0f, spread = 0.0f;
-    for (uint lane = first_lane; lane < first_lane + 16; ++lane) {
-        const float3 n = receiver_normal(packet, lane);
-        if (dot(n, n) > 0.0f) {
-            radius = fmax(radius, distance(center, receiver_position(packet, lane)));
-            spread = fmax(spread, distance(normal, n));
-        }
-    }
-    // Rounding must not take away what lies on the horizon.
-    const float slack = 1e-5f;
-    ((float*)&clusters->x)[index] = center.x;
-    ((float*)&clusters->y)[index] = center.y;
-    ((float*)&clusters->z)[index] = center.z;
-    ((float*)&clusters->radius)[index] = radius + slack * (radius + max_component(fabs(center)));
-    ((float*)&clusters->nx)[index] = normal.x;
-    ((float*)&clusters->ny)[index] = normal.y;
-    ((float*)&clusters->nz)[index] = normal.z;
-    ((float*)&clusters->spread)[index] = spread + slack;
-    ((float*)&clusters->share)[index] = (float)count;
-}
-
-inline BundleClusters clusters_of(const global ReceiverPacket* packets, const Bundle* bundle) {
-    BundleClusters clusters;
-    clusters.share = (float16)0.0f;
-    clusters.x = clusters.y = clusters.z = clusters.radius = (float16)0.0f;
-    clusters.nx = clusters.ny = clusters.nz = clusters.spread = (float16)0.0f;
-    for (uint i = 0; i < bundle->count; ++i) {
-        for (uint row = 0; row < NEARLIGHT_PACKET_SIZE / 16; ++row) {
-            add_cluster(&clusters, i * (NEARLIGHT_PACKET_SIZE / 16) + row, packets + bundle->first + i,
-                        row * 16);
-        }
-    }
-    float count = 0.0f;
-    for (uint i = 0; i < 16; ++i) {
-        count += ((const float*)&clusters.share)[i];
-    }
-    clusters.share = clusters.share / fmax(count, 1.0f);
-    return clusters;
 }
 
 /// What a bundle's cut is made from.

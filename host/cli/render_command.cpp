@@ -10,6 +10,7 @@
 
 #include "host/base/stopwatch.h"
 #include "host/bvh/thread_limit.h"
+#include "host/cli/cuts_options.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -33,6 +34,7 @@ struct RenderOptions {
     RenderSettings settings;
     SessionOptions session;
     ImageSize size;
+    std::string cuts = "auto";
     std::string close_fraction = "auto";
     std::string range = "auto";
     std::string clamp_radius = "auto";
@@ -95,6 +97,7 @@ RenderSettings settled(const RenderOptions& options) {
     settings.sampling.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
     settings.view.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
     settings.view.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
+    settings.sampling.cuts = has_cuts(options.cuts, settings);
     if (options.size.width > 0) {
         settings.view.width = options.size.width;
         settings.view.height = options.size.height;
@@ -257,24 +260,7 @@ void add_sampler_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::Range(0u, 50'000'000u))
         ->type_name("N")
         ->capture_default_str();
-    command
-        .add_option_function<std::string>(
-            "--cuts",
-            [&sampling](const std::string& text) {
-                sampling.cuts = text == "on" ? Cuts::on : text == "off" ? Cuts::off : Cuts::automatic;
-            },
-            "on: there are more VPLs than --vpls, and each tile asks about those that could bring it most; "
-            "off: there are as many as --vpls; auto: off, unless --vpl-set is given")
-        ->check(CLI::IsMember({"on", "off", "auto"}))
-        ->type_name("on|off|auto")
-        ->default_str("auto");
-    command
-        .add_option(
-            "--vpl-set", sampling.set_count,
-            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 64 "
-            "times --vpls)")
-        ->check(CLI::Range(1u, 50'000'000u))
-        ->type_name("N");
+    add_cuts_options(command, options.cuts, sampling);
     command
         .add_option("--close-fraction", options.close_fraction,
                     "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")

@@ -46,6 +46,8 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:policy"] =
         settings.sampling.sampler == SamplerKind::close_range ? to_string(settings.sampling.policy) : "none";
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:vplsAsked"] = static_cast<int>(settings.sampling.vpl_count);
+    metadata["nearlight:cuts"] = settings.sampling.cuts ? "on" : "off";
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:preview"] = settings.gather.interleave > 1 ? "on" : "off";
@@ -99,9 +101,13 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["pass_spp"] = pass_list_text(report.pass_samples);
     json["relative_error"] = report.error ? nlohmann::ordered_json(*report.error) : nullptr;
     json["relative_error_asked"] = settings.error ? nlohmann::ordered_json(*settings.error) : nullptr;
-    json["vpls"] = {{"requested", settings.sampling.vpl_count}, {"close", report.close_vpls},
-                    {"distant", report.distant_vpls},           {"sparse", report.sparse_vpls},
-                    {"candidates", report.candidates},          {"local_lights", report.local_lights}};
+    json["vpls"] = {{"requested", settings.sampling.vpl_count},
+                    {"set", settings.sampling.set_count_or_auto()},
+                    {"close", report.close_vpls},
+                    {"distant", report.distant_vpls},
+                    {"sparse", report.sparse_vpls},
+                    {"candidates", report.candidates},
+                    {"local_lights", report.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.ray_budget.clamp_radius;
@@ -113,6 +119,7 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["filter"] = to_string(report.filter);
     json["seed"] = settings.seed;
     json["bvh"] = to_string(bvh);
+    json["cuts"] = settings.sampling.cuts;
     json["roulette"] = settings.gather.roulette;
     json["denoiser"] = picture.denoiser();
     json["device"] = nlohmann::ordered_json::array();

@@ -69,6 +69,12 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result);
 /// be the light of all VPLs.
 void check_roulette(Device& device, CheckResult& result);
 
+// cut_checks.cpp: cuts through a tree of VPLs.
+
+/// A case is a VPL and a node above it, which must hold it; the power of a node; or the mean of a receiver's
+/// light over many evenly spaced shifts of the draws, which must be the light of all VPLs.
+void check_light_cuts(Device& device, CheckResult& result);
+
 // bsdf_checks.cpp: models of surfaces against those of the path tracer, in double precision.
 
 /// A case is the value of D or of S of a material for two directions, or the value along a direction that the

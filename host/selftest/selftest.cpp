@@ -27,6 +27,7 @@ std::vector<NamedCheck> all_checks() {
             {"gather packets", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::packets, r); }},
             {"gather rays", [](Device& d, CheckResult& r) { check_gather(d, GatherKernel::rays, r); }},
             {"roulette", check_roulette},
+            {"light cuts", check_light_cuts},
             {"BSDFs", check_bsdfs},
             {"direct light", check_direct_light},
             {"paths of receivers", check_receiver_paths},

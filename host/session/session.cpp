@@ -225,7 +225,11 @@ void begin_compiling(std::span<Device* const> devices, const SessionOptions& opt
                      const SamplingSettings& settings) {
     const SamplerEntry& sampler = sampler_entry(settings.sampler);
     const auto begin_bands = [&](Device& device) {
-        const BandStages bands(device, options.gather_kernel);
+        BandStages bands(device, options.gather_kernel);
+        if (settings.set_count_or_auto() > settings.vpl_count) {
+            bands.light_cuts.emplace(device);
+            bands.gatherer.expect_selections();
+        }
         if (sampler.makes_local_lights) {
             const LocalGather local_gather(device);
         }

@@ -114,6 +114,9 @@ class Gatherer {
     /// Error(ErrorKind::invalid_argument) for a width that the kernel does not have.
     explicit Gatherer(Device& device, const GatherConfig& config = {});
 
+    /// Begins to compile the kernel for selections, which otherwise begins when it is first needed.
+    void expect_selections() { kernel_of(true, false); }
+
     /// light[p] = Σ_i power_i/π · T·T·max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
     /// vpl_count), for each packet p of [0, packet_count). With strata, the sum is over the stratum of the
     /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits

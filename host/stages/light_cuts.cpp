@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t kCutBytes = std::size_t{96} << 20u;
 /// The maximum number of entries of a cut, for each VPL that is asked and in all. A cut that would need more
 /// opens fewer nodes, which makes its draws noisier.
-constexpr std::size_t kEntriesPerVpl = 16;
+constexpr std::size_t kEntriesPerVpl = 32;
 constexpr std::size_t kMinEntries = 512;
+constexpr std::size_t kMaxEntries = std::size_t{1} << 20u;
 constexpr uint kShiftStream = 0xc0751f7u;
 
 /// The number of VPLs that a bundle asks about.
@@ -22,7 +23,8 @@ double asked_by_bundle(const CutTask& task) {
     return static_cast<double>(task.asked_count) / task.strata.count;
 }
 std::size_t capacity_of(const CutTask& task) {
-    return std::max(kMinEntries, kEntriesPerVpl * static_cast<std::size_t>(std::ceil(asked_by_bundle(task))));
+    return std::clamp(kEntriesPerVpl * static_cast<std::size_t>(std::ceil(asked_by_bundle(task))),
+                      kMinEntries, kMaxEntries);
 }
 /// The length of the longest list. Systematic draws make one more than asked at most; a few more are room for
 /// the minimum probabilities of entries.

@@ -35,14 +35,6 @@ enum class GatherKernel {
     rays,       ///< one work-item takes one receiver
 };
 
-/// Whether VPL sets hold more VPLs than a pixel asks about, so that each bundle of receivers asks about those
-/// that could bring it most.
-enum class Cuts {
-    automatic,  ///< as `off`, unless a size of the set is given
-    on,
-    off,
-};
-
 /// How much time the bounding volume hierarchy is worth.
 enum class BvhQuality {
     fast,     ///< every triangle is in exactly one leaf
@@ -71,19 +63,22 @@ struct SamplingSettings {
     Policy policy = Policy::complete;
     /// Target number of VPLs that a pixel asks about; light walks decide the exact one.
     std::uint32_t vpl_count = 1000;
-    Cuts cuts = Cuts::automatic;
-    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`. Without cuts the
-    /// set has `vpl_count`.
+    /// Whether the set holds more VPLs than a pixel asks about, so that each bundle of receivers asks about
+    /// those that could bring it most. The sampler `local` ignores it.
+    bool cuts = false;
+    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`. Without cuts the set has
+    /// `vpl_count`.
     std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
 
-    /// The number of VPLs in the set.
+    /// The target number of VPLs in the set.
     [[nodiscard]] std::uint32_t set_count_or_auto() const {
-        const bool has_cuts = cuts == Cuts::on || (cuts == Cuts::automatic && set_count);
-        return !has_cuts || sampler == SamplerKind::local
-                   ? vpl_count
-                   : std::max(set_count.value_or(64 * vpl_count), vpl_count);
+        const std::uint64_t wanted = set_count.value_or(0) > 0 ? *set_count : std::uint64_t{64} * vpl_count;
+        return cuts && sampler != SamplerKind::local
+                   ? static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, vpl_count, max_set_count))
+                   : vpl_count;
     }
+    static constexpr std::uint32_t max_set_count = 50'000'000;
 };
 
 /// How to make pixels from VPLs and emitters.

@@ -50,14 +50,18 @@ Image trace_truth(const Case& test_case, uint max_depth, bool compensate) {
 }
 
 Verdict judge(Session& session, const Case& test_case, const Variant& variant, const Image& truth,
-              uint max_depth, bool compensate) {
+              uint max_depth, bool compensate, bool cuts = false) {
     const RenderSettings settings{
         .view = {.width = test_case.size,
                  .height = test_case.size,
                  .range = test_case.range,
                  .clamp_radius = test_case.clamp_radius,
                  .max_depth = max_depth},
-        .sampling = {.sampler = variant.sampler, .policy = variant.policy, .vpl_count = test_case.vpl_count},
+        .sampling = {.sampler = variant.sampler,
+                     .policy = variant.policy,
+                     .vpl_count = test_case.vpl_count,
+                     .cuts = cuts,
+                     .set_count = 4 * test_case.vpl_count},
         .gather = {.samples_per_pixel = 1, .compensate = compensate, .indirect_only = true}};
     return judge_convergence(test::render_seeds(session, settings, 1000, kSeeds), truth, "indirect");
 }
@@ -81,6 +85,22 @@ class Convergence : public test::DeviceTest {
                     EXPECT_TRUE(verdict.agrees) << variant.name() << ": " << verdict.reason;
                     EXPECT_LT(verdict.relative_error, 0.05)
                         << variant.name() << ": too noisy to tell anything";
+                }
+            }
+        });
+    }
+    /// With cuts, a pixel asks about a quarter of the VPLs.
+    void expect_cuts_converge(const Case& test_case) {
+        const Image truth = trace_truth(test_case, test_case.max_depth, false);
+        on_each_device([&](Device& device) {
+            Session session(device, test_case.scene);
+            for (const Variant& variant : all_variants()) {
+                if (variant.policy != Policy::paper && variant.sampler != SamplerKind::local) {
+                    const Verdict verdict =
+                        judge(session, test_case, variant, truth, test_case.max_depth, false, true);
+                    EXPECT_TRUE(verdict.agrees) << variant.name() << " with cuts: " << verdict.reason;
+                    EXPECT_LT(verdict.relative_error, 0.05)
+                        << variant.name() << " with cuts: too noisy to tell anything";
                 }
             }
         });
@@ -121,6 +141,9 @@ TEST_F(Convergence, CornellBox) {
 TEST_F(Convergence, CornellBoxByThePaper) {
     expect_paper_loses_bounces(cornell_box());
 }
+TEST_F(Convergence, CornellBoxWithCuts) {
+    expect_cuts_converge(cornell_box());
+}
 TEST_F(Convergence, Furnace) {
     expect_all_converge(furnace());
 }
@@ -136,6 +159,9 @@ TEST_F(Convergence, Wall) {
 }
 TEST_F(Convergence, WholeRoom) {
     expect_all_converge({.scene = whole_room_view(), .clamp_radius = 0.3f, .size = 16});
+}
+TEST_F(Convergence, WholeRoomWithCuts) {
+    expect_cuts_converge({.scene = whole_room_view(), .clamp_radius = 0.3f, .size = 16});
 }
 TEST_F(Convergence, NextRoom) {
     expect_all_converge(

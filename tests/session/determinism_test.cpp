@@ -49,15 +49,20 @@ class Determinism : public test::DeviceTest {};
 TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
     on_each_device([](Device& device) {
         // These are the samplers whose work on the picture differs; close-range sampling also runs with
-        // roulette, and with strata that samples take turns to ask about, or not.
-        for (const auto& [sampler, roulette, strata] : {std::tuple{SamplerKind::close_range, 0.0f, 6u},
-                                                        {SamplerKind::close_range, 0.0f, 1u},
-                                                        {SamplerKind::close_range, 2.0f, 3u},
-                                                        {SamplerKind::close_range, 2.0f, 6u},
-                                                        {SamplerKind::local, 0.0f, 6u}}) {
+        // roulette or cuts, and with strata that samples take turns to ask about, or not.
+        for (const auto& [sampler, roulette, strata, cuts] :
+             {std::tuple{SamplerKind::close_range, 0.0f, 6u, false},
+              {SamplerKind::close_range, 0.0f, 1u, false},
+              {SamplerKind::close_range, 2.0f, 3u, false},
+              {SamplerKind::close_range, 2.0f, 6u, false},
+              {SamplerKind::close_range, 0.0f, 6u, true},
+              {SamplerKind::close_range, 0.0f, 1u, true},
+              {SamplerKind::instant_radiosity, 0.0f, 4u, true},
+              {SamplerKind::local, 0.0f, 6u, false}}) {
             RenderSettings settings = terrace_settings(1, sampler);
             settings.gather.roulette = roulette;
             settings.gather.strata = strata;
+            settings.sampling.cuts = cuts;
             const std::uint64_t whole = test::render_image(device, terrace(), settings).report.image_hash;
             for (const std::size_t largest : {std::size_t{1} << 20u, std::size_t{5} << 17u}) {
                 DeviceEntry entry = device.entry();
@@ -65,7 +70,7 @@ TEST_F(Determinism, BandsAndBatchesDoNotChangeABit) {
                 Device small(entry, device.options());
                 EXPECT_EQ(test::render_image(small, terrace(), settings).report.image_hash, whole)
                     << to_string(sampler) << ", roulette " << roulette << ", " << strata << " strata, "
-                    << largest;
+                    << (cuts ? "cuts, " : "") << largest;
             }
         }
     });

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/cuts_options.h"
+
+namespace nearlight::core {
+namespace {
+
+/// The minimum of --vpls for which --cuts auto means on.
+constexpr std::uint32_t kMinVplsOfCuts = 250;
+
+}  // namespace
+
+void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sampling) {
+    command
+        .add_option("--cuts", cuts,
+                    "on: there are more VPLs than --vpls, and each tile asks about those that could bring it "
+                    "most; off: there are as many as --vpls; auto: on with --vpl-set, and for the sampler "
+                    "close-range with its policy complete where --vpls is 250 or more")
+        ->check(CLI::IsMember({"on", "off", "auto"}))
+        ->type_name("on|off|auto")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--vpl-set", sampling.set_count,
+            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 64 "
+            "times --vpls)")
+        ->check(CLI::Range(1u, SamplingSettings::max_set_count))
+        ->type_name("N");
+}
+
+bool has_cuts(const std::string& cuts, const RenderSettings& settings) {
+    const SamplingSettings& sampling = settings.sampling;
+    if (cuts == "off" && sampling.set_count) {
+        throw Error(ErrorKind::invalid_argument, "--vpl-set needs --cuts on or auto, not off");
+    }
+    const bool wanted = cuts == "on" || sampling.set_count;
+    if (wanted && settings.gather.roulette > 0.0f) {
+        throw Error(ErrorKind::invalid_argument, "--roulette cannot be combined with --cuts or --vpl-set");
+    }
+    if (wanted && sampling.sampler == SamplerKind::local) {
+        throw Error(ErrorKind::invalid_argument, "the sampler local takes neither --cuts nor --vpl-set");
+    }
+    const bool pays = sampling.sampler == SamplerKind::close_range && sampling.policy == Policy::complete &&
+                      sampling.vpl_count >= kMinVplsOfCuts && !sampling.close_fraction &&
+                      settings.gather.roulette == 0.0f && settings.gather.interleave == 1;
+    return wanted || (cuts == "auto" && pays);
+}
+
+}  // namespace nearlight::core
