@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kCutBytes = std::size_t{96} << 20u;
 /// The maximum number of entries of a cut, for each VPL that is asked and in all. A cut that would need more
 /// opens fewer nodes, which makes its draws noisier.
-constexpr std::size_t kEntriesPerVpl = 32;
+constexpr std::size_t kEntriesPerVpl = 16;
 constexpr std::size_t kMinEntries = 512;
 constexpr std::size_t kMaxEntries = std::size_t{1} << 20u;
 constexpr uint kShiftStream = 0xc0751f7u;
