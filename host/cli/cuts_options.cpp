@@ -5,7 +5,7 @@ namespace nearlight::core {
 namespace {
 
 /// The minimum of --vpls for which --cuts auto means on.
-constexpr std::uint32_t kMinVplsOfCuts = 250;
+constexpr std::uint32_t kMinVplsOfCuts = 500;
 
 }  // namespace
 
@@ -14,7 +14,7 @@ void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sa
         .add_option("--cuts", cuts,
                     "on: there are more VPLs than --vpls, and each tile asks about those that could bring it "
                     "most; off: there are as many as --vpls; auto: on with --vpl-set, and for the sampler "
-                    "close-range with its policy complete where --vpls is 250 or more")
+                    "close-range with its policy complete where --vpls is 500 or more")
         ->check(CLI::IsMember({"on", "off", "auto"}))
         ->type_name("on|off|auto")
         ->capture_default_str();

@@ -89,6 +89,28 @@ TEST_F(Render, SamplesShareTheVplsUnlessToldOtherwise) {
     EXPECT_EQ(render("--strata 0", output_).exit_code, 2);
 }
 
+TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const nlohmann::json few = rendered("", output_);
+    EXPECT_EQ(few["cuts"], false);  // 100 VPLs are too few for auto
+    EXPECT_EQ(few["vpls"]["set"], 100);
+    EXPECT_EQ(rendered("--cuts off", output_)["image_hash"], few["image_hash"]);
+    const nlohmann::json many = rendered("--vpl-set 3000", output_);
+    EXPECT_EQ(many["cuts"], true);
+    EXPECT_EQ(many["vpls"]["requested"], 100);
+    EXPECT_EQ(many["vpls"]["set"], 3000);
+    EXPECT_NEAR(many["vpls"]["close"].get<double>() + many["vpls"]["distant"].get<double>(), 3000, 300);
+    EXPECT_NE(many["image_hash"], few["image_hash"]);
+    const Metadata metadata = read_image(output_).metadata;
+    EXPECT_EQ(metadata.at("nearlight:cuts"), Metadata::mapped_type{"on"});
+    EXPECT_EQ(metadata.at("nearlight:vplsAsked"), Metadata::mapped_type{100});
+    EXPECT_EQ(rendered("--cuts on", output_)["vpls"]["set"], 6400);
+    for (const char* options : {"--vpl-set 3000 --cuts off", "--cuts on --roulette 1", "--cuts maybe",
+                                "--vpl-set 3000 --sampler local", "--vpl-set 0"}) {
+        EXPECT_EQ(render(options, output_).exit_code, 2) << options;
+    }
+}
+
 TEST_F(Render, BothTreesGiveTheSamePicture) {
     NEARLIGHT_NEEDS_DEVICE();
     EXPECT_EQ(rendered("--bvh fast", folder_ / "fast.exr")["bvh"], "fast");
