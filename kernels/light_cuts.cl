@@ -18,7 +18,7 @@
 
 // A node is opened if it is worth more than this many VPLs of the bundle.
 #ifndef CUT_OPEN
-#define CUT_OPEN 0.5f
+#define CUT_OPEN 0.25f
 #endif
 // The minimum probability of a VPL that could bring light, and the minimum share of a child. They only keep
 // 1/p finite.

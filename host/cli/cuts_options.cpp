@@ -19,11 +19,10 @@ void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sa
         ->type_name("on|off|auto")
         ->capture_default_str();
     command
-        .add_option(
-            "--vpl-set", sampling.set_count,
-            "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: 64 "
-            "times --vpls)")
-        ->check(CLI::Range(1u, SamplingSettings::max_set_count))
+        .add_option("--vpl-set", sampling.set_count,
+                    "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: "
+                    "64 times --vpls, at most 2^20)")
+        ->check(CLI::Range(1u, 50'000'000u))
         ->type_name("N");
 }
 

@@ -55,6 +55,7 @@ void check(const ViewSettings& settings) {
 
 void check(const SamplingSettings& settings) {
     check_range("vpl_count", settings.vpl_count, 0u, kMaxVpls);
+    check_range("set_count", settings.set_count, 1u, kMaxVpls);
     check_range("close_fraction", settings.close_fraction, 0.0f, 1.0f);
 }
 

@@ -66,19 +66,18 @@ struct SamplingSettings {
     /// Whether the set holds more VPLs than a pixel asks about, so that each bundle of receivers asks about
     /// those that could bring it most. The sampler `local` ignores it.
     bool cuts = false;
-    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`. Without cuts the set has
-    /// `vpl_count`.
+    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`, but at most 2^20.
+    /// Without cuts, or if it is less than that, the set has `vpl_count`.
     std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
 
     /// The target number of VPLs in the set.
     [[nodiscard]] std::uint32_t set_count_or_auto() const {
-        const std::uint64_t wanted = set_count.value_or(0) > 0 ? *set_count : std::uint64_t{64} * vpl_count;
-        return cuts && sampler != SamplerKind::local
-                   ? static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, vpl_count, max_set_count))
-                   : vpl_count;
+        constexpr std::uint64_t max_auto = 1u << 20u;
+        const auto many = static_cast<std::uint32_t>(std::min(std::uint64_t{64} * vpl_count, max_auto));
+        const bool has_cuts = cuts && sampler != SamplerKind::local;
+        return has_cuts ? std::max(set_count.value_or(many), vpl_count) : vpl_count;
     }
-    static constexpr std::uint32_t max_set_count = 50'000'000;
 };
 
 /// How to make pixels from VPLs and emitters.
@@ -100,7 +99,7 @@ struct GatherSettings {
     bool compensate = true;
     /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections.
     std::uint32_t rays_per_pixel = 64;
-    bool indirect_only = false;         ///< the layer of direct light has emission only
+    bool indirect_only = false;  ///< the layer of direct light has emission only
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;

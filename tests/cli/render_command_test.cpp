@@ -101,7 +101,7 @@ TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
     EXPECT_EQ(many["vpls"]["set"], 3000);
     EXPECT_NEAR(many["vpls"]["close"].get<double>() + many["vpls"]["distant"].get<double>(), 3000, 300);
     EXPECT_NE(many["image_hash"], few["image_hash"]);
-    const Metadata metadata = read_image(output_).metadata;
+    const Metadata metadata = read_metadata(output_);
     EXPECT_EQ(metadata.at("nearlight:cuts"), Metadata::mapped_type{"on"});
     EXPECT_EQ(metadata.at("nearlight:vplsAsked"), Metadata::mapped_type{100});
     EXPECT_EQ(rendered("--cuts on", output_)["vpls"]["set"], 6400);
