@@ -11,6 +11,7 @@
 typedef struct BundleClusters {
     float16 x, y, z;     // centres
     float16 radius;      // of the sphere that holds the receivers
+    float16 thickness;   // max distance of a receiver from the plane of the centre and the mean normal
     float16 nx, ny, nz;  // means of the normals
     float16 spread;      // max distance of a normal from the mean
     float16 share;       // the cluster's receivers ÷ those of the bundle; 0: it has none
@@ -26,15 +27,15 @@ typedef struct Emission {
 
 // Cosines of a cluster and a node are estimated as their mean plus this part of their uncertainty.
 #ifndef CUT_UNCERTAINTY
-#define CUT_UNCERTAINTY 0.25f
+#define CUT_UNCERTAINTY 0.1f
 #endif
 // Distances of a cluster and a node count as at least this part of their radii.
 #ifndef CUT_NEARNESS
 #define CUT_NEARNESS 0.25f
 #endif
-// The minimum cosine of a cluster and a node that may see each other.
-#ifndef CUT_MIN_COSINE
-#define CUT_MIN_COSINE 0.05f
+// This part of the estimate is an upper bound, so that no light is much stronger than its estimate.
+#ifndef CUT_DEFENCE
+#define CUT_DEFENCE 0.0625f
 #endif
 
 /// The receivers of 16 lanes of a packet.
@@ -53,11 +54,13 @@ inline void add_cluster(BundleClusters* clusters, uint index, const global Recei
     const float scale = 1.0f / (float)max(count, 1u);
     center *= scale;
     normal *= scale;
-    float radius = 0.0f, spread = 0.0f;
+    float radius = 0.0f, thickness = 0.0f, spread = 0.0f;
     for (uint lane = first_lane; lane < first_lane + 16; ++lane) {
         const float3 n = receiver_normal(packet, lane);
         if (dot(n, n) > 0.0f) {
-            radius = fmax(radius, distance(center, receiver_position(packet, lane)));
+            const float3 way = receiver_position(packet, lane) - center;
+            radius = fmax(radius, length(way));
+            thickness = fmax(thickness, fabs(dot(way, normal)));
             spread = fmax(spread, distance(normal, n));
         }
     }
@@ -66,7 +69,9 @@ inline void add_cluster(BundleClusters* clusters, uint index, const global Recei
     ((float*)&clusters->x)[index] = center.x;
     ((float*)&clusters->y)[index] = center.y;
     ((float*)&clusters->z)[index] = center.z;
-    ((float*)&clusters->radius)[index] = radius + slack * (radius + max_component(fabs(center)));
+    const float rounding = slack * (radius + max_component(fabs(center)));
+    ((float*)&clusters->radius)[index] = radius + rounding;
+    ((float*)&clusters->thickness)[index] = thickness + rounding;
     ((float*)&clusters->nx)[index] = normal.x;
     ((float*)&clusters->ny)[index] = normal.y;
     ((float*)&clusters->nz)[index] = normal.z;
@@ -77,7 +82,8 @@ inline void add_cluster(BundleClusters* clusters, uint index, const global Recei
 inline BundleClusters clusters_of(const global ReceiverPacket* packets, const Bundle* bundle) {
     BundleClusters clusters;
     clusters.share = (float16)0.0f;
-    clusters.x = clusters.y = clusters.z = clusters.radius = (float16)0.0f;
+    clusters.x = clusters.y = clusters.z = (float16)0.0f;
+    clusters.radius = clusters.thickness = (float16)0.0f;
     clusters.nx = clusters.ny = clusters.nz = clusters.spread = (float16)0.0f;
     for (uint i = 0; i < bundle->count; ++i) {
         for (uint row = 0; row < NEARLIGHT_PACKET_SIZE / 16; ++row) {
@@ -105,6 +111,14 @@ inline Emission emission_of_node(const global CutNode* node) {
     return emission;
 }
 
+/// The bounded geometry term of clusters at a distance, with cosines as numerators: each still has a factor
+/// of the distance.
+inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl, float16 least) {
+    const float16 scale = 1.0f / fmax(distance, (float16)1e-30f);
+    return clamp(to_receiver * scale, 0.0f, 1.0f) * clamp(from_vpl * scale, 0.0f, 1.0f) /
+           fmax(distance * distance, least);
+}
+
 /// The estimated mean over the bundle's receivers of the light that VPLs could bring. It is 0 only where none
 /// of them brings any: cosines are estimated from the centres of spheres, and numerators are greater by at
 /// most the radii, and by the spread of normals times the distance, for any pair of points in the spheres.
@@ -117,16 +131,18 @@ inline float cut_bound(const BundleClusters* clusters, const Emission* from, flo
     const float16 radius = clusters->radius + from->radius;
     const float16 to_receiver = clusters->nx * dx + clusters->ny * dy + clusters->nz * dz;
     const float16 from_vpl = -(from->axis.x * dx + from->axis.y * dy + from->axis.z * dz);
-    const float16 receiver_slack = radius + clusters->spread * (distance + radius);
+    // By how much numerators of cosines may exceed those of the centres.
+    const float16 receiver_slack =
+        clusters->thickness + from->radius + clusters->spread * (distance + radius);
     const float16 vpl_slack = radius + from->spread * (distance + radius);
     const int16 open = (to_receiver + receiver_slack > 0.0f) & (from_vpl + vpl_slack > 0.0f);
-    const float16 scale = 1.0f / fmax(distance, (float16)1e-30f);
-    const float16 receiver_cosine =
-        clamp((to_receiver + CUT_UNCERTAINTY * receiver_slack) * scale, CUT_MIN_COSINE, 1.0f);
-    const float16 vpl_cosine = clamp((from_vpl + CUT_UNCERTAINTY * vpl_slack) * scale, CUT_MIN_COSINE, 1.0f);
-    const float16 nearness = CUT_NEARNESS * radius;
-    const float16 least = fmax(fmax(nearness * nearness, (float16)clamp_radius_squared), (float16)1e-30f);
-    const float16 term = receiver_cosine * vpl_cosine / fmax(squared, least);
+    const float16 least = fmax((float16)clamp_radius_squared, (float16)1e-30f);
+    const float16 usual = cut_term(distance, to_receiver + CUT_UNCERTAINTY * receiver_slack,
+                                   from_vpl + CUT_UNCERTAINTY * vpl_slack,
+                                   fmax(CUT_NEARNESS * CUT_NEARNESS * radius * radius, least));
+    const float16 greatest = cut_term(fmax(distance - radius, (float16)0.0f), to_receiver + receiver_slack,
+                                      from_vpl + vpl_slack, least);
+    const float16 term = (1.0f - CUT_DEFENCE) * usual + CUT_DEFENCE * greatest;
     const float16 terms = open ? clusters->share * term : (float16)0.0f;
     const float8 a = terms.lo + terms.hi;
     const float4 b = a.lo + a.hi;
