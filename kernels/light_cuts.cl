@@ -4,7 +4,7 @@
 //
 // The tree stands on runs of NEARLIGHT_CUT_FANOUT consecutive VPLs along the Morton curve; a level above has
 // as many nodes of the level below to a node. A bundle begins with the nodes of the top level and opens
-// those that could bring much, until each node that is left is worth about one VPL. The VPLs that it asks
+// those that could bring much, until no node is left that is worth a large part of a VPL. The VPLs it asks
 // about are then drawn from this cut in proportion to what its entries could bring (lib/cut_bound.cl), and
 // within a node by the same rule, from child to child. A VPL that is worth more than one draw is asked for
 // certain.
