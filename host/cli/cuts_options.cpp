@@ -2,19 +2,12 @@
 #include "host/cli/cuts_options.h"
 
 namespace nearlight::core {
-namespace {
-
-/// The minimum of --vpls for which --cuts auto means on.
-constexpr std::uint32_t kMinVplsOfCuts = 500;
-
-}  // namespace
 
 void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sampling) {
     command
         .add_option("--cuts", cuts,
                     "on: there are more VPLs than --vpls, and each tile asks about those that could bring it "
-                    "most; off: there are as many as --vpls; auto: on with --vpl-set, and for the sampler "
-                    "close-range with its policy complete where --vpls is 500 or more")
+                    "most; off: there are as many as --vpls; auto: on with --vpl-set")
         ->check(CLI::IsMember({"on", "off", "auto"}))
         ->type_name("on|off|auto")
         ->capture_default_str();
@@ -38,10 +31,7 @@ bool has_cuts(const std::string& cuts, const RenderSettings& settings) {
     if (wanted && sampling.sampler == SamplerKind::local) {
         throw Error(ErrorKind::invalid_argument, "the sampler local takes neither --cuts nor --vpl-set");
     }
-    const bool pays = sampling.sampler == SamplerKind::close_range && sampling.policy == Policy::complete &&
-                      sampling.vpl_count >= kMinVplsOfCuts && !sampling.close_fraction &&
-                      settings.gather.roulette == 0.0f && settings.gather.interleave == 1;
-    return wanted || (cuts == "auto" && pays);
+    return wanted;
 }
 
 }  // namespace nearlight::core

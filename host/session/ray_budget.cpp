@@ -29,6 +29,9 @@ constexpr double kMaxErrorOfVpls = 0.2;
 /// what is drawn is occluded (bench/log/cuts.md).
 constexpr double kErrorOfDraw = 1.0;
 constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;
+/// The error of rays ÷ what two rays at each of a thousand receivers show of it, which miss the rare bright
+/// paths that carry most (bench/log/limit.md).
+constexpr double kHiddenErrorOfRays = 8;
 
 using Packets = std::vector<IrradiancePacket>;
 
@@ -125,20 +128,23 @@ std::vector<ErrorParts> error_parts(const BudgetPilot& pilot, const PilotLight& 
     for (std::size_t i = 0; i < squares.size(); ++i) {
         const double of_vpls =
             error_of_vpls(pilot, irradiance_at(light.vpls, i), irradiance_at(light.vpl_squares, i));
-        parts[i] = {.of_ray = std::min(variance_of(light.rays, i) / squares[i], kMaxErrorOfRay),
+        const double of_ray = std::min(variance_of(light.rays, i) / squares[i], kMaxErrorOfRay);
+        parts[i] = {.of_ray = kHiddenErrorOfRays * of_ray,
                     .of_light_sample = std::min(variance_of(light.direct, i) / squares[i], kMaxErrorOfRay),
                     .of_vpls = std::min(of_vpls / squares[i], kMaxErrorOfVpls)};
     }
     return parts;
 }
 
-/// The mean error over receivers.
-double expected_error(std::span<const ErrorParts> parts, uint rays, uint light_samples) {
-    double error = 0.0;
+/// The means over receivers.
+ErrorParts mean_parts(std::span<const ErrorParts> parts) {
+    ErrorParts mean;
     for (const ErrorParts& part : parts) {
-        error += part.of_vpls + part.of_ray / rays + part.of_light_sample / light_samples;
+        mean.of_ray += part.of_ray / static_cast<double>(parts.size());
+        mean.of_light_sample += part.of_light_sample / static_cast<double>(parts.size());
+        mean.of_vpls += part.of_vpls / static_cast<double>(parts.size());
     }
-    return error / static_cast<double>(parts.size());
+    return mean;
 }
 
 /// A candidate, and how much time it needs for a given error, up to a factor.
@@ -149,10 +155,10 @@ struct Candidate {
 };
 
 /// The best number of light samples for one radius.
-Candidate best_number(std::span<const ErrorParts> parts, uint rays, float radius) {
+Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
     Candidate best;
     for (const uint light_samples : kLightSampleNumbers) {
-        const double error = expected_error(parts, rays, light_samples);
+        const double error = mean.of_vpls + mean.of_ray / rays + mean.of_light_sample / light_samples;
         const double cost = kPixelCost + rays + kLightSampleCost * light_samples;
         if (error * cost < best.error_times_cost) {
             best = {{radius, light_samples}, error, error * cost};
@@ -161,10 +167,11 @@ Candidate best_number(std::span<const ErrorParts> parts, uint rays, float radius
     return best;
 }
 
-void say_candidate(const Candidate& candidate) {
+void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
     say_debug("clamp radius " + std::to_string(candidate.budget.clamp_radius) + ": " +
               std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, expected error " +
-              std::to_string(candidate.error));
+              std::to_string(candidate.error) + ", of which VPLs " + std::to_string(mean.of_vpls) +
+              " and rays " + std::to_string(mean.of_ray / rays));
 }
 
 }  // namespace
@@ -178,9 +185,9 @@ RayBudget choose_ray_budget(const BudgetPilot& pilot) {
         if (squares.empty()) {
             squares = squares_of_light(light);
         }
-        const Candidate candidate = best_number(error_parts(pilot, light, squares), pilot.rays_per_pixel,
-                                                multiple * pilot.clamp_radius);
-        say_candidate(candidate);
+        const ErrorParts mean = mean_parts(error_parts(pilot, light, squares));
+        const Candidate candidate = best_number(mean, pilot.rays_per_pixel, multiple * pilot.clamp_radius);
+        say_candidate(candidate, mean, pilot.rays_per_pixel);
         if (candidate.error_times_cost < best.error_times_cost) {
             best = candidate;
         }

@@ -92,7 +92,7 @@ TEST_F(Render, SamplesShareTheVplsUnlessToldOtherwise) {
 TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
     NEARLIGHT_NEEDS_DEVICE();
     const nlohmann::json few = rendered("", output_);
-    EXPECT_EQ(few["cuts"], false);  // 100 VPLs are too few for auto
+    EXPECT_EQ(few["cuts"], false);
     EXPECT_EQ(few["vpls"]["set"], 100);
     EXPECT_EQ(rendered("--cuts off", output_)["image_hash"], few["image_hash"]);
     const nlohmann::json many = rendered("--vpl-set 3000", output_);
