@@ -32,6 +32,9 @@ constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;
 /// The error of rays ÷ what two rays at each of a thousand receivers show of it, which miss the rare bright
 /// paths that carry most (bench/log/limit.md).
 constexpr double kHiddenErrorOfRays = 8;
+/// How much more the error of VPLs counts than that of rays: neighbouring pixels share it, so that it is seen
+/// as splotches, and a denoiser leaves it (bench/log/limit.md).
+constexpr double kWeightOfSharedError = 3;
 
 using Packets = std::vector<IrradiancePacket>;
 
@@ -131,7 +134,7 @@ std::vector<ErrorParts> error_parts(const BudgetPilot& pilot, const PilotLight& 
         const double of_ray = std::min(variance_of(light.rays, i) / squares[i], kMaxErrorOfRay);
         parts[i] = {.of_ray = kHiddenErrorOfRays * of_ray,
                     .of_light_sample = std::min(variance_of(light.direct, i) / squares[i], kMaxErrorOfRay),
-                    .of_vpls = std::min(of_vpls / squares[i], kMaxErrorOfVpls)};
+                    .of_vpls = kWeightOfSharedError * std::min(of_vpls / squares[i], kMaxErrorOfVpls)};
     }
     return parts;
 }
@@ -169,7 +172,7 @@ Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
 
 void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
     say_debug("clamp radius " + std::to_string(candidate.budget.clamp_radius) + ": " +
-              std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, expected error " +
+              std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, weighted error " +
               std::to_string(candidate.error) + ", of which VPLs " + std::to_string(mean.of_vpls) +
               " and rays " + std::to_string(mean.of_ray / rays));
 }
