@@ -17,9 +17,7 @@
 #include "lib/cut_bound.cl"
 
 // A node is opened if it is worth more than this many VPLs of the bundle.
-#ifndef CUT_OPEN
 #define CUT_OPEN 0.25f
-#endif
 // The minimum probability of a VPL that could bring light, and the minimum share of a child. They only keep
 // 1/p finite.
 #define MIN_PROBABILITY 1e-6f

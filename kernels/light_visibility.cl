@@ -19,7 +19,7 @@ inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, f
     }
     LightSample light;
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
-        const MapSample map = map_sample_towards(scene, sample_sun(scene, u));
+        const MapSample map = map_sample_towards_sun(scene, u);
         light = sample_of_sky(scene, x, n, &map);
     } else {
         light = sample_emitter(scene, index, x, u);

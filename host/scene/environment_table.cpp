@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include "host/scene/distribution.h"
@@ -81,11 +82,7 @@ void add_details(EnvironmentTable& table, std::span<const float> weights, const 
     for (std::size_t row = block.first_row; row < block.end_row; ++row) {
         const float* first = &weights[row * table.parameters.width + block.first_column];
         const std::vector<double> columns(first, first + (block.end_column - block.first_column));
-        double sum = 0;
-        for (const double weight : columns) {
-            sum += weight;
-        }
-        rows.push_back(sum * zone_of_row(table, row));
+        rows.push_back(std::accumulate(columns.begin(), columns.end(), 0.0) * zone_of_row(table, row));
         const std::vector<float> cdf = cumulative_distribution(columns);
         columns_of_rows.insert(columns_of_rows.end(), cdf.begin(), cdf.end());
     }

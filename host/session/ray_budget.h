@@ -27,11 +27,11 @@ struct BudgetPilot {
 
 /// Returns the budget that is expected to need the least time for a given mean squared error, each receiver's
 /// relative to its light. The error of VPLs counts more than that of rays, because neighbouring pixels share
-/// it. Candidates are 16 to 128 light samples, and, if the radius is open, its multiples
-/// by a power of two from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's receivers,
-/// which gives the VPLs' part of the error as the sum of their squares, and takes two light samples and two
-/// rays at each receiver, whose differences give the parts of both. What rays cost is counted in units of a
-/// typical device, so the result depends on no timing.
+/// it. Candidates are 16 to 128 light samples, and, if the radius is open, its multiples by a power of two
+/// from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's receivers, which gives the VPLs'
+/// part of the error as the sum of their squares, and takes two light samples and two rays at each receiver,
+/// whose differences give the parts of both. What rays cost is counted in units of a typical device, so the
+/// result depends on no timing.
 RayBudget choose_ray_budget(const BudgetPilot& pilot);
 
 }  // namespace nearlight::core

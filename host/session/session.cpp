@@ -69,7 +69,7 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
             .sampler = settings.sampler,
             .policy = settings.policy,
             .vpl_count = settings.set_count_or_auto(),
-            .for_cuts = settings.set_count_or_auto() > settings.vpl_count,
+            .for_cuts = settings.asks_part(),
             .bounce_count = view.bounce_count(),
             .close_fraction = settings.close_fraction,
             .close_range = view.close_range,
@@ -133,12 +133,12 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
         }
         const PilotView& pilot = again ? *again : view.pilot;
         VplSet set = sample_vpls(*leader.samplers, sampling_task(leader.scene, view, pilot, settings, seed));
-        if (settings.set_count_or_auto() > settings.vpl_count && set.vpls.count() > settings.vpl_count) {
+        if (settings.asks_part() && set.vpls.count() > settings.vpl_count) {
             set.asked_count = settings.vpl_count;
         }
-        const VplBuffer few =
-            set.asked_count > 0 ? thinned(leader.device(), set.vpls, set.asked_count, seed) : VplBuffer();
         if (view.has_ray_budget_pilot && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
+            const VplBuffer few =
+                set.asked_count > 0 ? thinned(leader.device(), set.vpls, set.asked_count, seed) : VplBuffer();
             set.ray_budget = choose_ray_budget({.stages = leader.bands,
                                                 .scene = leader.scene,
                                                 .view = pilot,
@@ -226,7 +226,7 @@ void begin_compiling(std::span<Device* const> devices, const SessionOptions& opt
     const SamplerEntry& sampler = sampler_entry(settings.sampler);
     const auto begin_bands = [&](Device& device) {
         BandStages bands(device, options.gather_kernel);
-        if (settings.set_count_or_auto() > settings.vpl_count) {
+        if (settings.asks_part()) {
             bands.light_cuts.emplace(device);
             bands.gatherer.expect_selections();
         }

@@ -67,7 +67,7 @@ struct SamplingSettings {
     /// those that could bring it most. The sampler `local` ignores it.
     bool cuts = false;
     /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`, but at most 2^20.
-    /// Without cuts, or if it is less than that, the set has `vpl_count`.
+    /// Without cuts, or if it is less than `vpl_count`, or if that is 0, the set has `vpl_count`.
     std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
 
@@ -75,9 +75,12 @@ struct SamplingSettings {
     [[nodiscard]] std::uint32_t set_count_or_auto() const {
         constexpr std::uint64_t max_auto = 1u << 20u;
         const auto many = static_cast<std::uint32_t>(std::min(std::uint64_t{64} * vpl_count, max_auto));
-        const bool has_cuts = cuts && sampler != SamplerKind::local;
+        const bool has_cuts = cuts && sampler != SamplerKind::local && vpl_count > 0;
         return has_cuts ? std::max(set_count.value_or(many), vpl_count) : vpl_count;
     }
+
+    /// Whether bundles of receivers ask about a part of the set only.
+    [[nodiscard]] bool asks_part() const { return set_count_or_auto() > vpl_count; }
 };
 
 /// How to make pixels from VPLs and emitters.

@@ -26,17 +26,11 @@ typedef struct Emission {
 } Emission;
 
 // Cosines of a cluster and a node are estimated as their mean plus this part of their uncertainty.
-#ifndef CUT_UNCERTAINTY
 #define CUT_UNCERTAINTY 0.1f
-#endif
 // Distances of a cluster and a node count as at least this part of their radii.
-#ifndef CUT_NEARNESS
 #define CUT_NEARNESS 0.25f
-#endif
 // This part of the estimate is an upper bound, so that no light is much stronger than its estimate.
-#ifndef CUT_DEFENCE
 #define CUT_DEFENCE 0.0625f
-#endif
 
 /// The receivers of 16 lanes of a packet.
 inline void add_cluster(BundleClusters* clusters, uint index, const global ReceiverPacket* packet,
@@ -113,10 +107,10 @@ inline Emission emission_of_node(const global CutNode* node) {
 
 /// The bounded geometry term of clusters at a distance, with cosines as numerators: each still has a factor
 /// of the distance.
-inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl, float16 least) {
+inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl, float16 min_square) {
     const float16 scale = 1.0f / fmax(distance, (float16)1e-30f);
     return clamp(to_receiver * scale, 0.0f, 1.0f) * clamp(from_vpl * scale, 0.0f, 1.0f) /
-           fmax(distance * distance, least);
+           fmax(distance * distance, min_square);
 }
 
 /// The estimated mean over the bundle's receivers of the light that VPLs could bring. It is 0 only where none
@@ -136,13 +130,13 @@ inline float cut_bound(const BundleClusters* clusters, const Emission* from, flo
         clusters->thickness + from->radius + clusters->spread * (distance + radius);
     const float16 vpl_slack = radius + from->spread * (distance + radius);
     const int16 open = (to_receiver + receiver_slack > 0.0f) & (from_vpl + vpl_slack > 0.0f);
-    const float16 least = fmax((float16)clamp_radius_squared, (float16)1e-30f);
+    const float16 min_square = fmax((float16)clamp_radius_squared, (float16)1e-30f);
     const float16 usual = cut_term(distance, to_receiver + CUT_UNCERTAINTY * receiver_slack,
                                    from_vpl + CUT_UNCERTAINTY * vpl_slack,
-                                   fmax(CUT_NEARNESS * CUT_NEARNESS * radius * radius, least));
-    const float16 greatest = cut_term(fmax(distance - radius, (float16)0.0f), to_receiver + receiver_slack,
-                                      from_vpl + vpl_slack, least);
-    const float16 term = (1.0f - CUT_DEFENCE) * usual + CUT_DEFENCE * greatest;
+                                   fmax(CUT_NEARNESS * CUT_NEARNESS * radius * radius, min_square));
+    const float16 max_term = cut_term(fmax(distance - radius, (float16)0.0f), to_receiver + receiver_slack,
+                                      from_vpl + vpl_slack, min_square);
+    const float16 term = (1.0f - CUT_DEFENCE) * usual + CUT_DEFENCE * max_term;
     const float16 terms = open ? clusters->share * term : (float16)0.0f;
     const float8 a = terms.lo + terms.hi;
     const float4 b = a.lo + a.hi;

@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "host/scene/distribution.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
+
+using small_scenes::patterned_map;
 
 constexpr double kPiD = std::numbers::pi;
 
@@ -39,20 +42,10 @@ Emitter spot_light(float beam, float cutoff) {
     return emitter;
 }
 
-EnvironmentLight sky(int width, int height) {
-    EnvironmentLight environment;
-    environment.width = width;
-    environment.height = height;
-    for (int i = 0; i < width * height; ++i) {
-        environment.radiance.push_back({0.1f * static_cast<float>(i % 7), static_cast<float>(i % 3), 0.5f});
-    }
-    return environment;
-}
-
 TEST(EmitterTable, ADarkSceneHasNone) {
     Scene scene = area_light_scene({0, 0, 0});
     scene.delta_emitters = {point_light({0, 0, 0})};
-    scene.environment = sky(2, 2);
+    scene.environment = patterned_map(2, 2);
     scene.environment.radiance.assign(4, {0, 0, 0});
     const EmitterTable table = build_emitter_table(scene);
     EXPECT_TRUE(table.emitters.empty());
@@ -96,7 +89,7 @@ TEST(EmitterTable, PowersOfProjectorsAndDirectionalLights) {
 TEST(EmitterTable, OrderProbabilitiesAndContents) {
     Scene scene = area_light_scene({1, 1, 1});
     scene.delta_emitters = {point_light({0, 0, 0}), point_light({2, 2, 2}), spot_light(0.2f, 0.4f)};
-    scene.environment = sky(4, 2);
+    scene.environment = patterned_map(4, 2);
     const EmitterTable table = build_emitter_table(scene);
     ASSERT_EQ(table.emitters.size(), 4u);
     EXPECT_EQ(table.delta_emitter_count, 2u);
@@ -136,11 +129,11 @@ TEST(EmitterTable, EnvironmentPowerIsWhatEntersTheSceneSphere) {
     Scene scene = area_light_scene({0, 0, 0});
     const double radius = bounding_sphere(scene).radius;
     EXPECT_FLOAT_EQ(static_cast<float>(radius), std::sqrt(2.0f));
-    scene.environment = sky(1, 1);
+    scene.environment = patterned_map(1, 1);
     scene.environment.radiance = {{2, 2, 2}};
     // Every point of the sphere receives the irradiance π·2 from outside.
     EXPECT_NEAR(build_emitter_table(scene).total_power, 4 * kPiD * radius * radius * kPiD * 2, 1e-3);
-    scene.environment = sky(6, 5);
+    scene.environment = patterned_map(6, 5);
     const EmitterTable table = build_emitter_table(scene);
     Vec3 mean{0, 0, 0};
     for (int row = 0; row < 5; ++row) {  // solid angle of a pixel from the cosines of its edges

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/small_scenes.h"
+
 namespace nearlight::core {
 namespace {
+
+using small_scenes::patterned_map;
 
 Scene scene_below(const EnvironmentLight& environment) {
     Scene scene;
@@ -18,16 +22,6 @@ Scene scene_below(const EnvironmentLight& environment) {
     scene.triangles = {{0, 1, 2, 0}};
     scene.environment = environment;
     return scene;
-}
-
-EnvironmentLight patterned_map(int width, int height) {
-    EnvironmentLight environment;
-    environment.width = width;
-    environment.height = height;
-    for (int i = 0; i < width * height; ++i) {
-        environment.radiance.push_back({0.1f * static_cast<float>(i % 7), static_cast<float>(i % 3), 0.5f});
-    }
-    return environment;
 }
 
 double step(const std::vector<float>& cdf, std::size_t begin, std::size_t i) {

@@ -256,18 +256,11 @@ TEST_F(LightCutsTest, StrongAndNearVplsAreAskedForCertain) {
 
 TEST_F(LightCutsTest, SameBitsForAnyDivision) {
     const GatherCase data = room_of_boxes(40, 900, 22, 42);
-    GatherCase last = data;
-    last.receivers.erase(last.receivers.begin(), last.receivers.end() - 2);
     on_each_device([&](Device& device) {
-        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-            Gatherer gatherer(device, {.kernel = kernel});
-            Gatherer step_by_step(device,
-                                  {.kernel = kernel, .first_launch_pairs = 1, .launch_seconds = 1e-9});
-            std::vector<IrradiancePacket> whole = Cut(device, data, 25).gather(device, gatherer, data, 5);
-            EXPECT_TRUE(same_bits(whole, Cut(device, data, 25).gather(device, step_by_step, data, 5)));
-            whole.erase(whole.begin(), whole.end() - 2);
-            EXPECT_TRUE(same_bits(whole, Cut(device, last, 25).gather(device, gatherer, last, 5)));
-        }
+        test::expect_same_bits_for_any_division(
+            device, data, [&](const GatherCase& some, Gatherer& gatherer) {
+                return Cut(device, some, 25).gather(device, gatherer, some, 5);
+            });
     });
 }
 

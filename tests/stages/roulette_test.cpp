@@ -162,18 +162,11 @@ TEST_F(RouletteTest, LowThresholdResolvesAll) {
 
 TEST_F(RouletteTest, SameBitsForAnyDivision) {
     const GatherCase data = room_of_boxes(40, 700, 6, 22);
-    GatherCase last = data;
-    last.receivers.erase(last.receivers.begin(), last.receivers.end() - 2);
     on_each_device([&](Device& device) {
-        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-            Gatherer gatherer(device, {.kernel = kernel});
-            Gatherer step_by_step(device,
-                                  {.kernel = kernel, .first_launch_pairs = 1, .launch_seconds = 1e-9});
-            std::vector<IrradiancePacket> whole = Uploaded(device, data).gather(gatherer, kThreshold, 5);
-            EXPECT_TRUE(same_bits(whole, Uploaded(device, data).gather(step_by_step, kThreshold, 5)));
-            whole.erase(whole.begin(), whole.end() - 2);
-            EXPECT_TRUE(same_bits(whole, Uploaded(device, last).gather(gatherer, kThreshold, 5)));
-        }
+        test::expect_same_bits_for_any_division(
+            device, data, [&](const GatherCase& some, Gatherer& gatherer) {
+                return Uploaded(device, some).gather(gatherer, kThreshold, 5);
+            });
     });
 }
 

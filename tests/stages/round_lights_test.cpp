@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
 
 #include "host/base/random.h"
 #include "host/reference/light_sampler.h"
@@ -34,8 +37,47 @@ Scene one_lamp(Vec3 center, float radius) {
     return scene;
 }
 
-/// Pearson's chi² of directions over cells of equal solid angle of the cone about `axis`, counted in standard
-/// deviations from its mean.
+/// Pearson's chi² of counts in cells that are equally likely, counted in standard deviations from its mean.
+double deviation_from_even(std::span<const double> counts) {
+    const auto cells = static_cast<double>(counts.size());
+    const double expected = std::accumulate(counts.begin(), counts.end(), 0.0) / cells;
+    double chi2 = 0;
+    for (const double count : counts) {
+        chi2 += (count - expected) * (count - expected) / expected;
+    }
+    return (chi2 - (cells - 1)) / std::sqrt(2.0 * cells);
+}
+
+/// Samples on a device of each scene's light, seen from the origin: directions, and the density that is asked
+/// about a direction ÷ the one with which it was sampled. All are of one shape, "sphere" or "cylinder".
+std::vector<std::vector<Float4>> samples_of(Device& device, const std::vector<Scene>& scenes,
+                                            const std::string& shape) {
+    const std::string source = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, global float4* out) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    const uint4 words = random_uint4((uint4)(i, 1, 2, 3));
+    const float2 u = (float2)(to_unit_float(words.x), to_unit_float(words.y));
+    const RoundSample sample = SAMPLE(scene.emitters, (float3)(0.0f), u);
+    const float asked = PDF(scene.emitters, (float3)(0.0f), sample.direction);
+    out[i] = (float4)(sample.direction, asked > 0.0f ? asked / sample.pdf : 0.0f);
+}
+)";
+    KernelProbe probe(device,
+                      "#define SAMPLE sample_" + shape + "\n#define PDF " + shape + "_pdf\n" + source);
+    Buffer<Float4> out(probe.device(), kRoundSamples);
+    std::vector<std::vector<Float4>> samples;
+    for (const Scene& scene : scenes) {
+        const SceneOnDevice lamp(probe.device(), scene);
+        probe.kernel().launch(kRoundSamples, 8, lamp.buffers, out);
+        samples.push_back(out.download());
+    }
+    return samples;
+}
+
+/// The deviation of directions over cells of equal solid angle of the cone about `axis`.
 double deviation_over_cone(const std::vector<Vec3>& directions, Vec3 axis, double cosine) {
     constexpr int kRings = 8;
     constexpr int kSectors = 8;
@@ -51,12 +93,7 @@ double deviation_over_cone(const std::vector<Vec3>& directions, Vec3 axis, doubl
         const int sector = std::min(static_cast<int>(turn * kSectors), kSectors - 1);
         counts[static_cast<std::size_t>(ring * kSectors + sector)] += 1;
     }
-    const double expected = static_cast<double>(directions.size()) / counts.size();
-    double chi2 = 0;
-    for (const double count : counts) {
-        chi2 += (count - expected) * (count - expected) / expected;
-    }
-    return (chi2 - (counts.size() - 1)) / std::sqrt(2.0 * counts.size());
+    return deviation_from_even(counts);
 }
 
 struct SphereView {
@@ -93,31 +130,21 @@ TEST_F(RoundLightTest, ReferenceIsUniformOverTheCone) {
 }
 
 TEST_F(RoundLightTest, DeviceIsUniformOverTheConeAndKnowsItsDensity) {
+    std::vector<Scene> scenes;
+    for (const SphereView& view : kSphereViews) {
+        scenes.push_back(one_lamp(view.center, view.radius));
+    }
     on_each_device([&](Device& device) {
-        KernelProbe probe(device, R"(
-#include "lib/light/sample.cl"
-#include "lib/random.cl"
-kernel void probe(SCENE_PARAMETERS, global float4* out) {
-    const uint i = (uint)get_global_id(0);
-    const SceneView scene = SCENE_VIEW;
-    const uint4 words = random_uint4((uint4)(i, 1, 2, 3));
-    const float2 u = (float2)(to_unit_float(words.x), to_unit_float(words.y));
-    const RoundSample sample = sample_sphere(scene.emitters, (float3)(0.0f), u);
-    const float asked = sphere_pdf(scene.emitters, (float3)(0.0f), sample.direction);
-    out[i] = (float4)(sample.direction, asked > 0.0f ? asked / sample.pdf : 0.0f);
-}
-)");
-        Buffer<Float4> out(probe.device(), kRoundSamples);
-        for (const SphereView& view : kSphereViews) {
-            const SceneOnDevice lamp(probe.device(), one_lamp(view.center, view.radius));
-            probe.kernel().launch(kRoundSamples, 8, lamp.buffers, out);
+        const std::vector<std::vector<Float4>> samples = samples_of(device, scenes, "sphere");
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
             std::vector<Vec3> directions;
             uint outside = 0;
-            for (const auto& [x, y, z, ratio] : out.download()) {
+            for (const auto& [x, y, z, ratio] : samples[i]) {
                 directions.push_back({x, y, z});
                 outside += ratio == 1.0f ? 0 : 1;
             }
             EXPECT_LE(outside, kRoundSamples / 500) << "more than at the rim";
+            const SphereView& view = kSphereViews[i];
             EXPECT_LT(deviation_over_cone(directions, normalize(view.center), cosine_of(view)), 4.5);
         }
     });
@@ -135,8 +162,7 @@ std::vector<Scene> tubes() {
             one_tube({0.2f, 0.1f, 1}, 4, 0.1f, 9), one_tube({30, -40, 10}, 80, 0.2f, 0.5f)};
 }
 
-/// Pearson's chi² of directions from the origin over cells of the angle across the axis and the elevation,
-/// counted in standard deviations from its mean.
+/// The deviation of directions from the origin over cells of the angle across the axis and the elevation.
 double deviation_over_tube(const std::vector<Vec3>& directions, const RoundLamp& lamp) {
     constexpr int kCells = 8;
     std::array<double, kCells * kCells> counts{};
@@ -160,12 +186,7 @@ double deviation_over_tube(const std::vector<Vec3>& directions, const RoundLamp&
                          std::clamp(static_cast<int>(v * kCells), 0, kCells - 1);
         counts[static_cast<std::size_t>(cell)] += 1;
     }
-    const double expected = static_cast<double>(directions.size()) / counts.size();
-    double chi2 = 0;
-    for (const double count : counts) {
-        chi2 += (count - expected) * (count - expected) / expected;
-    }
-    return (chi2 - (counts.size() - 1)) / std::sqrt(2.0 * counts.size());
+    return deviation_from_even(counts);
 }
 
 TEST_F(RoundLightTest, SamplesOfATubeAreUniformInBothAngles) {
@@ -182,32 +203,18 @@ TEST_F(RoundLightTest, SamplesOfATubeAreUniformInBothAngles) {
         }
         EXPECT_LT(deviation_over_tube(directions, scene.round_lamps[0]), 4.5);
     }
+    const std::vector<Scene> scenes = tubes();
     on_each_device([&](Device& device) {
-        KernelProbe probe(device, R"(
-#include "lib/light/sample.cl"
-#include "lib/random.cl"
-kernel void probe(SCENE_PARAMETERS, global float4* out) {
-    const uint i = (uint)get_global_id(0);
-    const SceneView scene = SCENE_VIEW;
-    const uint4 words = random_uint4((uint4)(i, 1, 2, 3));
-    const float2 u = (float2)(to_unit_float(words.x), to_unit_float(words.y));
-    const RoundSample sample = sample_cylinder(scene.emitters, (float3)(0.0f), u);
-    const float asked = cylinder_pdf(scene.emitters, (float3)(0.0f), sample.direction);
-    out[i] = (float4)(sample.direction, asked > 0.0f ? asked / sample.pdf : 0.0f);
-}
-)");
-        Buffer<Float4> out(probe.device(), kRoundSamples);
-        for (const Scene& scene : tubes()) {
-            const SceneOnDevice lamp(probe.device(), scene);
-            probe.kernel().launch(kRoundSamples, 8, lamp.buffers, out);
+        const std::vector<std::vector<Float4>> samples = samples_of(device, scenes, "cylinder");
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
             std::vector<Vec3> directions;
             uint different = 0;
-            for (const auto& [x, y, z, ratio] : out.download()) {
+            for (const auto& [x, y, z, ratio] : samples[i]) {
                 directions.push_back({x, y, z});
                 different += std::abs(ratio - 1.0f) < 2e-3f ? 0 : 1;
             }
             EXPECT_LE(different, kRoundSamples / 200) << "more than at the rim";
-            EXPECT_LT(deviation_over_tube(directions, scene.round_lamps[0]), 4.5);
+            EXPECT_LT(deviation_over_tube(directions, scenes[i].round_lamps[0]), 4.5);
         }
     });
 }

@@ -257,4 +257,15 @@ inline double standard_error(const Image& image) {
     return std::sqrt(channel_mean(image, "variance.R") / (double(image.width) * image.height));
 }
 
+/// An environment map with a different colour in each of 21 neighbouring pixels.
+inline EnvironmentLight patterned_map(int width, int height) {
+    EnvironmentLight environment;
+    environment.width = width;
+    environment.height = height;
+    for (int i = 0; i < width * height; ++i) {
+        environment.radiance.push_back({0.1f * static_cast<float>(i % 7), static_cast<float>(i % 3), 0.5f});
+    }
+    return environment;
+}
+
 }  // namespace nearlight::core::small_scenes

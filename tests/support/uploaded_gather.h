@@ -86,4 +86,20 @@ inline bool same_bits(const std::vector<IrradiancePacket>& a, const std::vector<
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(IrradiancePacket)) == 0);
 }
 
+/// Expects the same bits of `gather(data, gatherer)`, whether it is done in one launch or in many, and with
+/// or without the packets before the last two.
+template <typename Gather>
+void expect_same_bits_for_any_division(Device& device, const GatherCase& data, const Gather& gather) {
+    GatherCase last = data;
+    last.receivers.erase(last.receivers.begin(), last.receivers.end() - 2);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        Gatherer gatherer(device, {.kernel = kernel});
+        Gatherer step_by_step(device, {.kernel = kernel, .first_launch_pairs = 1, .launch_seconds = 1e-9});
+        std::vector<IrradiancePacket> whole = gather(data, gatherer);
+        EXPECT_TRUE(same_bits(whole, gather(data, step_by_step)));
+        whole.erase(whole.begin(), whole.end() - 2);
+        EXPECT_TRUE(same_bits(whole, gather(last, gatherer)));
+    }
+}
+
 }  // namespace nearlight::core::test

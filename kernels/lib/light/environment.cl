@@ -183,6 +183,11 @@ inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
     return sample;
 }
 
+/// A direction that is uniform over the sun's disc.
+inline MapSample map_sample_towards_sun(const SceneView* scene, float2 u) {
+    return map_sample_towards(scene, sample_sun(scene, u));
+}
+
 /// A direction that the tables choose. There must be a map.
 inline MapSample sample_map(const SceneView* scene, float2 u) {
     const MapRegion region = choose_region(scene, &u);

@@ -162,7 +162,7 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
     const global Emitter* emitter = scene->emitters + index;
     if (is_distant(emitter)) {
         const MapSample map = emitter->type == NEARLIGHT_EMITTER_SUN
-                                  ? map_sample_towards(scene, sample_sun(scene, u))
+                                  ? map_sample_towards_sun(scene, u)
                                   : sample_map(scene, u);
         return sample_of_sky(scene, x, n, &map);
     }
@@ -222,7 +222,7 @@ inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, floa
     }
     MapSample map;
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
-        map = map_sample_towards(scene, sample_sun(scene, u));
+        map = map_sample_towards_sun(scene, u);
     } else if (choice.y < 0.5f) {
         map = map_sample_towards(scene, to_world_frame(square_to_cosine_hemisphere(u), n));
     } else {
