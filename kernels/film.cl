@@ -89,6 +89,7 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
                 vertex.flags & NEARLIGHT_VERTEX_OWN_PIXEL ? vertex.depth : -vertex.depth;
         }
         pixel[NEARLIGHT_SUM_CLOSE_RANGE] += vertex.flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
+        pixel[NEARLIGHT_SUM_ALPHA] += vertex.depth > 0.0f ? 1.0f : 0.0f;
     }
 }
 
@@ -146,7 +147,7 @@ inline void resolve_spread(const global float* sums, uint first, uint count, flo
     }
 }
 
-#define RESOLVE_LAYER(constant, name, channels, samples, passes, files)                      \
+#define RESOLVE_LAYER(constant, name, channels, samples, passes, files, storage)             \
     resolve_##samples(pixel, NEARLIGHT_SUM_##constant, NEARLIGHT_CHANNELS_##channels, scale, \
                       out + NEARLIGHT_LAYER_##constant);
 

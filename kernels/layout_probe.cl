@@ -12,8 +12,8 @@
 #define SIZE(Type) *out++ = (uint)sizeof(Type);
 #define OFFSET(Type, member) *out++ = (uint)(size_t)(&(((Type*)0)->member));
 #define VALUE(expression) *out++ = (uint)(expression);
-#define LAYER_PLACES(constant, name, channels, samples, passes, files) \
-    VALUE(NEARLIGHT_LAYER_##constant)                                  \
+#define LAYER_PLACES(constant, name, channels, samples, passes, files, storage) \
+    VALUE(NEARLIGHT_LAYER_##constant)                                           \
     VALUE(NEARLIGHT_SUM_##constant)
 
 kernel void layout_probe(global uint* out) {

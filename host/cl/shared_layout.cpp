@@ -15,7 +15,7 @@ namespace nearlight::core {
 #define SIZE(Type) {#Type " size", sizeof(Type)},
 #define OFFSET(Type, member) {#Type "." #member, offsetof(Type, member)},
 #define VALUE(expression) {#expression, expression},
-#define LAYER_PLACES(constant, name, channels, samples, passes, files) \
+#define LAYER_PLACES(constant, name, channels, samples, passes, files, storage) \
     VALUE(NEARLIGHT_LAYER_##constant) VALUE(NEARLIGHT_SUM_##constant)
 
 std::vector<LayoutFact> shared_layout() {

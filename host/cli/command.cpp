@@ -2,8 +2,10 @@
 #include "host/cli/command.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <iostream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -71,6 +73,31 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
         return "unexpected argument '" + extras.front() + "'";
     }
     return error.what();
+}
+
+/// A word as a shell would read it.
+std::string quoted_word(const std::string& word) {
+    const bool is_plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("-_=+,./:@%^").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (is_plain) {
+        return word;
+    }
+    std::string quoted = "'";
+    for (const char c : word) {
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return quoted + "'";
+}
+
+/// The line with which the program was called.
+std::string command_line_of(int argc, const char* const* argv) {
+    std::string line = "nearlight";
+    for (int i = 1; i < argc; ++i) {
+        line += " " + quoted_word(argv[i]);
+    }
+    return line;
 }
 
 /// An error of one line, which says what is wrong and where to read more.
@@ -148,6 +175,7 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
                     "--quiet and --verbose contradict each other; give only one of them");
     }
     set_up_log(global_.quiet ? Verbosity::quiet : global_.verbose ? Verbosity::verbose : Verbosity::normal);
+    global_.command_line = command_line_of(argc, argv);
     const ExitCode code = run_(global_);
     check_standard_output();
     return code;

@@ -19,9 +19,10 @@ namespace nearlight::core {
 
 /// The options of every command besides --help and --version.
 struct GlobalOptions {
-    bool json = false;     ///< standard output gets one JSON object and nothing else; see output.h
-    bool quiet = false;    ///< log only errors
-    bool verbose = false;  ///< log debug messages too
+    bool json = false;           ///< standard output gets one JSON object and nothing else; see output.h
+    bool quiet = false;          ///< log only errors
+    bool verbose = false;        ///< log debug messages too
+    std::string command_line{};  ///< as a shell would read it, for the metadata of pictures
 };
 
 class CommandLine {

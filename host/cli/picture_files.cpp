@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -93,6 +94,13 @@ void check_output(const std::string& file) {
     }
 }
 
+std::map<std::string, ExrCompression> compression_names() {
+    return {{"none", ExrCompression::none},
+            {"zip", ExrCompression::zip},
+            {"piz", ExrCompression::piz},
+            {"dwaa", ExrCompression::dwaa}};
+}
+
 std::vector<float> transposed(const Mat4& m) {
     std::vector<float> values;
     for (int column = 0; column < 4; ++column) {
@@ -124,6 +132,21 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
     command.add_option("--exposure", options.exposure, "Exposure of PNG pictures, in stops")
         ->type_name("EV")
         ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--exr-precision",
+            [&options](const std::string& text) { options.is_full_precision = text == "float"; },
+            "half: colours and normals of EXR pictures are 16-bit floats, up to 65504, and positions, depths "
+            "and variances are 32-bit floats; float: all are 32-bit floats")
+        ->check(CLI::IsMember({"half", "float"}))
+        ->type_name("half|float")
+        ->default_str("half");
+    command
+        .add_option("--exr-compression", options.compression,
+                    "Compression of EXR pictures: none, zip, piz (best for noise), or dwaa (lossy)")
+        ->transform(CLI::CheckedTransformer(compression_names()))
+        ->type_name("NAME")
+        ->default_str("zip");
     command.add_flag(
         "--denoise", options.denoise,
         "Denoise the picture with Open Image Denoise (`scripts/setup --denoise` installs it); the layer "
@@ -161,11 +184,15 @@ Metadata camera_metadata(const SceneCamera& camera) {
 void PictureFiles::open(int width, int height, const Metadata& metadata) {
     ImageWriterOptions writer_options{metadata, options_.exposure};
     writer_options.metadata["renderTimeSeconds"] = 0.0f;
+    writer_options.compression = options_.compression;
     for (const std::string& file : options_.outputs) {
+        writer_options.half.clear();
         std::vector<FilmLayer> layers = layers_for(options_, file);
         std::vector<std::string> names;
         for (const FilmLayer& layer : layers) {
             std::ranges::move(channel_names(layer), std::back_inserter(names));
+            writer_options.half.resize(names.size(),
+                                       layer.storage == Storage::half && !options_.is_full_precision);
         }
         files_.push_back(
             {ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});

@@ -17,15 +17,17 @@ struct PictureOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> layers;  ///< layers of EXR files; empty: all that need not be asked for
     float exposure = 0.0f;            ///< exposure of PNG files, in stops
-    bool denoise = false;             ///< the beauty is denoised, and rows end in the layer `raw`
-    bool denoise_fast = false;        ///< less well, in a tenth of the time
+    bool is_full_precision = false;   ///< all numbers of EXR files are 32-bit floats
+    ExrCompression compression = ExrCompression::zip;
+    bool denoise = false;       ///< the beauty is denoised, and rows end in the layer `raw`
+    bool denoise_fast = false;  ///< less well, in a tenth of the time
 };
 
 /// The layer after all others in the rows of a denoised picture: the beauty as it was rendered.
 inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEARLIGHT_CHANNELS_RGB,
                                      PassRule::mean};
 
-/// Adds -o, --layers, --exposure and --denoise.
+/// Adds -o, --layers, --exposure, --exr-precision, --exr-compression and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)

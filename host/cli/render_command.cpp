@@ -184,7 +184,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             picture.open(started.width, started.height,
-                         render_metadata(hash.get(), options.scene, settings, started, view, devices));
+                         render_metadata(hash.get(), options.scene, settings, started, view, devices,
+                                         global.command_line));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
@@ -278,8 +279,7 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--clamp-radius", options.clamp_radius,
                     "VPLs closer than R light a point as if they were at the distance R, and rays bring back "
-                    "the rest: "
-                    "scene units, or auto, which chooses the radius of least noise")
+                    "the rest: scene units, or auto, which chooses the radius of least noise")
         ->type_name("R")
         ->capture_default_str();
     command
@@ -293,8 +293,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->default_str("on");
     command
         .add_option("--rays", settings.gather.rays_per_pixel,
-                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and windows in rough "
-                    "reflections")
+                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and "
+                    "windows in rough reflections")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();

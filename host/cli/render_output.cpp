@@ -39,7 +39,8 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
 
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
                          const RenderReport& report, const View& view,
-                         const std::vector<std::unique_ptr<Device>>& devices) {
+                         const std::vector<std::unique_ptr<Device>>& devices,
+                         const std::string& command_line) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
     metadata["nearlight:sampler"] = to_string(settings.sampling.sampler);
@@ -69,6 +70,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
     metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
     metadata["nearlight:sceneHash"] = hex_digits(scene_hash);
+    metadata["nearlight:commandLine"] = command_line;
     return metadata;
 }
 

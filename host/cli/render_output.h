@@ -19,7 +19,8 @@ namespace nearlight::core {
 /// The EXR's attributes `nearlight:…` and those of its camera.
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
                          const RenderReport& report, const View& view,
-                         const std::vector<std::unique_ptr<Device>>& devices);
+                         const std::vector<std::unique_ptr<Device>>& devices,
+                         const std::string& command_line);
 
 /// The time of the first finished rows of the picture.
 struct FirstRows {

@@ -25,6 +25,8 @@ struct EncodingTask {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;
+    std::vector<bool> half;  ///< of each channel; empty: none
+    ExrCompression compression = ExrCompression::zip;
     Metadata metadata;
 };
 

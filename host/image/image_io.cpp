@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "host/base/atomic_file.h"
+#include "host/base/files.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
 #include "host/image/image_codec.h"
@@ -36,12 +37,8 @@ void linearize(Image& image) {
 }
 
 void check_readable(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) {
-        fail_image("cannot read image", file, "no such file");
-    }
-    if (fs::is_directory(file, ignored)) {
-        fail_image("cannot read image", file, "it is a folder");
+    if (const std::string reason = reason_not_to_read(file); !reason.empty()) {
+        fail_image("cannot read image", file, reason);
     }
 }
 
@@ -102,6 +99,7 @@ struct ImageWriter::State {
     std::array<std::size_t, 3> rgb{};  ///< indices of R, G and B among the channels, for PNG
     float scale = 1.0f;                ///< exposure as a factor, for PNG
     std::vector<std::uint8_t> encoded;
+    std::vector<float> limited;
     // A stream of our own reports every failed write, even after the last row.
     std::FILE* stream = nullptr;
     EncodingTask task;
@@ -112,6 +110,7 @@ struct ImageWriter::State {
     ~State();
     void open(const std::vector<std::string>& channels, const ImageWriterOptions& options);
     void write(int row_count, const float* values);
+    const float* within_half(int row_count, const float* values);
     void close();
     [[noreturn]] void fail_to_write(const std::string& reason) const {
         fail_image("cannot write image", file.target(), reason);
@@ -136,7 +135,25 @@ void ImageWriter::State::open(const std::vector<std::string>& channels, const Im
             .width = width,
             .height = height,
             .channels = channels,
+            .half = options.half,
+            .compression = options.compression,
             .metadata = options.metadata};
+}
+
+/// The values, of which finite ones of 16-bit channels are at most as large as these can hold.
+const float* ImageWriter::State::within_half(int row_count, const float* values) {
+    if (task.half.empty()) {
+        return values;
+    }
+    constexpr float kMaxHalf = 65504.0f;
+    const std::size_t pixel_count = static_cast<std::size_t>(row_count) * static_cast<std::size_t>(width);
+    limited.assign(values, values + pixel_count * channel_count);
+    for (std::size_t i = 0; i < limited.size(); ++i) {
+        if (task.half[i % channel_count] && std::isfinite(limited[i]) && std::abs(limited[i]) > kMaxHalf) {
+            limited[i] = std::copysign(kMaxHalf, limited[i]);
+        }
+    }
+    return limited.data();
 }
 
 void ImageWriter::State::write(int row_count, const float* values) {
@@ -146,7 +163,7 @@ void ImageWriter::State::write(int row_count, const float* values) {
     std::string failed;
     const int end = next_row + row_count;
     if (format == ImageFormat::exr) {
-        failed = encoder->write(next_row, end, values);
+        failed = encoder->write(next_row, end, within_half(row_count, values));
     } else {
         const std::size_t pixel_count = static_cast<std::size_t>(row_count) * static_cast<std::size_t>(width);
         encoded.resize(pixel_count * 3);

@@ -30,9 +30,17 @@ using Metadata = std::map<std::string, std::variant<int, float, std::string, std
 /// The attributes of an image file that are an int, a float or a string. Throws Error(ErrorKind::file).
 Metadata read_metadata(const std::filesystem::path& file);
 
+/// How EXR files are compressed. All but `dwaa` are lossless; it changes colours by little, in a third of the
+/// space.
+enum class ExrCompression { none, zip, piz, dwaa };
+
 struct ImageWriterOptions {
-    Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix
+    /// EXR attributes, where a vector of 16 floats becomes a matrix. PNG files get those that are texts.
+    Metadata metadata{};
     float exposure = 0.0f;  ///< stops, applied before the sRGB curve; PNG only
+    ExrCompression compression = ExrCompression::zip;
+    /// For each channel, whether EXR files have it as 16-bit floats, whose maximum is 65504; empty: none.
+    std::vector<bool> half{};
 };
 
 /// Writes rows from top to bottom as they come, so that the whole picture need not be in memory. The data
@@ -40,7 +48,7 @@ struct ImageWriterOptions {
 /// it is.
 class ImageWriter {
   public:
-    /// The extension tells the format. EXR keeps all channels (32-bit float, ZIP); PNG takes R, G and B,
+    /// The extension tells the format. EXR keeps all channels; PNG takes R, G and B,
     /// tone-mapped to 8-bit sRGB by deterministic rounding without dithering. Throws
     /// Error(ErrorKind::invalid_argument) for an unknown extension, and Error(ErrorKind::file) if the path
     /// cannot be written.

@@ -3,7 +3,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <system_error>
+#include <variant>
 
 #include "host/image/image_codec.h"
 #include "nearlight/error.h"
@@ -86,11 +89,34 @@ void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadat
     }
 }
 
+const char* name_of(ExrCompression compression) {
+    switch (compression) {
+        case ExrCompression::none:
+            return "none";
+        case ExrCompression::zip:
+            return "zip";
+        case ExrCompression::piz:
+            return "piz";
+        case ExrCompression::dwaa:
+            return "dwaa";
+    }
+    return "zip";
+}
+
 OIIO::ImageSpec exr_spec(const EncodingTask& task) {
     OIIO::ImageSpec spec(task.width, task.height, static_cast<int>(task.channels.size()),
                          OIIO::TypeDesc::FLOAT);
     spec.channelnames = task.channels;
-    spec.attribute("compression", "zip");
+    for (const bool is_half : task.half) {
+        spec.channelformats.push_back(is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+    }
+    const auto alpha = std::find(task.channels.begin(), task.channels.end(), "A");
+    spec.alpha_channel = alpha != task.channels.end() ? static_cast<int>(alpha - task.channels.begin()) : -1;
+    spec.attribute("compression", name_of(task.compression));
+    // Rec. 709 primaries with the white point D65: x and y of red, green, blue and white.
+    constexpr std::array kChromaticities{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kChromaticities.size()),
+                   kChromaticities.data());
     for (const auto& [name, value] : task.metadata) {
         set_attribute(spec, name, value);
     }
@@ -100,6 +126,11 @@ OIIO::ImageSpec exr_spec(const EncodingTask& task) {
 OIIO::ImageSpec png_spec(const EncodingTask& task) {
     OIIO::ImageSpec spec(task.width, task.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
+    for (const auto& [name, value] : task.metadata) {
+        if (std::holds_alternative<std::string>(value)) {
+            set_attribute(spec, name, value);
+        }
+    }
     return spec;
 }
 

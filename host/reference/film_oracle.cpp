@@ -117,6 +117,7 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
         if (s % layout.branches == 0) {
             out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
                 static_cast<double>(vertex.flags & NEARLIGHT_VERTEX_CLOSE) / layout.samples;
+            out[NEARLIGHT_LAYER_ALPHA] += (vertex.depth > 0.0f ? 1.0 : 0.0) / layout.samples;
         }
     }
     for (std::size_t c = 0; c < 3; ++c) {

@@ -10,7 +10,8 @@ static_assert(std::ranges::all_of(kFilmLayers, [](const FilmLayer& layer) {
 }));
 
 std::vector<std::string> channel_names(const FilmLayer& layer) {
-    const std::string prefix = layer.is_beauty() ? "" : std::string(layer.name) + ".";
+    const bool is_plain = layer.is_beauty() || layer.name == layer.suffixes;
+    const std::string prefix = is_plain ? "" : std::string(layer.name) + ".";
     std::vector<std::string> names;
     for (const char suffix : layer.suffixes) {
         names.push_back(prefix + suffix);

@@ -17,6 +17,8 @@ namespace nearlight::core {
 enum class PassRule { mean, first, variance };
 /// Which EXR files get a layer: all, or those for which it is asked.
 enum class FileRule { always, asked };
+/// What numbers EXR files have: 16-bit or 32-bit floats.
+enum class Storage { half, full };
 
 struct FilmLayer {
     std::string_view name;          ///< "beauty", "direct", …
@@ -25,26 +27,28 @@ struct FilmLayer {
     std::size_t channel_count = 0;
     PassRule passes = PassRule::mean;
     FileRule files = FileRule::always;
+    Storage storage = Storage::half;
 
     [[nodiscard]] constexpr bool is_beauty() const { return first_channel == NEARLIGHT_LAYER_BEAUTY; }
 };
 
-#define NEARLIGHT_LAYER_ROW(constant, name, channels, samples, passes, files) \
-    FilmLayer{name,                                                           \
-              #channels,                                                      \
-              NEARLIGHT_LAYER_##constant,                                     \
-              NEARLIGHT_CHANNELS_##channels,                                  \
-              PassRule::passes,                                               \
-              FileRule::files},
+#define NEARLIGHT_LAYER_ROW(constant, name, channels, samples, passes, files, storage) \
+    FilmLayer{name,                                                                    \
+              #channels,                                                               \
+              NEARLIGHT_LAYER_##constant,                                              \
+              NEARLIGHT_CHANNELS_##channels,                                           \
+              PassRule::passes,                                                        \
+              FileRule::files,                                                         \
+              Storage::storage},
 /// All layers, in the order of the picture's channels.
 inline constexpr std::array kFilmLayers{NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_ROW)};
 #undef NEARLIGHT_LAYER_ROW
 
-/// The names of a layer's channels in files: R, G and B for the beauty, names like "direct.R" for other
-/// layers.
+/// The names of a layer's channels in files: R, G and B for the beauty, A for the coverage, names like
+/// "direct.R" for other layers.
 std::vector<std::string> channel_names(const FilmLayer& layer);
 
-/// The names of a finished picture's channels: R, G, B, direct.R, …, closerange.Y.
+/// The names of a finished picture's channels: R, G, B, direct.R, …, A.
 std::vector<std::string> layer_channels();
 
 /// The rule by which several passes become one picture, for each channel.

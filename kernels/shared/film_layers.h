@@ -2,10 +2,10 @@
 // The table of the picture's layers, compiled by host and kernels. The kernel of the film, the average of
 // passes, the EXR files and the help text of --layers come from it; CONTRIBUTING.md says how to add a row.
 //
-// A row is LAYER(constant, name, channels, samples, passes, files).
+// A row is LAYER(constant, name, channels, samples, passes, files, storage).
 //   constant   is what NEARLIGHT_LAYER_… and NEARLIGHT_SUM_… end in.
 //   name       stands before the channel in files, as in "direct.R"; the beauty's channels have no prefix.
-//   channels   is one letter for each channel.
+//   channels   is one letter for each channel. A layer whose name is its only letter has no prefix.
 //   samples    says how the samples of a pixel become the layer:
 //     mean       their mean;
 //     direction  the unit vector along their sum;
@@ -20,24 +20,29 @@
 //              far apart the passes lie (host/session/pass_average.h).
 //   files      says which EXR files get the layer: `always`, unless --layers names others, or `asked`, if
 //              --layers names it.
+//   storage    says what numbers EXR files have unless --exr-precision asks for more: `half`, 16-bit floats
+//   of
+//              11 significant bits, or `full`, 32-bit floats.
 // The order of the rows is the order of the channels in a picture and in its files.
 #ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
 #define NEARLIGHT_SHARED_FILM_LAYERS_H
 
-#define NEARLIGHT_FILM_LAYERS(LAYER)                         \
-    LAYER(BEAUTY, "beauty", RGB, light, mean, always)        \
-    LAYER(DIRECT, "direct", RGB, mean, mean, always)         \
-    LAYER(INDIRECT, "indirect", RGB, mean, mean, always)     \
-    LAYER(ALBEDO, "albedo", RGB, mean, first, always)        \
-    LAYER(NORMAL, "N", XYZ, direction, first, always)        \
-    LAYER(POSITION, "P", XYZ, first, first, always)          \
-    LAYER(DEPTH, "depth", Z, depth, first, always)           \
-    LAYER(CLOSE_RANGE, "closerange", Y, mean, first, always) \
-    LAYER(VARIANCE, "variance", RGB, spread, variance, asked)
+#define NEARLIGHT_FILM_LAYERS(LAYER)                                \
+    LAYER(BEAUTY, "beauty", RGB, light, mean, always, half)         \
+    LAYER(DIRECT, "direct", RGB, mean, mean, always, half)          \
+    LAYER(INDIRECT, "indirect", RGB, mean, mean, always, half)      \
+    LAYER(ALBEDO, "albedo", RGB, mean, first, always, half)         \
+    LAYER(NORMAL, "N", XYZ, direction, first, always, half)         \
+    LAYER(POSITION, "P", XYZ, first, first, always, full)           \
+    LAYER(DEPTH, "depth", Z, depth, first, always, full)            \
+    LAYER(CLOSE_RANGE, "closerange", Y, mean, first, always, half)  \
+    LAYER(VARIANCE, "variance", RGB, spread, variance, asked, full) \
+    LAYER(ALPHA, "A", A, mean, mean, asked, half)
 
 // How many channels each word of the column `channels` stands for.
 #define NEARLIGHT_CHANNELS_RGB 3
 #define NEARLIGHT_CHANNELS_XYZ 3
+#define NEARLIGHT_CHANNELS_A 1
 #define NEARLIGHT_CHANNELS_Y 1
 #define NEARLIGHT_CHANNELS_Z 1
 
@@ -49,8 +54,9 @@
 #define NEARLIGHT_SUMS_light(count) 0
 #define NEARLIGHT_SUMS_spread(count) count
 
-#define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes, files) +NEARLIGHT_CHANNELS_##channels
-#define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes, files) \
+#define NEARLIGHT_LAYER_SIZE(constant, name, channels, samples, passes, files, storage) \
+    +NEARLIGHT_CHANNELS_##channels
+#define NEARLIGHT_SUM_SIZE(constant, name, channels, samples, passes, files, storage) \
     +NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels)
 
 /// The number of channels of a finished picture.
@@ -64,12 +70,12 @@ namespace nearlight::core {
 
 // Each row names its first and its last channel, so that the enumerator after them is the first channel of
 // the next row.
-#define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes, files) \
-    NEARLIGHT_LAYER_##constant,                                                 \
+#define NEARLIGHT_LAYER_PLACE(constant, name, channels, samples, passes, files, storage) \
+    NEARLIGHT_LAYER_##constant,                                                          \
         NEARLIGHT_LAYER_##constant##_LAST = NEARLIGHT_LAYER_##constant + NEARLIGHT_CHANNELS_##channels - 1,
-#define NEARLIGHT_SUM_PLACE(constant, name, channels, samples, passes, files) \
-    NEARLIGHT_SUM_##constant,                                                 \
-        NEARLIGHT_SUM_##constant##_LAST =                                     \
+#define NEARLIGHT_SUM_PLACE(constant, name, channels, samples, passes, files, storage) \
+    NEARLIGHT_SUM_##constant,                                                          \
+        NEARLIGHT_SUM_##constant##_LAST =                                              \
             NEARLIGHT_SUM_##constant + NEARLIGHT_SUMS_##samples(NEARLIGHT_CHANNELS_##channels) - 1,
 
 /// NEARLIGHT_LAYER_DIRECT is the first channel of the layer "direct" in a finished picture, and so on.

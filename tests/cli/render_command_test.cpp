@@ -105,6 +105,9 @@ TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
     EXPECT_EQ(metadata.at("nearlight:cuts"), Metadata::mapped_type{"on"});
     EXPECT_EQ(metadata.at("nearlight:vplsAsked"), Metadata::mapped_type{100});
     EXPECT_EQ(rendered("--cuts on", output_)["vpls"]["set"], 6400);
+    const nlohmann::json none = rendered("--vpls 0 --vpl-set 3000", output_);
+    EXPECT_EQ(none["vpls"]["set"], 0);
+    EXPECT_EQ(none["image_hash"], rendered("--vpls 0", output_)["image_hash"]);
     for (const char* options : {"--vpl-set 3000 --cuts off", "--cuts on --roulette 1", "--cuts maybe",
                                 "--vpl-set 3000 --sampler local", "--vpl-set 0"}) {
         EXPECT_EQ(render(options, output_).exit_code, 2) << options;
@@ -217,6 +220,33 @@ TEST_F(Render, EveryLayerIsInTheFileInTheHelpAndInTheReadme) {
         }
         EXPECT_TRUE(is_word_of(of_layers, name)) << of_layers;
     }
+}
+
+TEST_F(Render, ExrFilesSayHowTheyWereMadeAndMayBePrecise) {
+    NEARLIGHT_NEEDS_DEVICE();
+    ASSERT_EQ(render("--layers A,depth", output_).exit_code, 0);
+    const Image half = read_image(output_);
+    const std::string line = std::get<std::string>(read_metadata(output_).at("nearlight:commandLine"));
+    EXPECT_TRUE(line.starts_with("nearlight render --json")) << line;
+    EXPECT_NE(line.find("--layers A,depth"), std::string::npos) << line;
+    const std::filesystem::path precise = folder_ / "precise.exr";
+    ASSERT_EQ(render("--layers A,depth --exr-precision float", precise).exit_code, 0);
+    const Image full = read_image(precise);
+    ASSERT_EQ(full.channels, half.channels);
+    uint rounded = 0;
+    for (std::size_t i = 0; i < full.values.size(); ++i) {
+        const std::string& channel = full.channels[i % full.channel_count()];
+        EXPECT_NEAR(half.values[i], full.values[i], std::abs(full.values[i]) / 2048 + 1e-7f);
+        rounded += half.values[i] != full.values[i] ? 1 : 0;
+        if (channel == "A") {
+            const float depth = full.values[i - i % full.channel_count() +
+                                            static_cast<std::size_t>(full.find_channel("depth.Z"))];
+            EXPECT_EQ(full.values[i] > 0.0f, depth > 0.0f);
+        }
+    }
+    EXPECT_GT(rounded, 0u);
+    EXPECT_EQ(render("--exr-precision double", output_).exit_code, 2);
+    EXPECT_EQ(render("--exr-compression rar", output_).exit_code, 2);
 }
 
 TEST_F(Render, LayersThatWereAskedForComeBesidesTheBeauty) {

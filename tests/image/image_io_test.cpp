@@ -24,6 +24,59 @@ TEST(ImageIo, ExrKeepsEveryChannelBitForBit) {
     }
 }
 
+TEST(ImageIo, ExrRoundsChannelsThatAreHalfFloats) {
+    const TemporaryFolder folder;
+    Image image = noise(19, 7, {"R", "depth.Z", "A"});
+    image.at(2, 1, 0) = 1e9f;
+    image.at(3, 1, 0) = -1e9f;
+    image.at(4, 1, 0) = std::numeric_limits<float>::infinity();
+    for (const ExrCompression compression :
+         {ExrCompression::none, ExrCompression::zip, ExrCompression::piz}) {
+        write_image(folder / "a.exr", image, {.compression = compression, .half = {true, false, true}});
+        const Image back = read_image(folder / "a.exr");
+        ASSERT_EQ(back.values.size(), image.values.size());
+        const auto channel = [&](const char* name) {
+            return static_cast<std::size_t>(back.find_channel(name));
+        };
+        EXPECT_EQ(back.at(2, 1, channel("R")), 65504.0f);
+        EXPECT_EQ(back.at(3, 1, channel("R")), -65504.0f);
+        EXPECT_TRUE(std::isinf(back.at(4, 1, channel("R"))));
+        uint rounded = 0;
+        for (int x = 5; x < 19; ++x) {
+            const float value = image.at(x, 1, 0);
+            EXPECT_NEAR(back.at(x, 1, channel("R")), value, std::abs(value) / 2048 + 1e-7f);
+            rounded += back.at(x, 1, channel("R")) != value ? 1 : 0;
+            EXPECT_EQ(back.at(x, 1, channel("depth.Z")), image.at(x, 1, 1));
+        }
+        EXPECT_GT(rounded, 0u);
+    }
+}
+
+TEST(ImageIo, DwaaChangesColoursByLittle) {
+    const TemporaryFolder folder;
+    Image image = make_image(64, 64, {"R", "G", "B"});
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+        image.values[i] = 0.5f + 0.4f * std::sin(static_cast<float>(i) * 0.01f);
+    }
+    write_image(folder / "a.exr", image, {.compression = ExrCompression::dwaa, .half = {true, true, true}});
+    const Image back = read_image(folder / "a.exr");
+    double change = 0;
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+        change = std::max<double>(change, std::abs(back.values[i] - image.values[i]));
+    }
+    EXPECT_GT(change, 0.0);
+    EXPECT_LT(change, 0.05);
+}
+
+TEST(ImageIo, PngKeepsTexts) {
+    const TemporaryFolder folder;
+    write_image(folder / "a.png", noise(4, 4, {"R", "G", "B"}),
+                {.metadata = {{"nearlight:sampler", std::string("local")}, {"nearlight:vpls", 7}}});
+    const Metadata metadata = read_metadata(folder / "a.png");
+    EXPECT_EQ(metadata.at("nearlight:sampler"), Metadata::mapped_type{"local"});
+    EXPECT_FALSE(metadata.contains("nearlight:vpls"));
+}
+
 TEST(ImageIo, ExrKeepsInfinityAndNan) {
     const TemporaryFolder folder;
     Image image = make_image(3, 1, {"R", "G", "B"});

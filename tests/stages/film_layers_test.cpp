@@ -16,7 +16,7 @@ TEST(FilmLayers, ChannelsHaveTheNamesAndTheOrderOfFiles) {
                                        "direct.B",   "indirect.R", "indirect.G", "indirect.B", "albedo.R",
                                        "albedo.G",   "albedo.B",   "N.X",        "N.Y",        "N.Z",
                                        "P.X",        "P.Y",        "P.Z",        "depth.Z",    "closerange.Y",
-                                       "variance.R", "variance.G", "variance.B"}));
+                                       "variance.R", "variance.G", "variance.B", "A"}));
 }
 
 TEST(FilmLayers, LieOneAfterTheOther) {
@@ -50,9 +50,11 @@ TEST(FilmLayers, PassesAverageLightAndKeepTheGeometryOfTheFirst) {
     }
 }
 
-TEST(FilmLayers, OnlyTheVarianceMustBeAskedFor) {
+TEST(FilmLayers, VarianceAndCoverageMustBeAskedFor) {
     for (const FilmLayer& layer : kFilmLayers) {
-        EXPECT_EQ(layer.files, layer.name == "variance" ? FileRule::asked : FileRule::always) << layer.name;
+        EXPECT_EQ(layer.files,
+                  layer.name == "variance" || layer.name == "A" ? FileRule::asked : FileRule::always)
+            << layer.name;
     }
 }
 
