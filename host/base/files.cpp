@@ -32,7 +32,22 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
     }
 }
 
+std::string reason_not_to_read(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    switch (fs::status(file, error).type()) {
+        case fs::file_type::regular: return "";
+        case fs::file_type::not_found: return "no such file";
+        case fs::file_type::directory: return "it is a folder, not a file";
+        case fs::file_type::none: return error.message();
+        default: return "it is a pipe or a device, not a file";
+    }
+}
+
 std::string read_bytes(const std::filesystem::path& file) {
+    if (const std::string reason = reason_not_to_read(file); !reason.empty()) {
+        throw Error(ErrorKind::file, "cannot read '" + file.string() + "': " + reason);
+    }
     std::ifstream stream(file, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     if (!stream) {

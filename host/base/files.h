@@ -12,6 +12,9 @@ namespace nearlight::core {
 void make_folder(const std::filesystem::path& folder);
 /// Replaces the whole file. After a failure the old file is still there. Throws Error(ErrorKind::file).
 void write_text(const std::filesystem::path& file, std::string_view text);
+/// Why there is no use in opening a file for reading, as in "no such file"; empty if there is some. What is
+/// not a regular file, such as a pipe or a device, may never end.
+std::string reason_not_to_read(const std::filesystem::path& file);
 /// Reads the whole file. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);
 

@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <fstream>
 
+#include "host/base/files.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 
 std::string read_file_text(const std::filesystem::path& file) {
+    if (const std::string reason = reason_not_to_read(file); !reason.empty()) {
+        throw Error(ErrorKind::file, file.string() + ": " + reason);
+    }
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        throw Error(ErrorKind::file, file.string() + ": no such file");
-    }
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw Error(ErrorKind::file, file.string() + ": is a directory, not a file");
-    }
     std::ifstream stream(file, std::ios::binary);
     std::string text;
     const auto size = std::filesystem::file_size(file, ignored);

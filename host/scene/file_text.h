@@ -7,7 +7,7 @@
 
 namespace nearlight::core {
 
-/// Reads the whole file. Throws Error(ErrorKind::file) if it is missing, a directory or unreadable.
+/// Reads the whole file. Throws Error(ErrorKind::file) if it is missing, unreadable or no regular file.
 std::string read_file_text(const std::filesystem::path& file);
 
 /// The path that `name` stands for in `file`: relative to the folder of `file`, with backslashes allowed as

@@ -2,6 +2,7 @@
 // Mistakes of users and failures of disks, tried with the real program. Each must give one clear line and the
 // documented exit code, and leave old pictures alone.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <utility>
@@ -105,6 +106,27 @@ TEST_F(BadInput, BrokenMeshes) {
     write("mesh.ply", kPlyHeader + "0 0 0\n1 0");
     expect_error(render(write_scene(shape)), 3, "truncated");
     expect_error(render(write("bad.obj", "v 0 0 0\nf 1 2 9\n")), 3, "bad.obj:2: face refers to vertex");
+}
+
+// Such a file may never end.
+TEST_F(BadInput, PipesAndDevicesAreRefusedAtOnce) {
+    const std::filesystem::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const char* extension : {".xml", ".obj", ".gltf", ".glb"}) {
+        const std::filesystem::path scene = folder_ / (std::string("scene") + extension);
+        std::filesystem::create_symlink(pipe, scene);
+        expect_error(render(scene), 3, "it is a pipe or a device, not a file");
+        std::filesystem::remove(scene);
+    }
+    for (const char* type : {"ply", "obj", "serialized"}) {
+        const std::string shape =
+            std::string("<shape type='") + type + "'><string name='filename' value='pipe'/></shape>\n";
+        expect_error(render(write_scene(shape)), 3, "it is a pipe or a device, not a file");
+    }
+    const std::string sky = "<emitter type='envmap'><string name='filename' value='/dev/zero'/></emitter>\n";
+    expect_error(render(write_scene(kRoom + sky)), 3, "it is a pipe or a device, not a file");
+    expect_error(run_program("diff " + quoted(pipe) + " /dev/zero"), 3,
+                 "it is a pipe or a device, not a file");
 }
 
 TEST_F(BadInputOnDevice, OddMeshesAreTakenAsTheyAre) {
