@@ -216,8 +216,13 @@ void PictureFiles::write_rows(std::span<const float> rows) {
 }
 
 void PictureFiles::commit(double render_seconds) {
-    for (File& file : files_) {
-        file.writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+        ImageWriter& writer = files_[i].writer;
+        writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
+        if (writer.limited_count() > 0) {
+            spdlog::warn("{}: {} values above 65504 count as that; --exr-precision float keeps them",
+                         options_.outputs[i], writer.limited_count());
+        }
     }
 }
 

@@ -100,6 +100,7 @@ struct ImageWriter::State {
     float scale = 1.0f;                ///< exposure as a factor, for PNG
     std::vector<std::uint8_t> encoded;
     std::vector<float> limited;
+    std::size_t limited_count = 0;
     // A stream of our own reports every failed write, even after the last row.
     std::FILE* stream = nullptr;
     EncodingTask task;
@@ -151,6 +152,7 @@ const float* ImageWriter::State::within_half(int row_count, const float* values)
     for (std::size_t i = 0; i < limited.size(); ++i) {
         if (task.half[i % channel_count] && std::isfinite(limited[i]) && std::abs(limited[i]) > kMaxHalf) {
             limited[i] = std::copysign(kMaxHalf, limited[i]);
+            ++limited_count;
         }
     }
     return limited.data();
@@ -253,6 +255,10 @@ void ImageWriter::commit(const std::map<std::string, float>& late) {
     if (const std::error_code error = state_->file.commit(Durability::result)) {
         state_->fail_to_write(error.message());
     }
+}
+
+std::size_t ImageWriter::limited_count() const {
+    return state_->limited_count;
 }
 
 void write_image(const fs::path& file, const Image& image, const ImageWriterOptions& options) {

@@ -63,6 +63,8 @@ class ImageWriter {
     /// Fills rows that were not written with zeros, closes the file and moves it into place. `late` replaces
     /// values of float metadata that were given at the start (EXR only).
     void commit(const std::map<std::string, float>& late = {});
+    /// How many values of 16-bit channels were too large for them so far.
+    [[nodiscard]] std::size_t limited_count() const;
 
   private:
     struct State;

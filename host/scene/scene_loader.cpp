@@ -8,6 +8,7 @@
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj_loader.h"
+#include "host/scene/scene_limits.h"
 #include "host/scene/vertex_colors.h"
 #include "nearlight/error.h"
 
@@ -68,6 +69,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     Scene scene = loader->load(file, options);
     NoteSink notes(scene.notes, options.strict);
     finish_vertex_colors(scene, notes);
+    keep_within_limits(scene, notes);
     remark_emptiness(scene);
     return scene;
 }
