@@ -16,6 +16,7 @@
 #include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
 #include "host/cli/selftest_command.h"
+#include "host/cli/standard_streams.h"
 #include "host/cli/tune_command.h"
 
 namespace {
@@ -29,6 +30,7 @@ int fail(const char* message, nearlight::core::ExitCode code) {
 
 int main(int argc, char** argv) {
     using nearlight::core::ExitCode;
+    nearlight::core::prepare_standard_streams();
     try {
         nearlight::core::CommandLine line;
         nearlight::core::add_render_command(line);

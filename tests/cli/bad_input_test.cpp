@@ -197,6 +197,22 @@ TEST_F(BadInputOnDevice, OutputThatFailsLate) {
     expect_error(render(good_scene(), "-o /proc/x.png"), 3, "/proc/x.png");
 }
 
+TEST_F(BadInputOnDevice, StandardStreamsMayBeClosed) {
+    for (const char* closed : {"2>&-", "<&- 2>&-", "2>&1 | true", "2>/dev/full"}) {
+        write("picture.png", "old");
+        run_program("render " + quoted(good_scene()) + " --size 16x16 --spp 1 --vpls 16 -o " +
+                    quoted(picture()) + " " + closed);
+        EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG")) << closed;
+    }
+}
+
+TEST_F(BadInputOnDevice, HomeMayBeNoFolder) {
+    const auto file = write("home", "");
+    const ProgramResult result =
+        render(good_scene(), "", "env -u XDG_CACHE_HOME -u POCL_CACHE_DIR HOME=" + quoted(file));
+    expect_picture(result, "cannot be written, so that nothing compiled is kept");
+}
+
 TEST_F(BadInput, NoDevice) {
     const auto scene = good_scene();
     expect_error(render(scene, "", "OCL_ICD_VENDORS=/nonexistent"), 4, "install a driver");

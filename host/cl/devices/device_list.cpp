@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "host/cl/devices/driver_cache.h"
 #include "host/cl/opencl_error.h"
 
 namespace nearlight::core {
@@ -203,6 +204,7 @@ void set_driver_defaults() {
     // size of a launch. The second compilation makes no faster kernel (bench/log/compile.md), and users would
     // wait for it.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+    ensure_driver_cache();
 }
 
 // PoCL 4 and later use the second name.
