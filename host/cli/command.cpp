@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <csignal>
 #include <iostream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "host/cli/help_formatter.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/suggestion.h"
@@ -133,6 +135,7 @@ void add_global_options(CLI::App& app, GlobalOptions& global) {
 }  // namespace
 
 CommandLine::CommandLine() : app_("Global illumination with virtual point lights on OpenCL", "nearlight") {
+    app_.formatter(std::make_shared<HelpFormatter>());  // commands take it over from here
     add_global_options(app_, global_);
     app_.require_subcommand(0, 1);
 }
@@ -160,6 +163,7 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
     try {
         app_.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
+        std::signal(SIGPIPE, SIG_DFL);       // a reader such as `head` may have seen enough
         app_.exit(success, std::cout, std::cerr);
         check_standard_output();
         return ExitCode::done;

@@ -64,6 +64,7 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality) {
             "Tree for rays: fast (takes half the time to build) or quality (up to a quarter fewer steps per "
             "ray)")
         ->check(CLI::IsMember({"fast", "quality"}))
+        ->type_name("fast|quality")
         ->default_str(to_string(quality));
 }
 

@@ -176,6 +176,11 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
 }
 
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    if (!options.parameters.empty()) {
+        throw Error(ErrorKind::invalid_argument, file.string() + ": has no parameter '" +
+                                                     options.parameters.begin()->first +
+                                                     "'; OBJ files have none");
+    }
     Scene scene;
     scene.source = file;
     scene.name = file.stem().string();

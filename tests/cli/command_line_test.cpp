@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "host/cli/command.h"
 #include "tests/cli/run_program.h"
@@ -33,6 +34,18 @@ TEST(CommandLine, HelpAndVersion) {
         const ProgramResult result = run_program(arguments);
         EXPECT_EQ(result.exit_code, 0);
         EXPECT_TRUE(result.output.starts_with("nearlight ")) << result.output;
+    }
+}
+
+TEST(CommandLine, HelpFitsInAHundredColumns) {
+    for (const char* command : {"", "render", "reference", "compare", "diff", "info", "devices", "tune",
+                                "selftest", "bench", "bench gather", "bench build", "bench trace"}) {
+        std::istringstream help(run_program(std::string(command) + " --help").output);
+        std::size_t lines = 0;
+        for (std::string line; std::getline(help, line); ++lines) {
+            EXPECT_LE(line.size(), 100u) << command << ": " << line;
+        }
+        EXPECT_GT(lines, 10u) << command;
     }
 }
 

@@ -153,6 +153,24 @@ TEST(MitsubaXml, DefaultsOverridesAndIncludes) {
               12u);
 }
 
+TEST(MitsubaXml, ParametersThatTheFileDoesNotHaveAreRefused) {
+    const SceneFiles files;
+    const auto message = [&](const std::string& body) -> std::string {
+        try {
+            files.load_xml(body, {.parameters = {{"knid", "cube"}}});
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_TRUE(mentions(message("<default name='kind' value='cube'/><default name='size' value='1'/>"),
+                         "has no parameter 'knid'; it has: kind, size"));
+    EXPECT_TRUE(mentions(message(""), "has no parameter 'knid'; it has none"));
+    EXPECT_EQ(message("<shape type='$knid'/>"), "");
+    EXPECT_EQ(message("<default name='knid' value='sphere'/>"), "");
+}
+
 TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
     const SceneFiles files;
     files.write("broken.obj", "v 0 0 0\nf 1 2 3\n");

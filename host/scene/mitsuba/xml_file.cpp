@@ -45,8 +45,9 @@ std::string Element::text(const char* attribute) const {
             fail(where, "parameter '$" + name + "' has no value; give it one with -D " + name +
                             "=VALUE, or with a <default>");
         }
-        value.replace(at, end - at, found->second);
-        at += found->second.size();
+        found->second.is_known = true;
+        value.replace(at, end - at, found->second.value);
+        at += found->second.value.size();
     }
     return value;
 }

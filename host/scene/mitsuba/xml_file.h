@@ -31,8 +31,13 @@ class XmlFile {
     std::vector<std::ptrdiff_t> line_starts_;
 };
 
-/// The values of $names.
-using Parameters = std::map<std::string, std::string>;
+/// The value that stands for a $name.
+struct Parameter {
+    std::string value;
+    mutable bool is_known = false;  ///< whether the file has the $name, or a <default> for it
+};
+/// By name.
+using Parameters = std::map<std::string, Parameter>;
 
 /// An element whose attributes are read with $names replaced.
 struct Element {

@@ -39,8 +39,11 @@ bool is_spectrum_object(const Element& element, const std::string& tag) {
 
 class Reader {
   public:
-    Reader(const std::map<std::string, std::string>& parameters, NoteSink& notes)
-        : parameters_(parameters), notes_(notes) {}
+    Reader(const std::map<std::string, std::string>& values, NoteSink& notes) : notes_(notes) {
+        for (const auto& [name, value] : values) {
+            parameters_.emplace(name, Parameter{value});
+        }
+    }
 
     Document read_scene(const std::filesystem::path& path) {
         const XmlFile file(path);
@@ -48,6 +51,7 @@ class Reader {
             fail(file.location(file.root()), "not a Mitsuba scene: the outermost element should be <scene>");
         }
         document_.scene = read_object(file, file.root(), 0);
+        check_parameters(path);
         for (const auto& object : document_.objects) {
             resolve(*object);
         }
@@ -104,7 +108,8 @@ class Reader {
     void read_child(const XmlFile& file, const Element& element, Object& parent, int depth) {
         const std::string tag = element.node.name();
         if (tag == "default") {
-            parameters_.emplace(element.required("name"), element.required("value"));
+            parameters_.emplace(element.required("name"), Parameter{element.required("value")})
+                .first->second.is_known = true;
         } else if (tag == "include") {
             include(resolve_path(*element.where.file, element.required("filename")), element, parent, depth);
         } else if (tag == "alias") {
@@ -225,6 +230,21 @@ class Reader {
             fail(child.where, "property '" + child.name + "' is given twice");
         }
         child.object = nullptr;
+    }
+
+    /// A name that the file does not have is misspelt.
+    void check_parameters(const std::filesystem::path& path) const {
+        std::string known;
+        for (const auto& [name, parameter] : parameters_) {
+            known += parameter.is_known ? (known.empty() ? "" : ", ") + name : "";
+        }
+        for (const auto& [name, parameter] : parameters_) {
+            if (!parameter.is_known) {
+                throw Error(ErrorKind::invalid_argument,
+                            path.string() + ": has no parameter '" + name + "'; " +
+                                (known.empty() ? "it has none" : "it has: " + known));
+            }
+        }
     }
 
     Parameters parameters_;
