@@ -349,10 +349,11 @@ inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to
 }
 
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
-                        const global CloseRange* restrict close_range, PacketOrder order, uint first_tile_row,
-                        uint tile_row_count, uint first_sample, uint sequence_length, uint max_edges,
-                        uint light_samples, uint light_rays, float min_weight, uint seed,
-                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices) {
+                        const global CloseRange* restrict close_range, PacketOrder order,
+                        uint first_tile_column, uint first_tile_row, uint tile_row_count, uint first_sample,
+                        uint sequence_length, uint max_edges, uint light_samples, uint light_rays,
+                        float min_weight, uint seed, global ReceiverPacket* restrict receivers,
+                        global CameraVertex* restrict vertices) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint sample = index / NEARLIGHT_PACKET_SIZE % order.sample_count;
@@ -363,7 +364,8 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave);
+    const uint x = first_tile_column * NEARLIGHT_TILE_SIZE +
+                   pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave);
     const uint y = first_tile_row * NEARLIGHT_TILE_SIZE +
                    pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave);
     const bool in_picture = x < camera->width && y < camera->height;

@@ -185,6 +185,25 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
     return code;
 }
 
+PixelWindow parse_window(const std::string& text) {
+    PixelWindow window;
+    const std::size_t plus = text.find('+');
+    const char* const end = text.data() + text.size();
+    const char* const place = plus == std::string::npos ? end : text.data() + plus + 1;
+    const auto [middle, x_error] = std::from_chars(place, end, window.x);
+    const bool has_plus = x_error == std::errc() && middle != end && *middle == '+';
+    const auto [last, y_error] = std::from_chars(has_plus ? middle + 1 : end, end, window.y);
+    if (!has_plus || y_error != std::errc() || last != end) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            "'" + text + "' is not a part of a picture; give WIDTHxHEIGHT+LEFT+TOP, as in 320x240+100+50");
+    }
+    const ImageSize size = parse_size(text.substr(0, plus));
+    window.width = static_cast<uint>(size.width);
+    window.height = static_cast<uint>(size.height);
+    return window;
+}
+
 ImageSize parse_size(const std::string& text) {
     ImageSize size;
     const char* const end = text.data() + text.size();

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "host/cli/exit_code.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -54,6 +55,9 @@ struct ImageSize {
 /// Parses a size such as "640x480"; each side is from 1 to 65536 pixels. Throws
 /// Error(ErrorKind::invalid_argument).
 ImageSize parse_size(const std::string& text);
+/// Parses a part of a picture such as "320x240+100+50": its size, and its place from the left and from the
+/// top. Throws Error(ErrorKind::invalid_argument).
+PixelWindow parse_window(const std::string& text);
 /// Adds the option --size, without which `size` is unchanged.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
 

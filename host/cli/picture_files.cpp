@@ -181,10 +181,12 @@ Metadata camera_metadata(const SceneCamera& camera) {
             {"worldToNDC", transposed(projection * world_to_camera)}};
 }
 
-void PictureFiles::open(int width, int height, const Metadata& metadata) {
+void PictureFiles::open(int width, int height, const Metadata& metadata,
+                        const std::optional<ImagePlace>& place) {
     ImageWriterOptions writer_options{metadata, options_.exposure};
     writer_options.metadata["renderTimeSeconds"] = 0.0f;
     writer_options.compression = options_.compression;
+    writer_options.place = place;
     for (const std::string& file : options_.outputs) {
         writer_options.half.clear();
         std::vector<FilmLayer> layers = layers_for(options_, file);

@@ -44,7 +44,9 @@ class PictureFiles {
   public:
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
-    void open(int width, int height, const Metadata& metadata);
+    /// `place` says which part of a larger picture this is, if it is one.
+    void open(int width, int height, const Metadata& metadata,
+              const std::optional<ImagePlace>& place = std::nullopt);
     /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
     void write_rows(std::span<const float> rows);
     /// Completes the files; missing rows become black.

@@ -22,6 +22,7 @@
 #include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
 #include "host/session/passes.h"
+#include "host/session/picture_window.h"
 #include "host/session/render.h"
 
 namespace nearlight::core {
@@ -114,6 +115,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
                     fmt::format("{}x{} pixels are too many: the maximum is {} million", width, height,
                                 kMaxPixels >> 20));
     }
+    window_of(static_cast<uint>(width), static_cast<uint>(height), settings.gather.window);
     if (settings.sampling.vpl_count == 0) {
         spdlog::warn("with --vpls 0 the picture has no indirect light");
     }
@@ -131,6 +133,17 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, note);
     }
+}
+
+/// Where in the whole picture the part is that --crop names.
+std::optional<ImagePlace> place_of(const GatherSettings& settings, const View& view) {
+    if (!settings.window) {
+        return std::nullopt;
+    }
+    return ImagePlace{.x = static_cast<int>(settings.window->x),
+                      .y = static_cast<int>(settings.window->y),
+                      .whole_width = static_cast<int>(view.camera.width),
+                      .whole_height = static_cast<int>(view.camera.height)};
 }
 
 /// Logs the device time of each kernel.
@@ -185,7 +198,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         [&](const RenderReport& started, const View& view, const VplSet&) {
             picture.open(started.width, started.height,
                          render_metadata(hash.get(), options.scene, settings, started, view, devices,
-                                         global.command_line));
+                                         global.command_line),
+                         place_of(settings.gather, view));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
@@ -333,6 +347,13 @@ void add_render_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);
+    command
+        .add_option_function<std::string>(
+            "--crop",
+            [options](const std::string& text) { options->settings.gather.window = parse_window(text); },
+            "Render this part of the picture only: its size, and its place from the left and from the top, "
+            "as in 320x240+100+50")
+        ->type_name("WxH+X+Y");
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
     command

@@ -27,6 +27,7 @@ struct EncodingTask {
     std::vector<std::string> channels;
     std::vector<bool> half;  ///< of each channel; empty: none
     ExrCompression compression = ExrCompression::zip;
+    std::optional<ImagePlace> place;
     Metadata metadata;
 };
 

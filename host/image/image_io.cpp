@@ -138,6 +138,7 @@ void ImageWriter::State::open(const std::vector<std::string>& channels, const Im
             .channels = channels,
             .half = options.half,
             .compression = options.compression,
+            .place = options.place,
             .metadata = options.metadata};
 }
 

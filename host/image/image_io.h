@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -34,6 +35,14 @@ Metadata read_metadata(const std::filesystem::path& file);
 /// space.
 enum class ExrCompression { none, zip, piz, dwaa };
 
+/// The place of a picture within a larger one, of which it is a part.
+struct ImagePlace {
+    int x = 0;  ///< of the leftmost pixel
+    int y = 0;  ///< of the topmost pixel
+    int whole_width = 0;
+    int whole_height = 0;
+};
+
 struct ImageWriterOptions {
     /// EXR attributes, where a vector of 16 floats becomes a matrix. PNG files get those that are texts.
     Metadata metadata{};
@@ -41,6 +50,8 @@ struct ImageWriterOptions {
     ExrCompression compression = ExrCompression::zip;
     /// For each channel, whether EXR files have it as 16-bit floats, whose maximum is 65504; empty: none.
     std::vector<bool> half{};
+    /// EXR files of a part have it as their data window, and the larger picture as their display window.
+    std::optional<ImagePlace> place{};
 };
 
 /// Writes rows from top to bottom as they come, so that the whole picture need not be in memory. The data

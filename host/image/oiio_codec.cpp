@@ -106,6 +106,12 @@ const char* name_of(ExrCompression compression) {
 OIIO::ImageSpec exr_spec(const EncodingTask& task) {
     OIIO::ImageSpec spec(task.width, task.height, static_cast<int>(task.channels.size()),
                          OIIO::TypeDesc::FLOAT);
+    if (task.place) {
+        spec.x = task.place->x;
+        spec.y = task.place->y;
+        spec.full_width = task.place->whole_width;
+        spec.full_height = task.place->whole_height;
+    }
     spec.channelnames = task.channels;
     for (const bool is_half : task.half) {
         spec.channelformats.push_back(is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
@@ -155,7 +161,8 @@ class OiioEncoder : public ImageEncoder {
     }
 
     std::string write(int first, int end, const void* values) override {
-        return output_->write_scanlines(first, end, 0, type_, values) ? "" : reason();
+        const int top = output_->spec().y;
+        return output_->write_scanlines(top + first, top + end, 0, type_, values) ? "" : reason();
     }
     std::string close() override {
         const std::string failed = output_->close() ? "" : reason();

@@ -8,6 +8,7 @@
 
 #include "host/library/checks.h"
 #include "host/library/states.h"
+#include "host/session/picture_window.h"
 #include "host/session/render.h"
 #include "host/stages/film_layers.h"
 #include "nearlight/error.h"
@@ -133,7 +134,9 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, std::
 
 Picture Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings,
                         std::uint32_t seed, const Progress& progress) {
-    Picture picture{.image = blank_picture(view.width(), view.height()), .vpl_count = vpls.size()};
+    const PixelWindow window = core::window_of(view.state_->view, settings);
+    Picture picture{.image = blank_picture(static_cast<int>(window.width), static_cast<int>(window.height)),
+                    .vpl_count = vpls.size()};
     picture.interrupted = !gather_rows(view, vpls, settings, seed, ImageFiller(picture.image), progress);
     return picture;
 }

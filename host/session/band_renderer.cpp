@@ -35,7 +35,7 @@ CameraBand with_light(CameraBand batch, const Picture& picture) {
 }
 
 std::size_t pixels_per_band(const Picture& picture) {
-    return static_cast<std::size_t>(picture.view.camera.width) * picture.plan.tile_rows_per_band *
+    return static_cast<std::size_t>(picture.plan.cover.width) * picture.plan.tile_rows_per_band *
            NEARLIGHT_TILE_SIZE;
 }
 
@@ -58,7 +58,7 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
       close_range_(stages.device, std::span(&picture.view.close_range, 1)),
       own_vpls_(picture.vpls.vpls.is_on(stages.device) ? VplBuffer()
                                                        : picture.vpls.vpls.copy_to(stages.device)),
-      buffers_(stages.device, picture.plan.max_packets(picture.view.camera.width), pixels_per_band(picture)) {
+      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture)) {
     if (picture.vpls.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
@@ -108,7 +108,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const
 
 /// Gathers the light of VPLs for a batch's receivers. Returns false if cancelled.
 bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& progress) {
-    const uint width = picture_.view.camera.width;
+    const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
     const VplStrata strata(stages_.device, picture_.plan.strata,
                            picture_.plan.strata_of_bundles(batch, picture_.seed));
@@ -145,7 +145,7 @@ void BandRenderer::trace_receivers(std::size_t packets) {
 
 /// Renders one batch: receivers, direct light, indirect light, film. Returns false if cancelled.
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
-    const uint width = picture_.view.camera.width;
+    const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
                             buffers_.vertices);
@@ -161,11 +161,11 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
 }
 
 std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
-    const uint width = picture_.view.camera.width;
     const auto batches = picture_.plan.batches(index);
-    const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE;
-    const uint row_count = std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE,
-                                    picture_.view.camera.height - first_row);
+    const PixelWindow& cover = picture_.plan.cover;
+    const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE - cover.y;
+    const uint row_count =
+        std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE, cover.height - first_row);
     FinishedBand band;
     const std::size_t lights_before = picture_.vpls.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();
@@ -178,7 +178,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             return std::nullopt;
         }
     }
-    const std::size_t pixel_count = static_cast<std::size_t>(width) * row_count;
+    const std::size_t pixel_count = static_cast<std::size_t>(cover.width) * row_count;
     stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
     band.local_lights = picture_.vpls.local ? stages_.local_gather->light_count() - lights_before : 0;
     band.rows.resize(pixel_count * NEARLIGHT_LAYER_CHANNELS);

@@ -59,6 +59,19 @@ void set_bundles(const PictureSize& picture, RenderPlan& plan) {
     plan.bundle_rows = tiles / plan.bundle_columns;
 }
 
+/// The part of the picture that has all wanted pixels and begins and ends with bundles of the given size in
+/// pixels, or with the picture.
+PixelWindow covering_bundles(const PictureSize& picture, uint bundle_width, uint bundle_height) {
+    const PixelWindow wanted = picture.window.value_or(PixelWindow{0, 0, picture.width, picture.height});
+    const uint x = wanted.x / bundle_width * bundle_width;
+    const uint y = wanted.y / bundle_height * bundle_height;
+    const auto end = [](uint wanted_end, uint bundle, uint limit) {
+        return std::min((wanted_end + bundle - 1) / bundle * bundle, limit);
+    };
+    return {x, y, end(wanted.x + wanted.width, bundle_width, picture.width) - x,
+            end(wanted.y + wanted.height, bundle_height, picture.height) - y};
+}
+
 /// As many rows as fit in `rows`, but at least one bundle of rows.
 std::size_t whole_bundles(std::size_t rows, uint bundle_rows) {
     return std::max<std::size_t>(rows / bundle_rows, 1) * bundle_rows;
@@ -71,7 +84,8 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
     const uint row_count = index == 0 ? tile_rows_in_first : tile_rows_per_band;
     std::vector<CameraBand> result;
     for (uint sample = 0; sample < samples_per_pixel; sample += samples_per_batch) {
-        result.push_back({.first_tile_row = first_row,
+        result.push_back({.first_tile_column = cover.x / NEARLIGHT_TILE_SIZE,
+                          .first_tile_row = cover.y / NEARLIGHT_TILE_SIZE + first_row,
                           .tile_row_count = std::min(row_count, tile_row_count - first_row),
                           .first_sample = sample,
                           .sample_count = std::min(samples_per_batch, samples_per_pixel - sample),
@@ -102,7 +116,7 @@ std::vector<uint> RenderPlan::strata_of_bundles(const CameraBand& batch, uint se
     return result;
 }
 
-std::size_t RenderPlan::max_packets(uint width) const {
+std::size_t RenderPlan::max_packets() const {
     return packet_count({.tile_row_count = tile_rows_per_band,
                          .sample_count = samples_per_batch,
                          .branch_count = branch_count,
@@ -110,7 +124,7 @@ std::size_t RenderPlan::max_packets(uint width) const {
                          .bundle_rows = bundle_rows,
                          .bundle_samples = bundle_samples,
                          .interleave = interleave},
-                        width);
+                        cover.width);
 }
 
 RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& picture) {
@@ -119,7 +133,6 @@ RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& 
         budget = std::min(budget, receivers_per_batch(*device));
     }
     RenderPlan plan;
-    plan.tile_row_count = tiles_across(picture.height);
     plan.samples_per_pixel = picture.samples_per_pixel;
     plan.branch_count = picture.branch_count;
     plan.strata = picture.strata;
@@ -127,7 +140,9 @@ RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& 
     set_bundles(picture, plan);
     const uint columns = plan.bundle_columns * plan.interleave;
     const uint rows = plan.bundle_rows * plan.interleave;
-    plan.tile_columns = (tiles_across(picture.width) + columns - 1) / columns * columns;
+    plan.cover = covering_bundles(picture, columns * NEARLIGHT_TILE_SIZE, rows * NEARLIGHT_TILE_SIZE);
+    plan.tile_row_count = tiles_across(plan.cover.height);
+    plan.tile_columns = (tiles_across(plan.cover.width) + columns - 1) / columns * columns;
     const std::size_t per_row_sample =
         std::size_t{plan.tile_columns} * NEARLIGHT_PACKET_SIZE * plan.branch_count;
     const std::size_t fitting = budget / (per_row_sample * rows) / plan.bundle_samples * plan.bundle_samples;

@@ -4,20 +4,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/cl/device.h"
 #include "host/stages/camera_pass.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
 /// Bands of whole tile rows from top to bottom, each of which is rendered in batches of samples. The first
 /// band may be shorter, so that first rows appear soon. No bit of the picture depends on the plan.
 struct RenderPlan {
+    PixelWindow cover;            ///< the pixels of whole bundles that hold all wanted ones
     uint tile_rows_in_first = 1;  ///< at most tile_rows_per_band
     uint tile_rows_per_band = 1;
-    uint tile_row_count = 0;
+    uint tile_row_count = 0;  ///< of `cover`
     uint samples_per_batch = 1;
     uint samples_per_pixel = 1;
     uint branch_count = 1;
@@ -26,7 +29,7 @@ struct RenderPlan {
     uint bundle_rows = 1;     ///< tiles in a bundle, one below the other
     uint bundle_samples = 1;  ///< consecutive samples of each of these tiles in a bundle
     uint interleave = 1;      ///< distance of a tile's pixels (PacketOrder)
-    uint tile_columns = 0;    ///< of the picture, filled up as in PacketOrder
+    uint tile_columns = 0;    ///< of `cover`, filled up as in PacketOrder
 
     [[nodiscard]] uint band_count() const {
         const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
@@ -40,7 +43,7 @@ struct RenderPlan {
     /// interleave has strata of its own if there are enough.
     [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBand& batch, uint seed) const;
     /// The maximum number of packets in a batch.
-    [[nodiscard]] std::size_t max_packets(uint width) const;
+    [[nodiscard]] std::size_t max_packets() const;
 };
 
 /// The bytes that one receiver takes in all buffers of a batch.
@@ -54,7 +57,8 @@ struct PictureSize {
     uint samples_per_pixel = 1;
     uint branch_count = 1;
     uint strata = 1;
-    uint interleave = 1;  ///< a power of two
+    uint interleave = 1;                  ///< a power of two
+    std::optional<PixelWindow> window{};  ///< the wanted part of it; empty: all
 };
 
 /// Makes one plan for all devices. Its batches fit each device, and there are enough bands for faster devices

@@ -27,7 +27,7 @@ struct RenderSeconds {
 };
 
 struct RenderReport {
-    int width = 0;
+    int width = 0;  ///< of the part that is made of the picture
     int height = 0;
     float range = 0;  ///< distance at which the close range ends, m
     RayBudget ray_budget{};

@@ -6,6 +6,7 @@
 
 #include "host/session/pass_average.h"
 #include "host/session/passes.h"
+#include "host/session/picture_window.h"
 #include "host/session/render_steps.h"
 
 namespace nearlight::core {
@@ -39,7 +40,8 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     Prepared pass = prepare(session, pass_settings(settings, samples, passes.first, report), report);
     passes.schedule.note_vpls();
     if (!passes.average) {
-        passes.average.emplace(pass.view.camera.width, pass.view.camera.height);
+        const PixelWindow window = window_of(pass.view, pass.settings.gather);
+        passes.average.emplace(window.width, window.height);
     }
     passes.average->begin_pass(static_cast<float>(samples) /
                                static_cast<float>(settings.gather.samples_per_pixel));

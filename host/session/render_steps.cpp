@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/stopwatch.h"
+#include "host/session/picture_window.h"
 
 namespace nearlight::core {
 namespace {
@@ -11,8 +12,9 @@ namespace {
 /// Adds a pass to the report: the settings that were decided, and the number of VPLs.
 void note_pass(const Prepared& pass, RenderReport& report) {
     if (report.passes++ == 0) {
-        report.width = static_cast<int>(pass.view.camera.width);
-        report.height = static_cast<int>(pass.view.camera.height);
+        const PixelWindow window = window_of(pass.view, pass.settings.gather);
+        report.width = static_cast<int>(window.width);
+        report.height = static_cast<int>(window.height);
         report.range = pass.view.close_range.range;
         report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
         report.max_depth = pass.view.max_depth;

@@ -11,6 +11,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
 #include "host/stages/film_layers.h"
 
@@ -21,9 +22,10 @@ namespace {
 constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
 constexpr uint kThinningStream = 0x7417eu;
 
-uint band_window(const RenderPlan& plan, uint width, std::size_t device_count) {
-    const std::size_t band_bytes = std::size_t{width} * plan.tile_rows_per_band * NEARLIGHT_TILE_SIZE *
-                                   NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+/// How many finished bands may wait for an earlier one.
+uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
+    const std::size_t band_bytes = std::size_t{plan.cover.width} * plan.tile_rows_per_band *
+                                   NEARLIGHT_TILE_SIZE * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
     return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
 }
 
@@ -160,14 +162,16 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
                               const RowSink& sink, const GatherFraction& progress) {
-    const Camera& camera = view.camera;
+    const PixelWindow window = window_of(view, settings);
     const RenderPlan plan =
-        make_plan(pool_.plain_devices(), {.width = camera.width,
-                                          .height = camera.height,
+        make_plan(pool_.plain_devices(), {.width = view.camera.width,
+                                          .height = view.camera.height,
                                           .samples_per_pixel = settings.samples_per_pixel,
                                           .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
                                           .strata = settings.strata_or_auto(),
-                                          .interleave = settings.interleave});
+                                          .interleave = settings.interleave,
+                                          .window = window});
+    WindowCut window_cut(plan.cover, window);
     const RayBudget budget = budget_of(view, vpls, settings);
     const Picture picture{
         .view = view, .settings = settings, .budget = budget, .seed = seed, .plan = plan, .vpls = vpls};
@@ -177,9 +181,11 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
         if (view.scene_camera.is_monochrome) {
             make_monochrome(band.rows);
         }
-        sink(band.rows);
+        if (const std::span<const float> rows = window_cut.cut(band.rows); !rows.empty()) {
+            sink(rows);
+        }
     };
-    BandOutcome shared = share_bands(plan.band_count(), band_window(plan, camera.width, pool_.size()),
+    BandOutcome shared = share_bands(plan.band_count(), max_waiting_bands(plan, pool_.size()),
                                      band_workers(pool_, picture), take_band, progress);
     pool_.drop_failed(shared.shares);
     outcome.shares = std::move(shared.shares);

@@ -26,7 +26,7 @@ struct SessionSeconds {
 /// Takes how far a gather is, from 0 to 1, and returns false to stop it.
 using GatherFraction = BandProgress;
 /// Takes finished rows, from top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, with the
-/// channels of layer_channels().
+/// channels of layer_channels(). The width is that of the part which is made of the picture.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
 struct GatherOutcome {

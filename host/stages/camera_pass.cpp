@@ -13,8 +13,8 @@ uint whole_bundles(uint tiles, uint together) {
 
 }  // namespace
 
-PacketOrder packet_order(const CameraBand& band, uint image_width) {
-    return {.tile_columns = whole_bundles(tiles_across(image_width), band.bundle_columns * band.interleave),
+PacketOrder packet_order(const CameraBand& band, uint width) {
+    return {.tile_columns = whole_bundles(tiles_across(width), band.bundle_columns * band.interleave),
             .sample_count = band.sample_count,
             .branch_count = band.branch_count,
             .bundle_columns = band.bundle_columns,
@@ -23,8 +23,8 @@ PacketOrder packet_order(const CameraBand& band, uint image_width) {
             .interleave = band.interleave};
 }
 
-std::size_t packet_count(const CameraBand& band, uint image_width) {
-    return std::size_t{packet_order(band, image_width).tile_columns} *
+std::size_t packet_count(const CameraBand& band, uint width) {
+    return std::size_t{packet_order(band, width).tile_columns} *
            whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave) * band.sample_count *
            band.branch_count;
 }
@@ -32,12 +32,12 @@ std::size_t packet_count(const CameraBand& band, uint image_width) {
 CameraPass::CameraPass(Device& device)
     : program_(device, "camera_pass.cl", kViewProgram), camera_pass_(program_, "camera_pass") {}
 
-void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
+void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
-    const std::size_t sample_packets = packet_count(band, image_width) / band.branch_count;
+    const std::size_t sample_packets = packet_count(band, width) / band.branch_count;
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
-                              packet_order(band, image_width), band.first_tile_row,
+                              packet_order(band, width), band.first_tile_column, band.first_tile_row,
                               whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
                               band.first_sample, band.samples_per_pixel, band.max_depth, band.light_samples,
                               band.light_rays, band.min_weight, seed, receivers, vertices);

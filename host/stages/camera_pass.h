@@ -8,10 +8,12 @@
 
 namespace nearlight::core {
 
-/// Which tile rows and samples of the picture one launch covers.
+/// Which tiles and samples of the picture one launch covers. As many columns of tiles as its width in pixels
+/// takes stand side by side, from the first one on.
 struct CameraBand {
-    uint first_tile_row = 0;  ///< a multiple of bundle_rows x interleave, if that is above 1
-    uint tile_row_count = 0;  ///< the last row may reach below the picture
+    uint first_tile_column = 0;  ///< a multiple of bundle_columns x interleave, if that is above 1
+    uint first_tile_row = 0;     ///< a multiple of bundle_rows x interleave, if that is above 1
+    uint tile_row_count = 0;     ///< the last row may reach below the picture
     uint first_sample = 0;
     uint sample_count = 1;
     uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
@@ -31,11 +33,11 @@ struct CameraBand {
     float min_weight = 0.0f;
 };
 
-/// The order of the receiver packets of a band.
-PacketOrder packet_order(const CameraBand& band, uint image_width);
+/// The order of the receiver packets of a band of so many pixels' width.
+PacketOrder packet_order(const CameraBand& band, uint width);
 /// The number of receiver packets in a band: tiles × samples × branches, with tiles filled up to whole
 /// bundles.
-std::size_t packet_count(const CameraBand& band, uint image_width);
+std::size_t packet_count(const CameraBand& band, uint width);
 
 class CameraPass {
   public:
@@ -43,7 +45,7 @@ class CameraPass {
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
     /// kernels/shared/packet_order.h states.
-    void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint image_width,
+    void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);
 

@@ -83,6 +83,16 @@ struct SamplingSettings {
     [[nodiscard]] bool asks_part() const { return set_count_or_auto() > vpl_count; }
 };
 
+/// A part of a picture, in pixels.
+struct PixelWindow {
+    std::uint32_t x = 0;       ///< of the leftmost pixel
+    std::uint32_t y = 0;       ///< of the topmost pixel
+    std::uint32_t width = 0;   ///< at least 1
+    std::uint32_t height = 0;  ///< at least 1
+
+    friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
+};
+
 /// How to make pixels from VPLs and emitters.
 struct GatherSettings {
     std::uint32_t samples_per_pixel = 16;
@@ -95,6 +105,9 @@ struct GatherSettings {
     /// pixel asks about that part of `vpl_count` only. The noise of neighbouring pixels is then independent,
     /// which denoisers need. 1, 2 or 4.
     std::uint32_t interleave = 1;
+    /// The part of the picture to make; empty: all of it. Its pixels are those of the whole picture, to the
+    /// bit.
+    std::optional<PixelWindow> window{};
     /// Samples towards area lights and the environment; empty: 16 to 128, as a pilot chooses.
     std::optional<std::uint32_t> direct_samples_per_pixel{};
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in

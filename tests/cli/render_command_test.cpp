@@ -249,6 +249,25 @@ TEST_F(Render, ExrFilesSayHowTheyWereMadeAndMayBePrecise) {
     EXPECT_EQ(render("--exr-compression rar", output_).exit_code, 2);
 }
 
+TEST_F(Render, APartHasThePixelsOfTheWhole) {
+    NEARLIGHT_NEEDS_DEVICE();
+    ASSERT_EQ(render("", output_).exit_code, 0);
+    const Image whole = read_image(output_);
+    const std::filesystem::path cropped = folder_ / "part.exr";
+    const nlohmann::json json = rendered("--crop 20x10+30+15", cropped);
+    EXPECT_EQ(json["width"], 20);
+    EXPECT_EQ(json["height"], 10);
+    const Image part = read_image(cropped);
+    ASSERT_EQ(part.width, 20);
+    ASSERT_EQ(part.channels, whole.channels);
+    for (std::size_t c = 0; c < part.channel_count(); ++c) {
+        EXPECT_EQ(part.at(7, 3, c), whole.at(37, 18, c)) << part.channels[c];
+    }
+    for (const char* window : {"20x10", "20x10+30", "20x10+-1+0", "0x10+0+0", "20x10+4000+0", "20x10+3+3+"}) {
+        EXPECT_EQ(render("--crop " + std::string(window), cropped).exit_code, 2) << window;
+    }
+}
+
 TEST_F(Render, LayersThatWereAskedForComeBesidesTheBeauty) {
     NEARLIGHT_NEEDS_DEVICE();
     ASSERT_EQ(render(with_all_layers(), output_).exit_code, 0);

@@ -108,8 +108,9 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
               {3, 1, 2, 3, 1, 1, 3},
               {2, 2, 1, 4, 2, 2, 1},
               {0, 3, 5, 1, 2, 2, 1}}) {
-            const CameraBand band{row,         rows,     sample, samples,   kSamples, 2, bundle_columns,
-                                  bundle_rows, together, 1,      kManyEdges};
+            const CameraBand band{0,           row,      rows, sample,
+                                  samples,     kSamples, 2,    bundle_columns,
+                                  bundle_rows, together, 1,    kManyEdges};
             const GBuffer part = shooting.shoot(band);
             for (uint i = 0; i < 5 * rows * samples * 2; ++i) {
                 const uint x = i / 2 / samples % 5, y = i / 2 / samples / 5, s = i / 2 % samples;
