@@ -3,6 +3,7 @@
 // (or whatever unit the file has), linear sRGB colours.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -95,6 +96,8 @@ struct Scene {
     std::filesystem::path source;  ///< the file that was asked for
     std::vector<Vertex> vertices;
     std::vector<Vec3> vertex_colors;  ///< linear sRGB, one a vertex; empty if no texture asks for them
+    /// Texture coordinates of textures with NEARLIGHT_TEXTURE_SECOND_UV, one a vertex; empty if there are none.
+    std::vector<std::array<float, 2>> second_uvs;
     std::vector<Triangle> triangles;  ///< no NaN, no index out of range; zero area is allowed
     std::vector<Material> materials;  ///< children may stand before or after those that name them
     /// Rows of NEARLIGHT_CURVE_SIZE values, see Material::curve; row 0 is all ones.
