@@ -14,7 +14,7 @@ namespace {
 constexpr double kLumensPerWatt = 683;
 constexpr int kUsualHeight = 480;
 
-Vec3 color_of(const tinygltf::Light& light) {
+Vec3 radiance_of(const tinygltf::Light& light) {
     const auto channel = [&](std::size_t i) {
         const double c = light.color.size() == 3 ? light.color[i] : 1.0;
         return static_cast<float>(std::max(c, 0.0) * std::max(light.intensity, 0.0) / kLumensPerWatt);
@@ -30,7 +30,7 @@ Emitter point_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_POINT;
     emitter.position = transform_point(placed.to_world, {0, 0, 0});
-    emitter.radiance = color_of(*placed.light);
+    emitter.radiance = radiance_of(*placed.light);
     return emitter;
 }
 
@@ -49,7 +49,7 @@ Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
     emitter.direction = forward(placed.to_world);
-    emitter.radiance = color_of(*placed.light);
+    emitter.radiance = radiance_of(*placed.light);
     return emitter;
 }
 
@@ -128,7 +128,7 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
     for (const PlacedLight& placed : lights) {
-        if (!is_finite(color_of(*placed.light))) {
+        if (!is_finite(radiance_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
         }
         if (placed.light->type == "point") {
