@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/suggestion.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
-#include "host/cli/suggestion.h"
 
 namespace nearlight::core {
 namespace {

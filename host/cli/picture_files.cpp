@@ -121,9 +121,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--exposure", options.exposure, "Exposure of PNG pictures, in stops")
-        ->type_name("EV")
-        ->capture_default_str();
+    add_screen_options(command, options.screen);
     command.add_flag(
         "--denoise", options.denoise,
         "Denoise the picture with Open Image Denoise (`scripts/setup --denoise` installs it); the layer "
@@ -138,6 +136,7 @@ void check_outputs(const PictureOptions& options) {
                         "unknown layer '" + layer + "'; choose from: " + listed(known));
         }
     }
+    check_screen_options(options.screen);
     for (const std::string& file : options.outputs) {
         check_output(file);
     }
@@ -158,22 +157,59 @@ Metadata camera_metadata(const SceneCamera& camera) {
             {"worldToNDC", transposed(projection * world_to_camera)}};
 }
 
-void PictureFiles::open(int width, int height, const Metadata& metadata) {
-    ImageWriterOptions writer_options{metadata, options_.exposure};
-    writer_options.metadata["renderTimeSeconds"] = 0.0f;
+bool PictureFiles::waits_for_exposure(const std::string& file) const {
+    return extension_of(file) == ".png" && !look_.exposure;
+}
+
+void PictureFiles::open(int width, int height, const Metadata& metadata, const ScreenLook& look) {
+    width_ = width;
+    height_ = height;
+    metadata_ = metadata;
+    metadata_["renderTimeSeconds"] = 0.0f;
+    look_ = look;
     for (const std::string& file : options_.outputs) {
+        if (waits_for_exposure(file)) {
+            continue;
+        }
         std::vector<FilmLayer> layers = layers_for(options_, file);
         std::vector<std::string> names;
         for (const FilmLayer& layer : layers) {
             std::ranges::move(channel_names(layer), std::back_inserter(names));
         }
+        const bool is_screen = extension_of(file) == ".png";
+        const ImageWriterOptions writer_options =
+            is_screen ? screen_writer_options(look_, *look_.exposure, metadata_)
+                      : ImageWriterOptions{metadata_};
         files_.push_back(
             {ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});
     }
 }
 
+/// Writes the files that waited for the exposure.
+void PictureFiles::write_waiting() {
+    const auto waits = [&](const std::string& file) { return waits_for_exposure(file); };
+    if (std::ranges::none_of(options_.outputs, waits)) {
+        return;
+    }
+    const float exposure = automatic_exposure(waiting_);
+    spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
+    for (const std::string& file : options_.outputs) {
+        if (waits(file)) {
+            ImageWriter writer(file, width_, height_, {"R", "G", "B"},
+                               screen_writer_options(look_, exposure, metadata_));
+            writer.write_rows(waiting_);
+            writer.commit();
+        }
+    }
+}
+
 void PictureFiles::write_rows(std::span<const float> rows) {
     const std::size_t stride = channel_count(options_);
+    for (std::size_t first = 0; !look_.exposure && first < rows.size(); first += stride) {
+        const std::span<const float> beauty =
+            rows.subspan(first + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
+        waiting_.insert(waiting_.end(), beauty.begin(), beauty.end());
+    }
     for (File& file : files_) {
         selected_.clear();
         for (std::size_t first = 0; first < rows.size(); first += stride) {
@@ -192,6 +228,7 @@ void PictureFiles::commit(double render_seconds) {
     for (File& file : files_) {
         file.writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
     }
+    write_waiting();
 }
 
 }  // namespace nearlight::core

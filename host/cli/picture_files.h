@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/cli/command.h"
+#include "host/cli/screen_options.h"
 #include "host/image/image_io.h"
 #include "host/scene/scene.h"
 #include "host/stages/film_layers.h"
@@ -16,7 +17,7 @@ namespace nearlight::core {
 struct PictureOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> layers;  ///< layers of EXR files; empty: all that need not be asked for
-    float exposure = 0.0f;            ///< exposure of PNG files, in stops
+    ScreenOptions screen;             ///< look of PNG files
     bool denoise = false;             ///< the beauty is denoised, and rows end in the layer `raw`
     bool denoise_fast = false;        ///< less well, in a tenth of the time
 };
@@ -25,7 +26,7 @@ struct PictureOptions {
 inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEARLIGHT_CHANNELS_RGB,
                                      PassRule::mean};
 
-/// Adds -o, --layers, --exposure and --denoise.
+/// Adds -o, --layers, --exposure, --tonemap and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
@@ -42,7 +43,7 @@ class PictureFiles {
   public:
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
-    void open(int width, int height, const Metadata& metadata);
+    void open(int width, int height, const Metadata& metadata, const ScreenLook& look);
     /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
     void write_rows(std::span<const float> rows);
     /// Completes the files; missing rows become black.
@@ -54,8 +55,16 @@ class PictureFiles {
         std::vector<FilmLayer> layers;  ///< layers that the file gets
     };
 
+    [[nodiscard]] bool waits_for_exposure(const std::string& file) const;
+    void write_waiting();
+
     PictureOptions options_;
     std::vector<File> files_;
+    int width_ = 0;
+    int height_ = 0;
+    Metadata metadata_;
+    ScreenLook look_;
+    std::vector<float> waiting_;  ///< RGB, for files whose exposure only the whole picture tells
     std::vector<float> selected_;
 };
 

@@ -184,7 +184,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
             picture.open(started.width, started.height,
-                         render_metadata(hash.get(), options.scene, settings, started, view, devices));
+                         render_metadata(hash.get(), options.scene, settings, started, view, devices),
+                         screen_look(options.picture.screen, scene));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
@@ -293,7 +294,8 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
         ->default_str("on");
     command
         .add_option("--rays", settings.gather.rays_per_pixel,
-                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and windows in rough "
+                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and "
+                    "windows in rough "
                     "reflections")
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N")

@@ -22,10 +22,10 @@ std::string RenderedPicture::denoiser() const {
     return denoiser_->name() + (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N)");
 }
 
-void RenderedPicture::open(int width, int height, Metadata metadata) {
+void RenderedPicture::open(int width, int height, Metadata metadata, const ScreenLook& look) {
     metadata["nearlight:denoised"] = denoiser();
     width_ = width;
-    files_.open(width, height, metadata);
+    files_.open(width, height, metadata, look);
 }
 
 void RenderedPicture::add_rows(std::span<const float> rows) {

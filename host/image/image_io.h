@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/image/image.h"
+#include "host/image/tone_curve.h"
 
 namespace nearlight::core {
 
@@ -31,8 +32,10 @@ using Metadata = std::map<std::string, std::variant<int, float, std::string, std
 Metadata read_metadata(const std::filesystem::path& file);
 
 struct ImageWriterOptions {
-    Metadata metadata;      ///< EXR attributes; a vector of 16 floats becomes a matrix
-    float exposure = 0.0f;  ///< stops, applied before the sRGB curve; PNG only
+    /// EXR attributes, where a vector of 16 floats becomes a matrix; PNG keeps those that are strings.
+    Metadata metadata;
+    float exposure = 0.0f;                ///< stops, applied before the tone curve; PNG only
+    ToneCurve curve = ToneCurve::linear;  ///< applied before the sRGB curve; PNG only
 };
 
 /// Writes rows from top to bottom as they come, so that the whole picture need not be in memory. The data

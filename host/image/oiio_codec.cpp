@@ -100,6 +100,11 @@ OIIO::ImageSpec exr_spec(const EncodingTask& task) {
 OIIO::ImageSpec png_spec(const EncodingTask& task) {
     OIIO::ImageSpec spec(task.width, task.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
+    for (const auto& [name, value] : task.metadata) {
+        if (std::holds_alternative<std::string>(value)) {
+            set_attribute(spec, name, value);
+        }
+    }
     return spec;
 }
 

@@ -19,8 +19,8 @@ Vec3 texel_color(const TextureImage& image, std::size_t texel);
 inline constexpr Vec3 kWhite{1, 1, 1};
 
 /// The value of a parameter at the surface's texture coordinates (u, v): its number or colour times its
-/// texture, where it has one. `vertex_color` is the interpolated colour of the vertices, `second_uv` are their
-/// second texture coordinates.
+/// texture, where it has one. `vertex_color` is the interpolated colour of the vertices, `second_uv` are
+/// their second texture coordinates.
 Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v,
                      Vec3 vertex_color = kWhite, std::array<float, 2> second_uv = {0, 0});
 

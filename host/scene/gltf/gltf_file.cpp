@@ -98,7 +98,8 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     std::string text = read_file_text(path);
     const JsonSurvey survey = survey_json(json_of(text));
     check_before_reading(file, survey);
-    if (survey.is_valid && std::ranges::find(survey.used, "KHR_draco_mesh_compression") != survey.used.end()) {
+    if (survey.is_valid &&
+        std::ranges::find(survey.used, "KHR_draco_mesh_compression") != survey.used.end()) {
         text = without_compressed_indices(text);
     }
     tinygltf::TinyGLTF reader;

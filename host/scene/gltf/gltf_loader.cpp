@@ -22,6 +22,11 @@ void check_parameters(const GltfFile& file, const LoadOptions& options) {
     }
 }
 
+std::string wanted_camera(const LoadOptions& options) {
+    const auto found = options.parameters.find("camera");
+    return options.camera.empty() && found != options.parameters.end() ? found->second : options.camera;
+}
+
 }  // namespace
 }  // namespace gltf
 
@@ -42,14 +47,17 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
         gltf::find_camera(file, node, placed.to_world, cameras);
     }
     gltf::add_lights(file, lights, scene, notes);
-    const auto wanted = options.parameters.find("camera");
-    if (wanted != options.parameters.end() || !cameras.empty()) {
-        scene.camera =
-            gltf::choose_camera(file, cameras, wanted == options.parameters.end() ? "" : wanted->second);
-        add_default_light(scene, notes);
+    const std::string wanted = gltf::wanted_camera(options);
+    if (!wanted.empty() || !cameras.empty()) {
+        scene.camera = gltf::choose_camera(file, cameras, wanted);
     } else {
-        add_default_view(scene, notes);
+        add_default_camera(scene, notes);
     }
+    if (!options.overrides.bring_light()) {
+        // Models have parts that glow a little, but no lamps; a file with a camera is a scene.
+        add_default_light(scene, cameras.empty() ? 1.0f : 0.0f, notes);
+    }
+    scene.has_open_exposure = true;
     return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/scene/camera_choice.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
@@ -144,18 +145,13 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
 }
 
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
-                          const std::string& name) {
-    std::string names;
+                          const std::string& wanted) {
+    std::vector<std::vector<std::string>> names;
     for (const PlacedCamera& placed : cameras) {
-        if (name.empty() || name == placed.node || name == placed.camera->name) {
-            return placed.camera->type == "orthographic" ? orthographic(file, placed)
-                                                         : perspective(file, placed);
-        }
-        names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
+        names.push_back({placed.node, placed.camera->name});
     }
-    throw Error(ErrorKind::invalid_argument,
-                file.path.string() + ": has no camera '" + name + "'; " +
-                    (names.empty() ? "the file has no cameras" : "choose one of: " + names));
+    const PlacedCamera& placed = cameras[nearlight::core::choose_camera(file.path, names, wanted)];
+    return placed.camera->type == "orthographic" ? orthographic(file, placed) : perspective(file, placed);
 }
 
 }  // namespace nearlight::core::gltf
