@@ -115,7 +115,7 @@ Vec3 apply_tone_curve(ToneCurve curve, Vec3 color) {
     if (curve == ToneCurve::linear) {
         return color;
     }
-    const auto tame = [](float x) { return x > 0.0f ? std::min(x, 1e30f) : 0.0f; };
+    const auto tame = [](float x) { return x > 0.0f ? std::min(x, 1e9f) : 0.0f; };
     color = {tame(color.x), tame(color.y), tame(color.z)};
     switch (curve) {
         case ToneCurve::neutral:

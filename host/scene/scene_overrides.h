@@ -19,18 +19,18 @@ struct SunPosition {
 };
 
 struct SceneOverrides {
-    std::optional<std::array<double, 3>> origin;  ///< of the camera; empty: its own
+    std::optional<std::array<double, 3>> origin{};  ///< of the camera; empty: its own
     /// What the camera looks at; empty: the middle of the scene if there is an origin, otherwise as it
     /// stands.
-    std::optional<std::array<double, 3>> target;
-    std::optional<double> fov_degrees;  ///< horizontal field of view of the picture, above 0 and below 180
+    std::optional<std::array<double, 3>> target{};
+    std::optional<double> fov_degrees{};  ///< horizontal field of view of the picture, above 0 and below 180
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.
-    std::string environment;
-    double environment_rotation = 0;  ///< degrees about +Y
-    double environment_scale = 1;     ///< of the environment, whether it is the scene's own or not
-    std::optional<SunPosition> sun;   ///< a sun, whose place the sky follows
-    double light_scale = 1;           ///< of all light
+    std::string environment{};
+    double environment_rotation = 0;   ///< degrees about +Y
+    double environment_scale = 1;      ///< of the environment, whether it is the scene's own or not
+    std::optional<SunPosition> sun{};  ///< a sun, whose place the sky follows
+    double light_scale = 1;            ///< of all light
 
     /// Whether they bring light of their own.
     [[nodiscard]] bool bring_light() const { return !environment.empty() || sun.has_value(); }

@@ -41,12 +41,12 @@ TEST(MitsubaSky, RadianceIsThatOfMitsuba) {
 TEST(MitsubaSky, PlaceAndTimeTellTheSun) {
     expect_near(sun_direction({}), {0.0513851f, 0.691748f, 0.720308f}, 2e-3f);
     expect_near(sun_direction({.latitude = -33.9,
-                                        .longitude = 151.2,
-                                        .timezone = 10,
-                                        .year = 2021,
-                                        .month = 12,
-                                        .day = 3,
-                                        .hour = 8.5}),
+                               .longitude = 151.2,
+                               .timezone = 10,
+                               .year = 2021,
+                               .month = 12,
+                               .day = 3,
+                               .hour = 8.5}),
                 {-0.0287181f, -0.696303f, 0.717173f}, 2e-3f);
 }
 

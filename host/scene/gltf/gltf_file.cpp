@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/scene/file_text.h"
+#include "host/scene/gltf/draco_codec.h"
 #include "host/scene/gltf/json_survey.h"
 #include "nearlight/error.h"
 
@@ -39,10 +40,14 @@ constexpr std::string_view kKnownExtensions[] = {
     "KHR_node_visibility",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
-#ifdef NEARLIGHT_DRACO
-    "KHR_draco_mesh_compression",
-#endif
 };
+constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
+
+bool is_supported(std::string_view extension) {
+    return extension == kDracoExtension
+               ? can_decode_draco()
+               : std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
+}
 
 /// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
 constexpr std::size_t kMaxNesting = 200;
@@ -51,8 +56,8 @@ constexpr std::size_t kMaxNesting = 200;
 /// the stack.
 void check_before_reading(const GltfFile& file, const JsonSurvey& survey) {
     for (const std::string& extension : survey.required) {
-        if (std::ranges::find(kKnownExtensions, extension) == std::end(kKnownExtensions)) {
-            const char* const remedy = extension == "KHR_draco_mesh_compression"
+        if (!is_supported(extension)) {
+            const char* const remedy = extension == kDracoExtension
                                            ? ", which this build lacks; build with Draco (Debian's "
                                              "libdraco-dev), or export the scene "
                                              "without it"
@@ -98,8 +103,8 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     std::string text = read_file_text(path);
     const JsonSurvey survey = survey_json(json_of(text));
     check_before_reading(file, survey);
-    if (survey.is_valid &&
-        std::ranges::find(survey.used, "KHR_draco_mesh_compression") != survey.used.end()) {
+    if (survey.is_valid && std::ranges::find(survey.used, kDracoExtension) != survey.used.end() &&
+        can_decode_draco()) {
         text = without_compressed_indices(text);
     }
     tinygltf::TinyGLTF reader;

@@ -3,16 +3,14 @@
 
 #include <numeric>
 
+#include "host/scene/gltf/draco_codec.h"
+
 namespace nearlight::core::gltf {
 namespace {
 
+/// Without the module, only files that do not require it come here, whose accessors hold the same numbers.
 bool is_compressed(const tinygltf::Primitive& primitive) {
-#ifdef NEARLIGHT_DRACO
-    return primitive.extensions.contains("KHR_draco_mesh_compression");
-#else
-    (void)primitive;  // the file does not require the extension, so its accessors hold the same numbers
-    return false;
-#endif
+    return primitive.extensions.contains("KHR_draco_mesh_compression") && can_decode_draco();
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class PrimitiveData {
 };
 
 /// What KHR_draco_mesh_compression holds: attributes by name, and corners of triangles. Calls fail() if it is
-/// broken. Without Draco in the build, callers see no such file, because read_gltf() refuses it.
+/// broken. The module must be there.
 void decode_draco(const GltfFile& file, const tinygltf::Primitive& primitive,
                   std::map<std::string, AttributeData>& attributes, std::vector<uint>& corners);
 
