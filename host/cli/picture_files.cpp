@@ -108,10 +108,10 @@ std::vector<float> transposed(const Mat4& m) {
 void add_picture_options(CLI::App& command, PictureOptions& options) {
     command
         .add_option("-o,--output", options.outputs,
-                    "Picture to write: .exr (all layers) or .png (tone-mapped); may be given several times")
+                    "Picture to write: .exr (all layers) or .png (tone-mapped); may be given several times "
+                    "(default: SCENE-render.png in this folder)")
         ->type_name("OUT")
-        ->allow_extra_args(false)
-        ->required();
+        ->allow_extra_args(false);
     command
         .add_option("--layers,--aov", options.layers,
                     fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
@@ -126,6 +126,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         "--denoise", options.denoise,
         "Denoise the picture with Open Image Denoise (`scripts/setup --denoise` installs it); the layer "
         "raw is the picture as it was rendered");
+}
+
+std::string default_output(const std::filesystem::path& scene) {
+    return scene.stem().string() + "-render.png";
 }
 
 void check_outputs(const PictureOptions& options) {

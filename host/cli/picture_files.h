@@ -29,6 +29,9 @@ inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEA
 /// Adds -o, --layers, --exposure, --tonemap and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
+/// The picture that a scene gets in the current folder if no output is named.
+std::string default_output(const std::filesystem::path& scene);
+
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
 /// for an unknown extension or layer, and Error(ErrorKind::file) for a folder that does not exist or cannot
 /// be written to.

@@ -328,9 +328,13 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
 
 void add_render_command(CommandLine& line) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App& command =
-        line.add_command("render", "Render a scene with virtual point lights",
-                         [options](const GlobalOptions& global) { return run_render(*options, global); });
+    CLI::App& command = line.add_command(
+        "render", "Render a scene with virtual point lights", [options](const GlobalOptions& global) {
+            if (options->picture.outputs.empty()) {
+                options->picture.outputs = {default_output(options->scene.file)};
+            }
+            return run_render(*options, global);
+        });
     add_preview_option(command, *options);
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);

@@ -21,10 +21,11 @@ bool has_light(const Scene& scene, float dimmest_lamp) {
            });
 }
 
-/// The radiance of the neutral sky: grey, darker below, with a wide lamp that shows the shapes of things.
+/// The radiance of the neutral sky: grey, dark below, where the camera sees it behind things, with a wide
+/// lamp that shows their shapes.
 Vec3 neutral_radiance(Vec3 direction) {
-    const float height = 0.5f + 0.5f * direction.y;
-    const float even = 0.35f + 0.65f * height * height * (3.0f - 2.0f * height);
+    const float height = std::clamp((direction.y + 0.25f) / 0.85f, 0.0f, 1.0f);
+    const float even = 0.12f + 0.88f * height * height * (3.0f - 2.0f * height);
     const float lamp = 5.0f * std::exp(12.0f * (dot(direction, normalize(kTowardsLamp)) - 1.0f));
     return Vec3{1, 1, 1} * (even + lamp);
 }

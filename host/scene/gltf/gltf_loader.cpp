@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/gltf_loader.h"
 
+#include <cmath>
+
 #include "host/scene/default_view.h"
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/gltf/lights_and_cameras.h"
@@ -54,8 +56,9 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
         add_default_camera(scene, notes);
     }
     if (!options.overrides.bring_light()) {
-        // Models have parts that glow a little, but no lamps; a file with a camera is a scene.
-        add_default_light(scene, cameras.empty() ? 1.0f : 0.0f, notes);
+        // A file with a camera is a scene, whose lamps light it. Without one it is a model, of which some parts
+        // may glow.
+        add_default_light(scene, cameras.empty() ? INFINITY : 0.0f, notes);
     }
     scene.has_open_exposure = true;
     return scene;

@@ -138,7 +138,7 @@ void read_reflections(const tinygltf::Material& source, const SurfaceContext& co
 }
 
 /// Metalness and roughness of materials that are given by the colour of their reflections. Those that reflect
-/// more than any dielectric are taken for metals.
+/// more than any dielectric and more than they scatter are taken for metals.
 void read_specular_glossiness(const tinygltf::Material& source, const SurfaceContext& context,
                               SurfaceModel& surface) {
     context.approximate(std::string(kSpecularGlossiness) + " is converted to metalness and roughness");
@@ -155,7 +155,7 @@ void read_specular_glossiness(const tinygltf::Material& source, const SurfaceCon
             : context.textures.textured_by(
                   texture, {1, 1, 1}, {.channel = 3, .is_inverse = true, .factor = glossiness}, context.sets);
     const float mean = luminance(context.textures.mean(reflected));
-    const bool is_metal = mean > 0.25f;
+    const bool is_metal = mean > 0.25f && mean > luminance(context.textures.mean(surface.color));
     surface.metallic = parameter_of(is_metal ? 1.0f : 0.0f);
     if (is_metal) {
         surface.color = reflected;
