@@ -25,9 +25,13 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/nearlight.pc.in" "${PROJECT_BINARY_D
 install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
   COMPONENT Development)
 
-# Both the program and the library load the image module.
+# Both the program and the library load the modules.
+set(modules nearlight_images)
+if(TARGET nearlight_draco)
+  list(APPEND modules nearlight_draco)
+endif()
 foreach(component Development Runtime)
-  install(TARGETS nearlight_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
+  install(TARGETS ${modules} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
 endforeach()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)

@@ -7,9 +7,9 @@
 kernel void bsdf_probe(const global Vertex* restrict vertices, const global Triangle* restrict triangles,
                        const global Material* restrict materials, const global Texture* restrict textures,
                        const global uint* restrict texels, const global float* restrict curves,
-                       const global Vec3* restrict vertex_colors, const global SceneInfo* restrict info,
-                       const global BsdfQuery* restrict queries, global BsdfAnswer* restrict answers,
-                       uint count) {
+                       const global Vec3* restrict vertex_colors, const global float2* restrict second_uvs,
+                       const global SceneInfo* restrict info, const global BsdfQuery* restrict queries,
+                       global BsdfAnswer* restrict answers, uint count) {
     const uint index = (uint)get_global_id(0);
     if (index >= count) {
         return;
@@ -22,6 +22,7 @@ kernel void bsdf_probe(const global Vertex* restrict vertices, const global Tria
     scene.texels = texels;
     scene.curves = curves;
     scene.vertex_colors = vertex_colors;
+    scene.second_uvs = second_uvs;
     scene.info = info;
     const BsdfQuery query = queries[index];
     const float3 wo = load3(query.wo);

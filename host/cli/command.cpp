@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/suggestion.h"
 #include "host/cli/help_formatter.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
-#include "host/cli/suggestion.h"
 
 namespace nearlight::core {
 namespace {

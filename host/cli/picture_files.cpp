@@ -116,10 +116,10 @@ std::vector<float> transposed(const Mat4& m) {
 void add_picture_options(CLI::App& command, PictureOptions& options) {
     command
         .add_option("-o,--output", options.outputs,
-                    "Picture to write: .exr (all layers) or .png (tone-mapped); may be given several times")
+                    "Picture to write: .exr (all layers) or .png (tone-mapped); may be given several times "
+                    "(default: SCENE-render.png in this folder)")
         ->type_name("OUT")
-        ->allow_extra_args(false)
-        ->required();
+        ->allow_extra_args(false);
     command
         .add_option("--layers,--aov", options.layers,
                     fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
@@ -129,9 +129,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--exposure", options.exposure, "Exposure of PNG pictures, in stops")
-        ->type_name("EV")
-        ->capture_default_str();
+    add_screen_options(command, options.screen);
     command
         .add_option_function<std::string>(
             "--exr-precision",
@@ -153,6 +151,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         "raw is the picture as it was rendered");
 }
 
+std::string default_output(const std::filesystem::path& scene) {
+    return scene.stem().string() + "-render.png";
+}
+
 void check_outputs(const PictureOptions& options) {
     const std::vector<FilmLayer> known = layers_of(options);
     for (const std::string& layer : options.layers) {
@@ -161,6 +163,7 @@ void check_outputs(const PictureOptions& options) {
                         "unknown layer '" + layer + "'; choose from: " + listed(known));
         }
     }
+    check_screen_options(options.screen);
     for (const std::string& file : options.outputs) {
         check_output(file);
     }
@@ -181,28 +184,70 @@ Metadata camera_metadata(const SceneCamera& camera) {
             {"worldToNDC", transposed(projection * world_to_camera)}};
 }
 
-void PictureFiles::open(int width, int height, const Metadata& metadata,
+bool PictureFiles::waits_for_exposure(const std::string& file) const {
+    return extension_of(file) == ".png" && !look_.exposure;
+}
+
+/// How an EXR file with these layers is written.
+ImageWriterOptions PictureFiles::exr_options(std::span<const FilmLayer> layers) const {
+    ImageWriterOptions options{.metadata = metadata_, .compression = options_.compression, .place = place_};
+    for (const FilmLayer& layer : layers) {
+        options.half.resize(options.half.size() + layer.channel_count,
+                            layer.storage == Storage::half && !options_.is_full_precision);
+    }
+    return options;
+}
+
+void PictureFiles::open(int width, int height, const Metadata& metadata, const ScreenLook& look,
                         const std::optional<ImagePlace>& place) {
-    ImageWriterOptions writer_options{metadata, options_.exposure};
-    writer_options.metadata["renderTimeSeconds"] = 0.0f;
-    writer_options.compression = options_.compression;
-    writer_options.place = place;
+    width_ = width;
+    height_ = height;
+    metadata_ = metadata;
+    metadata_["renderTimeSeconds"] = 0.0f;
+    look_ = look;
+    place_ = place;
     for (const std::string& file : options_.outputs) {
-        writer_options.half.clear();
+        if (waits_for_exposure(file)) {
+            continue;
+        }
         std::vector<FilmLayer> layers = layers_for(options_, file);
         std::vector<std::string> names;
         for (const FilmLayer& layer : layers) {
             std::ranges::move(channel_names(layer), std::back_inserter(names));
-            writer_options.half.resize(names.size(),
-                                       layer.storage == Storage::half && !options_.is_full_precision);
         }
+        const bool is_screen = extension_of(file) == ".png";
+        const ImageWriterOptions writer_options =
+            is_screen ? screen_writer_options(look_, *look_.exposure, metadata_) : exr_options(layers);
         files_.push_back(
-            {ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});
+            {file, ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});
+    }
+}
+
+/// Writes the files that waited for the exposure.
+void PictureFiles::write_waiting() {
+    const auto waits = [&](const std::string& file) { return waits_for_exposure(file); };
+    if (std::ranges::none_of(options_.outputs, waits)) {
+        return;
+    }
+    const float exposure = automatic_exposure(waiting_);
+    spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
+    for (const std::string& file : options_.outputs) {
+        if (waits(file)) {
+            ImageWriter writer(file, width_, height_, {"R", "G", "B"},
+                               screen_writer_options(look_, exposure, metadata_));
+            writer.write_rows(waiting_);
+            writer.commit();
+        }
     }
 }
 
 void PictureFiles::write_rows(std::span<const float> rows) {
     const std::size_t stride = channel_count(options_);
+    for (std::size_t first = 0; !look_.exposure && first < rows.size(); first += stride) {
+        const std::span<const float> beauty =
+            rows.subspan(first + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
+        waiting_.insert(waiting_.end(), beauty.begin(), beauty.end());
+    }
     for (File& file : files_) {
         selected_.clear();
         for (std::size_t first = 0; first < rows.size(); first += stride) {
@@ -218,14 +263,14 @@ void PictureFiles::write_rows(std::span<const float> rows) {
 }
 
 void PictureFiles::commit(double render_seconds) {
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-        ImageWriter& writer = files_[i].writer;
-        writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
-        if (writer.limited_count() > 0) {
+    for (File& file : files_) {
+        file.writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
+        if (file.writer.limited_count() > 0) {
             spdlog::warn("{}: {} values above 65504 count as that; --exr-precision float keeps them",
-                         options_.outputs[i], writer.limited_count());
+                         file.name, file.writer.limited_count());
         }
     }
+    write_waiting();
 }
 
 }  // namespace nearlight::core

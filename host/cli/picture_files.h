@@ -2,11 +2,13 @@
 // Writes rendered rows to any number of EXR and PNG files at once.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "host/cli/command.h"
+#include "host/cli/screen_options.h"
 #include "host/image/image_io.h"
 #include "host/scene/scene.h"
 #include "host/stages/film_layers.h"
@@ -16,7 +18,7 @@ namespace nearlight::core {
 struct PictureOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> layers;  ///< layers of EXR files; empty: all that need not be asked for
-    float exposure = 0.0f;            ///< exposure of PNG files, in stops
+    ScreenOptions screen;             ///< look of PNG files
     bool is_full_precision = false;   ///< all numbers of EXR files are 32-bit floats
     ExrCompression compression = ExrCompression::zip;
     bool denoise = false;       ///< the beauty is denoised, and rows end in the layer `raw`
@@ -27,8 +29,11 @@ struct PictureOptions {
 inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEARLIGHT_CHANNELS_RGB,
                                      PassRule::mean};
 
-/// Adds -o, --layers, --exposure, --exr-precision, --exr-compression and --denoise.
+/// Adds -o, --layers, --exposure, --tonemap, --exr-precision, --exr-compression and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
+
+/// The picture that a scene gets in the current folder if no output is named.
+std::string default_output(const std::filesystem::path& scene);
 
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
 /// for an unknown extension or layer, and Error(ErrorKind::file) for a folder that does not exist or cannot
@@ -45,7 +50,7 @@ class PictureFiles {
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
     /// `place` says which part of a larger picture this is, if it is one.
-    void open(int width, int height, const Metadata& metadata,
+    void open(int width, int height, const Metadata& metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
     void write_rows(std::span<const float> rows);
@@ -54,12 +59,23 @@ class PictureFiles {
 
   private:
     struct File {
+        std::string name;
         ImageWriter writer;
         std::vector<FilmLayer> layers;  ///< layers that the file gets
     };
 
+    [[nodiscard]] bool waits_for_exposure(const std::string& file) const;
+    [[nodiscard]] ImageWriterOptions exr_options(std::span<const FilmLayer> layers) const;
+    void write_waiting();
+
     PictureOptions options_;
     std::vector<File> files_;
+    int width_ = 0;
+    int height_ = 0;
+    Metadata metadata_;
+    ScreenLook look_;
+    std::optional<ImagePlace> place_;
+    std::vector<float> waiting_;  ///< RGB, for files whose exposure only the whole picture tells
     std::vector<float> selected_;
 };
 

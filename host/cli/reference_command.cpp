@@ -15,6 +15,7 @@
 #include "host/cli/output.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/screen_options.h"
 #include "host/cli/stored_reference.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
@@ -26,6 +27,7 @@ constexpr int kDefaultSpp = 64;
 
 struct ReferenceOptions {
     SceneOptions scene;
+    ScreenOptions screen;
     std::vector<std::filesystem::path> outputs;
     ImageSize size;
     std::optional<int> spp;
@@ -74,9 +76,26 @@ Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, d
     return metadata;
 }
 
-void write_outputs(const ReferenceOptions& options, const Image& image, const Metadata& metadata) {
+/// Three values a pixel.
+std::vector<float> beauty_of(const Image& image) {
+    const auto first = static_cast<std::size_t>(image.find_channel("R"));
+    std::vector<float> beauty;
+    for (std::size_t pixel = first; pixel < image.values.size(); pixel += image.channel_count()) {
+        beauty.insert(beauty.end(), image.values.data() + pixel, image.values.data() + pixel + 3);
+    }
+    return beauty;
+}
+
+void write_outputs(const ReferenceOptions& options, const Scene& scene, const Image& image,
+                   const Metadata& metadata) {
+    const ScreenLook look = screen_look(options.screen, scene);
     for (const std::filesystem::path& output : options.outputs) {
-        write_image(output, image, {.metadata = metadata});
+        if (output.extension() == ".exr") {
+            write_image(output, image, {.metadata = metadata});
+            continue;
+        }
+        const float exposure = look.exposure ? *look.exposure : automatic_exposure(beauty_of(image));
+        write_image(output, image, screen_writer_options(look, exposure, metadata));
     }
 }
 
@@ -157,7 +176,7 @@ void trace(const ReferenceOptions& options, const GlobalOptions& global, const S
            const PathTracerSettings& settings, const StoredReference* stored, Outcome& outcome) {
     const Stopwatch watch;
     const auto save = [&](const Image& image) {
-        write_outputs(options, image,
+        write_outputs(options, scene, image,
                       make_metadata(settings, scene, outcome.earlier_seconds + watch.seconds(), false));
     };
     catch_interrupts();
@@ -173,6 +192,7 @@ void trace(const ReferenceOptions& options, const GlobalOptions& global, const S
 }
 
 ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& global) {
+    check_screen_options(options.screen);
     check_outputs(options.outputs);
     Outcome outcome;
     const Stopwatch load_watch;
@@ -186,7 +206,7 @@ ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& glo
     trace(options, global, scene, settings, stored ? &*stored : nullptr, outcome);
 
     write_outputs(
-        options, outcome.image,
+        options, scene, outcome.image,
         make_metadata(settings, scene, outcome.earlier_seconds + outcome.render_seconds, !outcome.stopped));
     for (const std::filesystem::path& output : options.outputs) {
         spdlog::info("wrote {}{}", output.string(), outcome.stopped ? " with the samples so far" : "");
@@ -211,6 +231,7 @@ void add_reference_command(CommandLine& line) {
         ->type_name("OUT")
         ->required()
         ->allow_extra_args(false);
+    add_screen_options(command, options->screen);
     command
         .add_option("--spp", options->spp,
                     "Samples per pixel, rounded up to whole batches of 4 or 16 (default: the scene's, or " +

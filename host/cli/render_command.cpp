@@ -199,7 +199,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
             picture.open(started.width, started.height,
                          render_metadata(hash.get(), options.scene, settings, started, view, devices,
                                          global.command_line),
-                         place_of(settings.gather, view));
+                         screen_look(options.picture.screen, scene), place_of(settings.gather, view));
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
@@ -340,9 +340,13 @@ void add_method_options(CLI::App& command, RenderOptions& options) {
 
 void add_render_command(CommandLine& line) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App& command =
-        line.add_command("render", "Render a scene with virtual point lights",
-                         [options](const GlobalOptions& global) { return run_render(*options, global); });
+    CLI::App& command = line.add_command(
+        "render", "Render a scene with virtual point lights", [options](const GlobalOptions& global) {
+            if (options->picture.outputs.empty()) {
+                options->picture.outputs = {default_output(options->scene.file)};
+            }
+            return run_render(*options, global);
+        });
     add_preview_option(command, *options);
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);

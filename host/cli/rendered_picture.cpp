@@ -22,10 +22,11 @@ std::string RenderedPicture::denoiser() const {
     return denoiser_->name() + (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N)");
 }
 
-void RenderedPicture::open(int width, int height, Metadata metadata, const std::optional<ImagePlace>& place) {
+void RenderedPicture::open(int width, int height, Metadata metadata, const ScreenLook& look,
+                           const std::optional<ImagePlace>& place) {
     metadata["nearlight:denoised"] = denoiser();
     width_ = width;
-    files_.open(width, height, metadata, place);
+    files_.open(width, height, metadata, look, place);
 }
 
 void RenderedPicture::add_rows(std::span<const float> rows) {

@@ -20,7 +20,7 @@ class RenderedPicture {
     RenderedPicture(const PictureOptions& options, int threads);
 
     /// Opens the files. `metadata` gets the attribute that names the denoiser.
-    void open(int width, int height, Metadata metadata,
+    void open(int width, int height, Metadata metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Takes rows with the channels of layer_channels().
     void add_rows(std::span<const float> rows);

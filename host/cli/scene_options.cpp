@@ -2,6 +2,7 @@
 #include "host/cli/scene_options.h"
 
 #include "host/cli/log.h"
+#include "host/cli/override_options.h"
 
 namespace nearlight::core {
 
@@ -16,9 +17,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 void add_shared_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("-D,--define", options.definitions,
-                    "Value of $NAME in a Mitsuba scene, or camera=NAME for glTF; may be given several times")
+                    "Value of $NAME in a Mitsuba scene; may be given several times")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
+    add_override_options(command, options);
     command.add_flag("--strict", options.strict, "Fail if the scene would have to be approximated");
 }
 
@@ -71,6 +73,8 @@ void add_bvh_option(CLI::App& command, BvhQuality& quality) {
 LoadOptions load_options(const SceneOptions& options) {
     LoadOptions result;
     result.strict = options.strict;
+    result.camera = options.camera;
+    result.overrides = options.overrides;
     for (const std::string& definition : options.definitions) {
         const std::size_t equals = definition.find('=');
         if (equals == std::string::npos || equals == 0) {

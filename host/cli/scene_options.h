@@ -19,11 +19,13 @@ struct SceneOptions {
     bool strict = false;
     std::optional<FilterKind> filter;  ///< reconstruction filter; empty: the scene's
     bool clear_glass = false;
+    std::string camera;  ///< name or number; empty: the first one
+    SceneOverrides overrides;
 };
 
-/// Adds the positional SCENE, -D and --strict.
+/// Adds the positional SCENE, -D, --strict and the options of override_options.h.
 void add_scene_options(CLI::App& command, SceneOptions& options);
-/// Adds -D and --strict alone, for commands that take several scenes.
+/// Adds all but SCENE, for commands that take several scenes.
 void add_shared_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Adds --filter NAME. Any other name throws Error(ErrorKind::invalid_argument).

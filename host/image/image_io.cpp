@@ -98,6 +98,7 @@ struct ImageWriter::State {
     std::size_t channel_count = 0;
     std::array<std::size_t, 3> rgb{};  ///< indices of R, G and B among the channels, for PNG
     float scale = 1.0f;                ///< exposure as a factor, for PNG
+    ToneCurve curve = ToneCurve::linear;
     std::vector<std::uint8_t> encoded;
     std::vector<float> limited;
     std::size_t limited_count = 0;
@@ -112,6 +113,7 @@ struct ImageWriter::State {
     void open(const std::vector<std::string>& channels, const ImageWriterOptions& options);
     void write(int row_count, const float* values);
     const float* within_half(int row_count, const float* values);
+    void encode_pixel(const float* channels, std::uint8_t* codes) const;
     void close();
     [[noreturn]] void fail_to_write(const std::string& reason) const {
         fail_image("cannot write image", file.target(), reason);
@@ -159,6 +161,14 @@ const float* ImageWriter::State::within_half(int row_count, const float* values)
     return limited.data();
 }
 
+void ImageWriter::State::encode_pixel(const float* channels, std::uint8_t* codes) const {
+    const Vec3 color{channels[rgb[0]] * scale, channels[rgb[1]] * scale, channels[rgb[2]] * scale};
+    const Vec3 shown = apply_tone_curve(curve, color);
+    codes[0] = linear_to_srgb8(shown.x);
+    codes[1] = linear_to_srgb8(shown.y);
+    codes[2] = linear_to_srgb8(shown.z);
+}
+
 void ImageWriter::State::write(int row_count, const float* values) {
     if (!encoder) {
         encoder = image_codec().make_encoder(task);
@@ -171,9 +181,7 @@ void ImageWriter::State::write(int row_count, const float* values) {
         const std::size_t pixel_count = static_cast<std::size_t>(row_count) * static_cast<std::size_t>(width);
         encoded.resize(pixel_count * 3);
         for (std::size_t i = 0; i < pixel_count; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                encoded[i * 3 + c] = linear_to_srgb8(values[i * channel_count + rgb[c]] * scale);
-            }
+            encode_pixel(values + i * channel_count, encoded.data() + 3 * i);
         }
         failed = encoder->write(next_row, end, encoded.data());
     }
@@ -206,6 +214,7 @@ ImageWriter::ImageWriter(const fs::path& file, int width, int height, std::vecto
     state_->height = height;
     state_->channel_count = channels.size();
     state_->scale = std::exp2(options.exposure);
+    state_->curve = options.curve;
     if (width < 1 || height < 1 || channels.empty()) {
         state_->fail_to_write("it has no pixels");
     }

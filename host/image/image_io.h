@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/image/image.h"
+#include "host/image/tone_curve.h"
 
 namespace nearlight::core {
 
@@ -44,9 +45,10 @@ struct ImagePlace {
 };
 
 struct ImageWriterOptions {
-    /// EXR attributes, where a vector of 16 floats becomes a matrix. PNG files get those that are texts.
+    /// EXR attributes, where a vector of 16 floats becomes a matrix; PNG keeps those that are strings.
     Metadata metadata{};
-    float exposure = 0.0f;  ///< stops, applied before the sRGB curve; PNG only
+    float exposure = 0.0f;                ///< stops, applied before the tone curve; PNG only
+    ToneCurve curve = ToneCurve::linear;  ///< applied before the sRGB curve; PNG only
     ExrCompression compression = ExrCompression::zip;
     /// For each channel, whether EXR files have it as 16-bit floats, whose maximum is 65504; empty: none.
     std::vector<bool> half{};

@@ -22,6 +22,19 @@ std::string_view channel_part(std::string_view channel) {
     return channel.substr(channel.rfind('.') + 1);
 }
 
+core::ToneCurve core_curve(ToneCurve curve) {
+    switch (curve) {
+        case ToneCurve::neutral:
+            return core::ToneCurve::neutral;
+        case ToneCurve::agx:
+            return core::ToneCurve::agx;
+        case ToneCurve::filmic:
+            return core::ToneCurve::filmic;
+        default:
+            return core::ToneCurve::linear;
+    }
+}
+
 std::size_t value_count(const Image& image) {
     return static_cast<std::size_t>(std::max(image.width, 0)) *
            static_cast<std::size_t>(std::max(image.height, 0)) * image.channels.size();
@@ -80,10 +93,23 @@ void write_image(const std::filesystem::path& file, const Image& image, const Wr
                         std::to_string(image.values.size()) +
                         " values, which is not its width times its height times its channels");
     }
-    core::ImageWriter writer(file, image.width, image.height, image.channels,
-                             {.metadata = {}, .exposure = options.exposure});
+    core::ImageWriter writer(
+        file, image.width, image.height, image.channels,
+        {.metadata = {}, .exposure = options.exposure, .curve = core_curve(options.tone_curve)});
     writer.write_rows(image.values);
     writer.commit();
+}
+
+float automatic_exposure(const Image& image) {
+    std::vector<std::size_t> rgb;
+    for (const char* name : {"R", "G", "B"}) {
+        const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+        if (found == image.channels.end()) {
+            throw Error(ErrorKind::invalid_argument, "the exposure needs an image with channels R, G and B");
+        }
+        rgb.push_back(static_cast<std::size_t>(found - image.channels.begin()));
+    }
+    return core::automatic_exposure(select_channels(image, rgb).values);
 }
 
 Image read_image(const std::filesystem::path& file) {

@@ -14,12 +14,34 @@ Vec3 public_vector(core::Vec3 v) {
     return {v.x, v.y, v.z};
 }
 
+std::optional<std::array<double, 3>> point_of(const std::optional<Vec3>& v) {
+    using Point = std::array<double, 3>;
+    return v ? std::optional(Point{v->x, v->y, v->z}) : std::nullopt;
+}
+
+core::LoadOptions core_options(const LoadOptions& options) {
+    core::LoadOptions wanted{
+        .parameters = options.definitions, .camera = options.camera, .strict = options.strict};
+    core::SceneOverrides& overrides = wanted.overrides;
+    overrides.origin = point_of(options.origin);
+    overrides.target = point_of(options.target);
+    overrides.fov_degrees = options.field_of_view;
+    overrides.environment = options.environment;
+    overrides.environment_rotation = options.environment_rotation;
+    overrides.environment_scale = options.environment_scale;
+    if (options.sun) {
+        overrides.sun = core::SunPosition{options.sun->azimuth, options.sun->elevation};
+    }
+    overrides.light_scale = options.light_scale;
+    return wanted;
+}
+
 }  // namespace
 
 Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Scene Scene::load(const std::filesystem::path& file, const LoadOptions& options) {
-    core::Scene scene = core::load_scene(file, {.parameters = options.definitions, .strict = options.strict});
+    core::Scene scene = core::load_scene(file, core_options(options));
     scene.clear_glass = options.clear_glass;
     for (const core::Note& note : scene.notes) {
         core::say_warning(core::to_string(note));

@@ -41,6 +41,12 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
                                scene.vertex_colors[triangle.v2] * hit.v;
     }
 
+    for (std::size_t i = 0; i < 2 && !scene.second_uvs.empty(); ++i) {
+        surface.second_uv[i] = scene.second_uvs[triangle.v0][i] * weight_a +
+                               scene.second_uvs[triangle.v1][i] * hit.u +
+                               scene.second_uvs[triangle.v2][i] * hit.v;
+    }
+
     const Vec3 normal = normalize(cross(b.position - a.position, c.position - a.position));
     surface.front = dot(normal, direction) < 0.0f;
     surface.geometric_normal = surface.front ? normal : -normal;
@@ -54,7 +60,7 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
 }
 
 Vec3 value_at(const Scene& scene, const Surface& surface, const Parameter& parameter) {
-    return parameter_value(scene, parameter, surface.u, surface.v, surface.vertex_color);
+    return parameter_value(scene, parameter, surface.u, surface.v, surface.vertex_color, surface.second_uv);
 }
 
 }  // namespace nearlight::core

@@ -2,6 +2,8 @@
 // The surface that a ray finds where it hits a triangle.
 #pragma once
 
+#include <array>
+
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
@@ -17,6 +19,7 @@ struct Surface {
     Vec3 vertex_color{1, 1, 1};
     float u = 0.0f;  ///< texture coordinates
     float v = 0.0f;
+    std::array<float, 2> second_uv{0, 0};
     const Material* material = nullptr;
     bool front = true;  ///< the ray came from the triangle's front
 };

@@ -1,60 +1,108 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/default_view.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nearlight::core {
 namespace {
 
 constexpr double kFieldOfView = 45.0;
+constexpr float kFilled = 0.88f;  // share of the frame's width or height that the scene fills
 // The direction from the middle of the box towards the camera.
 constexpr Vec3 kTowardsCamera{0.45f, 0.4f, 0.8f};
+constexpr Vec3 kTowardsLamp{-0.5f, 0.8f, 0.7f};
+constexpr int kSkyWidth = 128;  // pixels
 
-bool has_light(const Scene& scene) {
+bool has_light(const Scene& scene, float dimmest_lamp) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
-           std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& material) { return !is_zero(material.emission.value); });
+           std::ranges::any_of(scene.triangles, [&](const Triangle& triangle) {
+               return max_component(scene.materials[triangle.material].emission.value) > dimmest_lamp;
+           });
 }
 
-float radius_of(const Aabb& box) {
-    return std::max(0.5f * length(box.size()), 1e-3f);
+/// The radiance of the neutral sky: grey, dark below, where the camera sees it behind things, with a wide
+/// lamp that shows their shapes.
+Vec3 neutral_radiance(Vec3 direction) {
+    const float height = std::clamp((direction.y + 0.25f) / 0.85f, 0.0f, 1.0f);
+    const float even = 0.12f + 0.88f * height * height * (3.0f - 2.0f * height);
+    const float lamp = 5.0f * std::exp(12.0f * (dot(direction, normalize(kTowardsLamp)) - 1.0f));
+    return Vec3{1, 1, 1} * (even + lamp);
 }
+
+EnvironmentLight neutral_sky() {
+    EnvironmentLight sky;
+    sky.width = kSkyWidth;
+    sky.height = kSkyWidth / 2;
+    sky.is_interpolated = true;
+    for (int row = 0; row < sky.height; ++row) {
+        const float theta = kPi * static_cast<float>(row) / static_cast<float>(sky.height - 1);
+        for (int column = 0; column < sky.width; ++column) {
+            const float phi =
+                2.0f * kPi * (static_cast<float>(column) + 0.5f) / static_cast<float>(sky.width);
+            sky.radiance.push_back(neutral_radiance(
+                {std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)}));
+        }
+    }
+    return sky;
+}
+
+/// Where the camera's lines of sight along one side of the frame and its opposite must be to let in all
+/// points: at the distance `reach` from the target, `shift` beside it.
+struct Fit {
+    float far_side = -INFINITY;
+    float near_side = -INFINITY;
+
+    /// A point `across` to one side and `along` behind the target; the frame's slope is that of its side.
+    void add(float across, float along, float slope) {
+        far_side = std::max(far_side, across / slope - along);
+        near_side = std::max(near_side, -across / slope - along);
+    }
+    [[nodiscard]] float reach() const { return 0.5f * (far_side + near_side); }
+    [[nodiscard]] float shift(float slope) const { return 0.5f * slope * (far_side - near_side); }
+};
 
 }  // namespace
 
-SceneCamera default_camera(const Aabb& box) {
+SceneCamera default_camera(const Scene& scene) {
     SceneCamera camera;
     camera.fov_x_degrees = kFieldOfView;
-    const float half_height = std::tan(degrees_to_radians(static_cast<float>(kFieldOfView) / 2)) *
-                              static_cast<float>(camera.height) / static_cast<float>(camera.width);
-    const float distance = radius_of(box) / std::sin(std::atan(half_height));
-    const Vec3 target = box.center();
-    const Vec3 origin = target + normalize(kTowardsCamera) * distance;
+    const Aabb box = bounds(scene);
+    const Vec3 away = normalize(kTowardsCamera);
+    const Vec3 right = normalize(cross({0, 1, 0}, away));
+    const Vec3 up = cross(away, right);
+    const float slope_x = kFilled * std::tan(degrees_to_radians(static_cast<float>(kFieldOfView) / 2));
+    const float slope_y = slope_x * static_cast<float>(camera.height) / static_cast<float>(camera.width);
+    Fit across;
+    Fit upwards;
+    for (const Triangle& triangle : scene.triangles) {
+        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+            const Vec3 p = scene.vertices[vertex].position - box.center();
+            across.add(dot(p, right), -dot(p, away), slope_x);
+            upwards.add(dot(p, up), -dot(p, away), slope_y);
+        }
+    }
+    const float smallest = std::max(1e-3f, 1e-3f * length(box.size()));
+    const float distance =
+        scene.triangles.empty() ? 1.0f : std::max({across.reach(), upwards.reach(), smallest});
+    const Vec3 aside =
+        scene.triangles.empty() ? Vec3{0, 0, 0} : across.shift(slope_x) * right + upwards.shift(slope_y) * up;
+    const Vec3 target = box.center() + aside;
+    const Vec3 origin = target + away * distance;
     camera.to_world = look_at({origin.x, origin.y, origin.z}, {target.x, target.y, target.z}, {0, 1, 0});
     return camera;
 }
 
-void add_default_view(Scene& scene, NoteSink& notes) {
-    scene.camera = default_camera(bounds(scene));
+void add_default_camera(Scene& scene, NoteSink& notes) {
+    scene.camera = default_camera(scene);
     notes.remark(scene.source, 0, "the file has no camera; one that frames everything is added");
-    add_default_light(scene, notes);
 }
 
-void add_default_light(Scene& scene, NoteSink& notes) {
-    if (has_light(scene)) {
-        return;
+void add_default_light(Scene& scene, float dimmest_lamp, NoteSink& notes) {
+    if (!has_light(scene, dimmest_lamp)) {
+        scene.environment = neutral_sky();
+        notes.remark(scene.source, 0, "the file has no light; a neutral sky is added");
     }
-    const Aabb box = bounds(scene);
-    scene.environment.width = 1;
-    scene.environment.height = 1;
-    scene.environment.radiance = {{1, 1, 1}};
-    const float radius = radius_of(box);
-    Emitter key{};
-    key.type = NEARLIGHT_EMITTER_POINT;
-    key.position = box.center() + radius * Vec3{1.5f, 2.5f, 1.0f};
-    // The irradiance is about 4 at the middle of the box, whatever its size.
-    const float intensity = 4.0f * radius * radius * dot({1.5f, 2.5f, 1.0f}, {1.5f, 2.5f, 1.0f});
-    key.radiance = {intensity, intensity, intensity};
-    scene.delta_emitters.push_back(key);
-    notes.remark(scene.source, 0, "nothing emits light; an even sky and a point light are added");
 }
 
 }  // namespace nearlight::core

@@ -7,13 +7,14 @@
 
 namespace nearlight::core {
 
-/// A 640 × 480 camera (45° wide) that frames the bounding box from the front, right and above; y is up.
-SceneCamera default_camera(const Aabb& box);
+/// A 640 × 480 camera (45° wide) that frames all triangles from the front, right and above; y is up.
+SceneCamera default_camera(const Scene& scene);
 
-/// If no material emits and there is no other light, adds an environment of radiance 1 and a point light
-/// beside the default camera, with a remark.
-void add_default_light(Scene& scene, NoteSink& notes);
-/// Adds the default camera with a remark, and light as add_default_light() does.
-void add_default_view(Scene& scene, NoteSink& notes);
+/// Adds the default camera with a remark.
+void add_default_camera(Scene& scene, NoteSink& notes);
+
+/// Adds a neutral sky with a remark if there is no other light. Surfaces count as lights if their radiance is
+/// above `dimmest_lamp`.
+void add_default_light(Scene& scene, float dimmest_lamp, NoteSink& notes);
 
 }  // namespace nearlight::core

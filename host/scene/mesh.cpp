@@ -40,6 +40,7 @@ void check_mesh(const Mesh& mesh) {
     };
     if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
         (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
+        (!mesh.second_uvs.empty() && mesh.second_uvs.size() != mesh.positions.size()) ||
         (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())) {
         fail("the numbers of normals, colours or texture coordinates differ from the number of vertices");
     }
@@ -109,6 +110,20 @@ void append_colors(Scene& scene, const Mesh& mesh) {
     }
 }
 
+// Keeps second texture coordinates of all vertices as soon as any mesh has them.
+void append_second_uvs(Scene& scene, const Mesh& mesh) {
+    if (mesh.second_uvs.empty() && scene.second_uvs.empty()) {
+        return;
+    }
+    make_room(scene.second_uvs, scene.vertices.size() - scene.second_uvs.size());
+    scene.second_uvs.resize(scene.vertices.size() - mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool is_known = !mesh.second_uvs.empty() && std::isfinite(mesh.second_uvs[i][0]) &&
+                              std::isfinite(mesh.second_uvs[i][1]);
+        scene.second_uvs.push_back(is_known ? mesh.second_uvs[i] : std::array<float, 2>{0, 0});
+    }
+}
+
 bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
     const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
     return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
@@ -148,6 +163,7 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
     const auto first = static_cast<uint>(scene.vertices.size());
     append_vertices(scene, mesh, positions, normals, placement.flip_normals);
     append_colors(scene, mesh);
+    append_second_uvs(scene, mesh);
 
     std::size_t dropped = 0;
     make_room(scene.triangles, mesh.triangles.size());

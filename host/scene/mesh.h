@@ -21,8 +21,9 @@ struct Mesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< one a position, or empty
     std::vector<std::array<float, 2>>
-        uvs;                   ///< one a position, or empty; v = 0 at the bottom row of a texture
-    std::vector<Vec3> colors;  ///< linear sRGB, one a position, or empty
+        uvs;  ///< one a position, or empty; v = 0 at the bottom row of a texture
+    std::vector<std::array<float, 2>> second_uvs;  ///< for Scene::second_uvs; one a position, or empty
+    std::vector<Vec3> colors;                      ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
     bool face_normals = false;  ///< the file asks for flat facets
     std::vector<uint> groups;   ///< one a triangle: index into MeshPlacement::materials; empty: all 0

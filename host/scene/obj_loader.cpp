@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
 #include "host/scene/obj_materials.h"
@@ -190,7 +191,12 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
         const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
         append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
     }
-    add_default_view(scene, notes);
+    choose_camera(file, {}, options.camera);
+    add_default_camera(scene, notes);
+    if (!options.overrides.bring_light()) {
+        add_default_light(scene, 0.0f, notes);
+    }
+    scene.has_open_exposure = true;
     return scene;
 }
 

@@ -3,6 +3,7 @@
 // (or whatever unit the file has), linear sRGB colours.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -95,6 +96,9 @@ struct Scene {
     std::filesystem::path source;  ///< the file that was asked for
     std::vector<Vertex> vertices;
     std::vector<Vec3> vertex_colors;  ///< linear sRGB, one a vertex; empty if no texture asks for them
+    /// Texture coordinates of textures with NEARLIGHT_TEXTURE_SECOND_UV, one a vertex; empty if there are
+    /// none.
+    std::vector<std::array<float, 2>> second_uvs;
     std::vector<Triangle> triangles;  ///< no NaN, no index out of range; zero area is allowed
     std::vector<Material> materials;  ///< children may stand before or after those that name them
     /// Rows of NEARLIGHT_CURVE_SIZE values, see Material::curve; row 0 is all ones.
@@ -110,7 +114,9 @@ struct Scene {
     bool clear_glass = false;
     int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say
     int samples_per_pixel = 0;  ///< 0: the file does not say
-    std::vector<Note> notes;    ///< approximations and oddities
+    /// The file's light has no scale of its own, so that pictures for screens choose their exposure.
+    bool has_open_exposure = false;
+    std::vector<Note> notes;  ///< approximations and oddities
 };
 
 /// The box of all vertices that triangles use.

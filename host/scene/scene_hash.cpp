@@ -10,10 +10,9 @@ namespace {
 // The bytes of numbers are hashed as they lie in memory.
 static_assert(std::endian::native == std::endian::little, "scene hashes assume little-endian numbers");
 
-/// The texture without padding and what is filled in later.
+/// The texture without what is filled in later.
 Texture essence(Texture texture) {
     texture.first_word = texture.width = texture.height = texture.format = 0;
-    texture.pad0 = texture.pad1 = 0;
     return texture;
 }
 
@@ -92,6 +91,9 @@ std::uint64_t scene_hash(const Scene& scene) {
     add_camera(hasher, scene.camera);
     hasher.add(scene.max_depth);
     hasher.add(scene.samples_per_pixel);
+    if (!scene.second_uvs.empty()) {
+        hasher.add_array(scene.second_uvs);
+    }
     if (scene.clear_glass) {
         hasher.add(true);
     }

@@ -68,6 +68,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     }
     Scene scene = loader->load(file, options);
     NoteSink notes(scene.notes, options.strict);
+    apply_overrides(scene, options.overrides, notes);
     finish_vertex_colors(scene, notes);
     keep_within_limits(scene, notes);
     remark_emptiness(scene);

@@ -59,11 +59,17 @@ const Parameter& field_at(const Texture& texture, float s, float t) {
     return (s - std::floor(s) > 0.5f) == (t - std::floor(t) > 0.5f) ? texture.color0 : texture.color1;
 }
 
-Vec3 mean_color(const TextureImage& image) {
+/// What a texture with a cutoff makes of a number.
+Vec3 cut_off(Vec3 color, const Texture& texture) {
+    const float kept = color.x >= texture.cutoff ? 1.0f : 0.0f;
+    return texture.cutoff > 0.0f ? Vec3{kept, kept, kept} : color;
+}
+
+Vec3 mean_color(const TextureImage& image, const Texture& texture) {
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     std::array<double, 3> sum{};
     for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 color = texel_color(image, i);
+        const Vec3 color = cut_off(texel_color(image, i), texture);
         sum[0] += static_cast<double>(color.x);
         sum[1] += static_cast<double>(color.y);
         sum[2] += static_cast<double>(color.z);
@@ -110,24 +116,32 @@ Vec3 texel_color(const TextureImage& image, std::size_t texel) {
     return decode_texel(word);
 }
 
-Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v, Vec3 vertex_color) {
+Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v, Vec3 vertex_color,
+                   std::array<float, 2> second_uv) {
     const Texture& p = texture.parameters;
-    const float s = p.u_scale * u + p.u_shear * v + p.u_offset;
-    const float t = p.v_shear * u + p.v_scale * v + p.v_offset;
+    const bool is_second = (p.flags & NEARLIGHT_TEXTURE_SECOND_UV) != 0;
+    const float x = is_second ? second_uv[0] : u;
+    const float y = is_second ? second_uv[1] : v;
+    const float s = p.u_scale * x + p.u_shear * y + p.u_offset;
+    const float t = p.v_shear * x + p.v_scale * y + p.v_offset;
     if (p.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
-        return parameter_value(scene, field_at(p, s, t), u, v, vertex_color);
+        return parameter_value(scene, field_at(p, s, t), u, v, vertex_color, second_uv);
     }
-    return p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR
-               ? vertex_color
-               : bitmap_color(scene.images[static_cast<std::size_t>(texture.image)], p, s, t);
+    if (p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR) {
+        return vertex_color;
+    }
+    const Vec3 color =
+        cut_off(bitmap_color(scene.images[static_cast<std::size_t>(texture.image)], p, s, t), p);
+    return (p.flags & NEARLIGHT_TEXTURE_TIMES_COLOR) != 0 ? color * vertex_color : color;
 }
 
-Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v, Vec3 vertex_color) {
+Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v, Vec3 vertex_color,
+                     std::array<float, 2> second_uv) {
     return parameter.texture < 0
                ? parameter.value
                : parameter.value * texture_color(scene,
                                                  scene.textures[static_cast<std::size_t>(parameter.texture)],
-                                                 u, v, vertex_color);
+                                                 u, v, vertex_color, second_uv);
 }
 
 float parameter_number(const Scene& scene, const Parameter& parameter, float u, float v, Vec3 vertex_color) {
@@ -148,7 +162,7 @@ Vec3 mean_value(const Scene& scene, const Parameter& parameter) {
     }
     return p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR
                ? parameter.value
-               : parameter.value * mean_color(scene.images[static_cast<std::size_t>(texture.image)]);
+               : parameter.value * mean_color(scene.images[static_cast<std::size_t>(texture.image)], p);
 }
 
 }  // namespace nearlight::core

@@ -19,9 +19,10 @@ Vec3 texel_color(const TextureImage& image, std::size_t texel);
 inline constexpr Vec3 kWhite{1, 1, 1};
 
 /// The value of a parameter at the surface's texture coordinates (u, v): its number or colour times its
-/// texture, where it has one. `vertex_color` is the interpolated colour of the vertices.
+/// texture, where it has one. `vertex_color` is the interpolated colour of the vertices, `second_uv` are
+/// their second texture coordinates.
 Vec3 parameter_value(const Scene& scene, const Parameter& parameter, float u, float v,
-                     Vec3 vertex_color = kWhite);
+                     Vec3 vertex_color = kWhite, std::array<float, 2> second_uv = {0, 0});
 
 /// The value of a parameter that is a number, which takes from a texture the luminance of its colour.
 float parameter_number(const Scene& scene, const Parameter& parameter, float u, float v,
@@ -31,7 +32,7 @@ float parameter_number(const Scene& scene, const Parameter& parameter, float u, 
 /// edge of the bitmap; the centre of texel i of n is at (i + 0.5)/n. Coordinates that are not finite count
 /// as 0.
 Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, float v,
-                   Vec3 vertex_color = kWhite);
+                   Vec3 vertex_color = kWhite, std::array<float, 2> second_uv = {0, 0});
 
 /// An estimate of the mean of a parameter over its textures, where the vertices' colours count as white.
 Vec3 mean_value(const Scene& scene, const Parameter& parameter);

@@ -48,23 +48,30 @@ class TexelReader {
 
     /// The numbers of the file that make the texel.
     [[nodiscard]] std::array<float, 3> source(std::size_t pixel) const {
-        if (rule_.channel < 0) {
-            return rgb_at(image_, pixel);
+        if (rule_.channel >= 0) {
+            const float number = channel_at(pixel, rule_.channel);
+            const float kept = rule_.is_inverse ? 1.0f - rule_.factor * number : number;
+            return {kept, kept, kept};
         }
-        float number = channel_at(pixel);
-        if (rule_.cutoff > 0.0f) {
-            number = number >= rule_.cutoff ? 1.0f : 0.0f;
+        std::array<float, 3> rgb = rgb_at(image_, pixel);
+        if (rule_.times_alpha) {
+            const float alpha = alpha_at(pixel);
+            for (float& value : rgb) {
+                value = alpha == 0.0f ? 0.0f : alpha == 1.0f ? value : encode(decode(value) * alpha);
+            }
         }
-        return {number, number, number};
+        if (rule_.steepness_x != 1.0f || rule_.steepness_y != 1.0f) {
+            rgb[0] = 0.5f + rule_.steepness_x * (rgb[0] - 0.5f);
+            rgb[1] = 0.5f + rule_.steepness_y * (rgb[1] - 0.5f);
+        }
+        return rgb;
     }
 
     /// The texel, decoded.
     [[nodiscard]] std::array<float, 3> linear(std::size_t pixel) const {
         std::array<float, 3> rgb = source(pixel);
         for (float& value : rgb) {
-            value = gamma_ == 1.0f   ? value
-                    : gamma_ == 0.0f ? srgb_to_linear(value)
-                                     : std::pow(std::max(value, 0.0f), gamma_);
+            value = decode(value);
         }
         if (rule_.is_number && !is_grey(rgb)) {
             rgb.fill(luminance(Vec3{rgb[0], rgb[1], rgb[2]}));
@@ -75,13 +82,29 @@ class TexelReader {
   private:
     static bool is_grey(const std::array<float, 3>& rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2]; }
 
-    [[nodiscard]] float channel_at(std::size_t pixel) const {
+    [[nodiscard]] float decode(float value) const {
+        return gamma_ == 1.0f   ? value
+               : gamma_ == 0.0f ? srgb_to_linear(value)
+                                : std::pow(std::max(value, 0.0f), gamma_);
+    }
+    [[nodiscard]] float encode(float linear) const {
+        return gamma_ == 1.0f   ? linear
+               : gamma_ == 0.0f ? linear_to_srgb(linear)
+                                : std::pow(std::max(linear, 0.0f), 1.0f / gamma_);
+    }
+
+    [[nodiscard]] float channel_at(std::size_t pixel, int channel) const {
         const std::size_t channels = image_.channel_count();
         const float* p = image_.values.data() + pixel * channels;
-        if (rule_.channel == 3) {
+        if (channel == 3) {
             return channels == 2 || channels >= 4 ? p[channels == 2 ? 1 : 3] : 1.0f;
         }
-        return channels < 3 ? p[0] : p[rule_.channel];
+        return channels < 3 ? p[0] : p[channel];
+    }
+
+    [[nodiscard]] float alpha_at(std::size_t pixel) const {
+        const float alpha = channel_at(pixel, 3);
+        return rule_.alpha_cutoff > 0.0f ? (alpha >= rule_.alpha_cutoff ? 1.0f : 0.0f) : alpha;
     }
 
     [[nodiscard]] bool is_eight_bit() const {

@@ -20,7 +20,9 @@ float vertex_color_scale(const Scene& scene, const Parameter& parameter) {
         return scale *
                std::max(vertex_color_scale(scene, texture.color0), vertex_color_scale(scene, texture.color1));
     }
-    return texture.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR ? scale : 0.0f;
+    const bool asks = texture.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR ||
+                      (texture.flags & NEARLIGHT_TEXTURE_TIMES_COLOR) != 0;
+    return asks ? scale : 0.0f;
 }
 
 /// The same of a material and all that it stands for.

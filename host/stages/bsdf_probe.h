@@ -2,6 +2,7 @@
 // BSDFs of points on triangles, as kernels compute them: for checks, no picture needs this.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct BsdfScene {
     std::vector<uint> texels;
     std::vector<float> curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<Vec3> vertex_colors;
+    std::vector<std::array<float, 2>> second_uvs;
     SceneInfo info{};
 };
 

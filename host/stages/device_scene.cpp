@@ -142,6 +142,7 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.textures = put(pool.textures);
     on_device.texels = put(pool.words);
     on_device.vertex_colors = put(scene.vertex_colors);
+    on_device.second_uvs = put(scene.second_uvs);
     on_device.curves = put(scene.transmission_curves);
     on_device.emitters = put(emitters.emitters);
     on_device.environment = put(std::vector{environment.parameters});

@@ -15,6 +15,7 @@ struct DeviceScene {
     Buffer<Texture> textures;
     Buffer<uint> texels;  ///< words of all bitmaps
     Buffer<Vec3> vertex_colors;
+    Buffer<std::array<float, 2>> second_uvs;
     Buffer<float> curves;  ///< transmission curves
     Buffer<Emitter> emitters;
     Buffer<Environment> environment;
@@ -44,7 +45,7 @@ struct DeviceScene {
     void for_each_buffer(Visitor&& visit) const {
         visit(tree), visit(tree.triangle_ids);
         visit(vertices), visit(triangles), visit(materials), visit(textures), visit(texels);
-        visit(vertex_colors), visit(curves);
+        visit(vertex_colors), visit(second_uvs), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
         visit(row_cosines), visit(block_details), visit(detail_cdf), visit(light_nodes), visit(info);
     }

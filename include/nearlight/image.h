@@ -33,10 +33,19 @@ struct Image {
     }
 };
 
+/// From linear light to what a screen shows.
+enum class ToneCurve {
+    linear,   ///< as it is; what is above 1 is clipped
+    neutral,  ///< colours as they are up to 0.76, softly limited above (Khronos PBR Neutral)
+    agx,      ///< a photograph's contrast, where bright colours fade to white
+    filmic,   ///< strong contrast of film
+};
+
 /// How to write a picture.
 struct WriteOptions {
-    /// The exposure of PNG files in stops: one stop more doubles the brightness before the sRGB curve.
+    /// The exposure of PNG files in stops: one stop more doubles the brightness before the tone curve.
     float exposure = 0.0f;
+    ToneCurve tone_curve = ToneCurve::linear;  ///< of PNG files, after the exposure
 };
 
 /// The names of the layers of an image, each once; "beauty" stands for R, G and B.
@@ -47,12 +56,18 @@ NEARLIGHT_API std::vector<std::string> layer_names(const Image& image);
 NEARLIGHT_API Image layer(const Image& image, std::string_view name);
 
 /// Writes a picture by its extension: .exr keeps all channels as 32-bit floats; .png takes R, G and B,
-/// applies the exposure and the sRGB curve, and rounds to 8 bits. An existing file is replaced only when the
-/// new one is complete. Throws Error: ErrorKind::invalid_argument for another extension; ErrorKind::file if
-/// the file cannot be written, or for PNG if R, G or B is missing; ErrorKind::failure if the library's image
-/// module is missing. May be called from several threads for different files.
+/// applies the exposure, the tone curve and the sRGB curve, and rounds to 8 bits. An existing file is
+/// replaced only when the new one is complete. Throws Error: ErrorKind::invalid_argument for another
+/// extension; ErrorKind::file if the file cannot be written, or for PNG if R, G or B is missing;
+/// ErrorKind::failure if the library's image module is missing. May be called from several threads for
+/// different files.
 NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& image,
                                const WriteOptions& options = {});
+
+/// The exposure in stops at which a picture with linear R, G and B looks right on a screen: what is seen is
+/// grey on the average, and hardly anything is white. Black pixels do not count. Throws Error:
+/// ErrorKind::invalid_argument if R, G or B is missing.
+NEARLIGHT_API float automatic_exposure(const Image& image);
 
 /// Reads EXR, PNG, JPEG and whatever else OpenImageIO knows. Values are those of the file: integers are
 /// scaled to [0, 1], and an sRGB curve is not removed. Throws Error: ErrorKind::file with the file and the

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,16 +22,35 @@ struct Box {
     Vec3 max;
 };
 
-/// How to load a scene.
+/// Where the sun stands.
+struct SunPosition {
+    double azimuth = 0.0;    ///< degrees from +Z towards +X
+    double elevation = 0.0;  ///< degrees above the horizon, 0 to 90
+};
+
+/// How to load a scene. What says something about camera and light replaces what the file says, whatever its
+/// format; +Y is up.
 struct LoadOptions {
-    /// Values for `$NAME` in a Mitsuba scene, by name; for glTF, `camera` names the camera to take. Names
-    /// that the scene does not use are ignored.
+    /// Values for `$NAME` in a Mitsuba scene, by name. Names that the scene does not use are ignored.
     std::map<std::string, std::string> definitions{};
     /// If it is true, load() throws an Error instead of approximating something and noting that.
     bool strict = false;
     /// If it is true, light passes straight through smooth glass bodies, which is not what glass does: a
     /// picture for architects (`--glass clear`).
     bool clear_glass = false;
+    /// The camera to take: its name in the file, or its number counted from 1; empty: the first one.
+    std::string camera{};
+    std::optional<Vec3> origin{};  ///< where the camera stands
+    /// What the camera looks at; if only the origin is given, that is the middle of the scene.
+    std::optional<Vec3> target{};
+    std::optional<double> field_of_view{};  ///< horizontal, degrees, above 0 and below 180
+    /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
+    /// radiance, or #rrggbb. Empty: the scene's own environment.
+    std::string environment{};
+    double environment_rotation = 0.0;  ///< degrees about +Y
+    double environment_scale = 1.0;     ///< 0 or more
+    std::optional<SunPosition> sun{};   ///< a sun, whose place the environment `sky` follows
+    double light_scale = 1.0;           ///< of all light, 0 or more
 };
 
 /// A note about a scene that was loaded: what was approximated, or what is odd about the file.
@@ -47,7 +67,8 @@ class NEARLIGHT_API Scene {
   public:
     /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0) or .obj; names of
     /// other files in it are relative to its folder. Throws Error: ErrorKind::file if a file is missing, is
-    /// broken or has unknown content, or if `options.strict` forbids an approximation; ErrorKind::failure if
+    /// broken or has unknown content, ErrorKind::invalid_argument for a camera that is not there or a number
+    /// out of its range, or if `options.strict` forbids an approximation; ErrorKind::failure if
     /// the library's image module, which reads textures, is missing. A texture file that cannot be read is
     /// replaced by grey, with a note. Notes also go to the message sink (message.h).
     static Scene load(const std::filesystem::path& file, const LoadOptions& options = {});

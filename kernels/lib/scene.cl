@@ -8,23 +8,25 @@
 
 #include "lib/ray_tree.cl"
 
-#define SCENE_PARAMETERS                                                                                     \
-    const global TreeNode *restrict scene_nodes, const global TreeTriangles *restrict scene_tree_triangles,  \
-        const global uint *restrict scene_triangle_ids, const global Vertex *restrict scene_vertices,        \
-        const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,    \
-        const global Texture *restrict scene_textures, const global uint *restrict scene_texels,             \
-        const global Vec3 *restrict scene_vertex_colors, const global float *restrict scene_curves,          \
-        const global Emitter *restrict scene_emitters, const global Environment *restrict scene_environment, \
-        const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf,  \
-        const global float *restrict scene_column_cdf, const global float *restrict scene_row_cosines,       \
-        const global uint *restrict scene_block_details, const global float *restrict scene_detail_cdf,      \
+#define SCENE_PARAMETERS                                                                                    \
+    const global TreeNode *restrict scene_nodes, const global TreeTriangles *restrict scene_tree_triangles, \
+        const global uint *restrict scene_triangle_ids, const global Vertex *restrict scene_vertices,       \
+        const global Triangle *restrict scene_triangles, const global Material *restrict scene_materials,   \
+        const global Texture *restrict scene_textures, const global uint *restrict scene_texels,            \
+        const global Vec3 *restrict scene_vertex_colors, const global float2 *restrict scene_second_uvs,    \
+        const global float *restrict scene_curves, const global Emitter *restrict scene_emitters,           \
+        const global Environment *restrict scene_environment,                                               \
+        const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf, \
+        const global float *restrict scene_column_cdf, const global float *restrict scene_row_cosines,      \
+        const global uint *restrict scene_block_details, const global float *restrict scene_detail_cdf,     \
         const global LightNode *restrict scene_light_nodes, const global SceneInfo *restrict scene_info
-#define SCENE_VIEW                                                                                        \
-    {                                                                                                     \
-        scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,           \
-            scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_curves,             \
-            scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf, scene_column_cdf, \
-            scene_row_cosines, scene_block_details, scene_detail_cdf, scene_light_nodes, scene_info       \
+#define SCENE_VIEW                                                                                         \
+    {                                                                                                      \
+        scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,            \
+            scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_second_uvs,          \
+            scene_curves, scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf,      \
+            scene_column_cdf, scene_row_cosines, scene_block_details, scene_detail_cdf, scene_light_nodes, \
+            scene_info                                                                                     \
     }
 
 typedef struct SceneView {
@@ -37,6 +39,7 @@ typedef struct SceneView {
     const global Texture* textures;
     const global uint* texels;
     const global Vec3* vertex_colors;  // one a vertex, where the scene has them
+    const global float2* second_uvs;   // one a vertex, where the scene has them
     const global float* curves;        // transmission curves, NEARLIGHT_CURVE_SIZE values each
     const global Emitter* emitters;
     const global Environment* environment;

@@ -91,6 +91,16 @@ inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) 
            hit->weights.y * load3(scene->vertex_colors[triangle.v2]);
 }
 
+/// The texture coordinates at which a texture is looked up.
+inline float2 coordinates_for(const SceneView* scene, const global Texture* texture, const SurfaceHit* hit) {
+    if (!(texture->flags & NEARLIGHT_TEXTURE_SECOND_UV)) {
+        return hit->uv;
+    }
+    const Triangle triangle = scene->triangles[hit->triangle];
+    return (1.0f - hit->weights.x - hit->weights.y) * scene->second_uvs[triangle.v0] +
+           hit->weights.x * scene->second_uvs[triangle.v1] + hit->weights.y * scene->second_uvs[triangle.v2];
+}
+
 /// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
 /// other texture.
 inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
@@ -111,10 +121,17 @@ inline TextureValue look_up(const SceneView* scene, const global Parameter* para
     float3 field = (float3)(1.0f);  // of the checkerboards on the way
     for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
-        const float s = texture->u_scale * hit->uv.x + texture->u_shear * hit->uv.y + texture->u_offset;
-        const float t = texture->v_shear * hit->uv.x + texture->v_scale * hit->uv.y + texture->v_offset;
+        const float2 uv = coordinates_for(scene, texture, hit);
+        const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
+        const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
         if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
             texel = look_up_bitmap(scene, texture, s, t);
+            if (texture->cutoff > 0.0f) {
+                texel.color = (float3)(texel.color.x >= texture->cutoff ? 1.0f : 0.0f);
+            }
+            if (texture->flags & NEARLIGHT_TEXTURE_TIMES_COLOR) {
+                texel.color *= interpolated_color(scene, hit);
+            }
             break;
         }
         if (texture->kind == NEARLIGHT_TEXTURE_VERTEX_COLOR) {

@@ -37,6 +37,7 @@
     SIZE(Texture)                                   \
     OFFSET(Texture, format)                         \
     OFFSET(Texture, v_offset)                       \
+    OFFSET(Texture, cutoff)                         \
     OFFSET(Texture, color1)                         \
     SIZE(Emitter)                                   \
     OFFSET(Emitter, radiance)                       \

@@ -104,6 +104,10 @@ typedef struct Material {
 #define NEARLIGHT_FILTER_BILINEAR 0u
 #define NEARLIGHT_FILTER_NEAREST 1u
 
+// Texture.flags, of bitmaps
+#define NEARLIGHT_TEXTURE_SECOND_UV 1u    // (u, v) are the second texture coordinates of the vertices
+#define NEARLIGHT_TEXTURE_TIMES_COLOR 2u  // the vertices' own colours, interpolated, multiply the bitmap
+
 /// A texture, looked up at the point (s, t) that its members give for (u, v). Bitmaps lie in one shared pool,
 /// top row first.
 typedef struct Texture {
@@ -111,8 +115,10 @@ typedef struct Texture {
     uint first_word;  // bitmap: index into the pool
     uint width, height;
     uint format, wrap_s, wrap_t, filter;
-    float u_scale, u_shear, u_offset, pad0;  // s = u_scale·u + u_shear·v + u_offset
-    float v_shear, v_scale, v_offset, pad1;  // t = v_shear·u + v_scale·v + v_offset
+    float u_scale, u_shear, u_offset;  // s = u_scale·u + u_shear·v + u_offset
+    uint flags;
+    float v_shear, v_scale, v_offset;  // t = v_shear·u + v_scale·v + v_offset
+    float cutoff;  // above 0: a bitmap of a number, which is 1 where it reaches the cutoff and 0 elsewhere
     // checkerboard: color0 where s and t are in the same half of their cell, otherwise color1. Their textures
     // are looked up at (u, v) and may be checkerboards, too; each refers only to textures before it.
     Parameter color0;

@@ -172,7 +172,23 @@ TEST_F(BadInput, Options) {
         expect_error(render(scene, "--sampler '" + std::string(sampler) + "'"), 2,
                      "choose one of: bidirectional, close-range, instant-radiosity");
     }
-    expect_error(run_program("render " + quoted(scene)), 2, "--output is required");
+}
+
+TEST_F(BadInput, CamerasAndLight) {
+    const auto scene = good_scene();
+    expect_error(render(scene, "--camera 2"), 2, "has no camera '2'; choose one of: 1");
+    expect_error(render(scene, "--origin nan,0,0"), 2, "--origin must be X,Y,Z");
+    expect_error(render(scene, "--origin 1,2"), 2, "--origin must be X,Y,Z");
+    expect_error(render(scene, "--origin 1,2,3 --target 1,2,3"), 2, "the same point");
+    expect_error(render(scene, "--fov 200"), 2, "field of view");
+    expect_error(render(scene, "--environment " + quoted(write("sky.exr", "text"))), 3, "sky.exr");
+    expect_error(render(scene, "--environment nosuch.exr"), 3, "nosuch.exr");
+    expect_error(render(scene, "--environment 1,inf,1"), 2, "must be finite");
+    expect_error(render(scene, "--sun 10"), 2, "--sun must be AZIMUTH,ELEVATION");
+    expect_error(render(scene, "--sun 10,-5"), 2, "elevation");
+    expect_error(render(scene, "--light-scale -1"), 2, "scale of light");
+    expect_error(render(scene, "--exposure bright"), 2, "--exposure must be `auto` or a number");
+    expect_error(render(scene, "--tonemap aces"), 2, "unknown --tonemap 'aces'; choose one of: neutral, agx");
 }
 
 TEST_F(BadInput, Outputs) {

@@ -29,6 +29,22 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
+inline std::string from_base64(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    uint word = 0;
+    uint bits = 0;
+    for (const char c : text.substr(0, text.find('='))) {
+        word = word << 6u | static_cast<uint>(digits.find(c));
+        bits += 6;
+        if (bits >= 8) {
+            bits -= 8;
+            bytes += static_cast<char>(word >> bits & 255u);
+        }
+    }
+    return bytes;
+}
+
 /// A file to be built, with all numbers in one buffer.
 struct GltfText {
     json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0},
@@ -107,6 +123,12 @@ class GltfLoader : public testing::Test {
     SceneFiles files_;
     GltfText gltf_;
 };
+
+/// The position of a corner of a triangle, k from 0 to 2.
+inline Vec3 corner(const Scene& scene, std::size_t triangle, int k) {
+    const Triangle& t = scene.triangles.at(triangle);
+    return scene.vertices.at(k == 0 ? t.v0 : k == 1 ? t.v1 : t.v2).position;
+}
 
 inline void expect_close(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
     EXPECT_LT(length(a - b), tolerance)

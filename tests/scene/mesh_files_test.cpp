@@ -196,8 +196,8 @@ TEST(Obj, RoughnessAndMetalnessArePrincipled) {
 TEST(Obj, GetsACameraThatSeesEverythingAndALight) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v -3 0 -1\nv 5 0 2\nv 0 4 0\nf 1 2 3\n");
-    EXPECT_EQ(scene.delta_emitters.size(), 1u);
-    EXPECT_EQ(scene.environment.width, 1);
+    EXPECT_TRUE(scene.delta_emitters.empty());
+    EXPECT_GT(scene.environment.width, 1);
     const Mat4 to_camera = inverse(scene.camera.to_world);
     const float tan_x = std::tan(degrees_to_radians(static_cast<float>(scene.camera.fov_x_degrees) / 2));
     const float tan_y =

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/mitsuba/sky/sky_model.h"
+#include "host/scene/sky/sky_model.h"
 #include "tests/scene/mitsuba_text.h"
 #include "tests/scene/scene_files.h"
 
@@ -11,7 +11,6 @@ namespace nearlight::core {
 namespace {
 
 using namespace test;
-using mitsuba::SkyModel;
 
 void expect_ratio(Vec3 found, Vec3 expected, float tolerance) {
     EXPECT_NEAR(found.x / expected.x, 1.0f, tolerance);
@@ -40,14 +39,14 @@ TEST(MitsubaSky, RadianceIsThatOfMitsuba) {
 }
 
 TEST(MitsubaSky, PlaceAndTimeTellTheSun) {
-    expect_near(mitsuba::sun_direction({}), {0.0513851f, 0.691748f, 0.720308f}, 2e-3f);
-    expect_near(mitsuba::sun_direction({.latitude = -33.9,
-                                        .longitude = 151.2,
-                                        .timezone = 10,
-                                        .year = 2021,
-                                        .month = 12,
-                                        .day = 3,
-                                        .hour = 8.5}),
+    expect_near(sun_direction({}), {0.0513851f, 0.691748f, 0.720308f}, 2e-3f);
+    expect_near(sun_direction({.latitude = -33.9,
+                               .longitude = 151.2,
+                               .timezone = 10,
+                               .year = 2021,
+                               .month = 12,
+                               .day = 3,
+                               .hour = 8.5}),
                 {-0.0287181f, -0.696303f, 0.717173f}, 2e-3f);
 }
 

@@ -68,6 +68,9 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { std::swap(s.triangles[0].v0, s.triangles[0].v1); },
         [](Scene& s) { s.triangles.push_back(s.triangles[0]); },
         [](Scene& s) { s.vertex_colors[3].z = 0.5f; },
+        [](Scene& s) {
+            s.second_uvs = {{0.0f, 0.5f}};
+        },
         [](Scene& s) { s.materials[0].reflectance.value.y = 0.1f; },
         [](Scene& s) { s.materials[0].roughness.texture = 3; },
         [](Scene& s) { s.materials[0].emission.value.z = 0.1f; },
@@ -80,6 +83,8 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { s.textures[0].image = 0; },
         [](Scene& s) { s.textures[0].parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD; },
         [](Scene& s) { s.textures[0].parameters.v_shear = 0.5f; },
+        [](Scene& s) { s.textures[0].parameters.flags = NEARLIGHT_TEXTURE_SECOND_UV; },
+        [](Scene& s) { s.textures[0].parameters.cutoff = 0.5f; },
         [](Scene& s) { s.textures[0].parameters.color1.value.x = 0.5f; },
         [](Scene& s) { s.textures[0].parameters.color0.texture = 1; },
         [](Scene& s) { s.textures[0].parameters.wrap_t = NEARLIGHT_WRAP_CLAMP; },
@@ -133,7 +138,6 @@ TEST(Scene, HashDoesNotKnowNamesNotesPaddingAndWhatIsFilledInLater) {
     scene.notes.push_back({"scene.xml", 1, "approximated"});
     scene.images[0].name = "renamed.png";
     scene.textures[0].parameters.first_word = 17;
-    scene.textures[0].parameters.pad1 = 17;
     scene.delta_emitters[0].probability = 0.5f;
     scene.delta_emitters[0].cdf = 1.0f;
     EXPECT_EQ(scene_hash(scene), before);

@@ -63,13 +63,29 @@ TEST_F(TextureLoaderTest, NumbersAreLuminances) {
     expect_near(texel_color(number, 0), Vec3{1, 1, 1} * luminance(Vec3{1, 0, 0}), 1e-4f);
 }
 
-TEST_F(TextureLoaderTest, SingleChannelsAndCutoffs) {
+TEST_F(TextureLoaderTest, SingleChannels) {
     const Image image = one_texel({0, 51 / 255.0f, 1, 102 / 255.0f});
     expect_near(texel_color(add(image, {.channel = 1}), 0), {0.2f, 0.2f, 0.2f});
     expect_near(texel_color(add(image, {.channel = 3}), 0), {0.4f, 0.4f, 0.4f});
-    expect_near(texel_color(add(image, {.channel = 3, .cutoff = 0.4f}), 0), {1, 1, 1});
-    expect_near(texel_color(add(image, {.channel = 3, .cutoff = 0.41f}), 0), {0, 0, 0});
     expect_near(texel_color(add(one_texel({0, 0, 0}), {.channel = 3}), 0), {1, 1, 1});
+    expect_near(texel_color(add(image, {.channel = 3, .is_inverse = true, .factor = 0.5f}), 0),
+                {0.8f, 0.8f, 0.8f}, 1e-3f);
+}
+
+TEST_F(TextureLoaderTest, AlphaMultipliesLinearColours) {
+    const Image image = one_texel({1, 0.5f, 0, 0.25f});
+    expect_near(texel_color(add(image, {.times_alpha = true}), 0), {0.25f, 0.25f * srgb_to_linear(0.5f), 0},
+                1e-4f);
+    expect_near(texel_color(add(image, {.times_alpha = true, .alpha_cutoff = 0.3f}), 0), {0, 0, 0});
+    expect_near(texel_color(add(image, {.times_alpha = true, .alpha_cutoff = 0.2f}), 0),
+                {1, srgb_to_linear(0.5f), 0}, 1e-3f);
+}
+
+TEST_F(TextureLoaderTest, MapsOfNormalsCanBeMadeSteeper) {
+    const Image image = one_texel({0.75f, 0.25f, 1});
+    expect_near(
+        texel_color(add(image, {.gamma = 1, .is_signed = true, .steepness_x = 3, .steepness_y = -2}), 0),
+        {1.25f, 1, 1}, 1e-3f);
 }
 
 TEST_F(TextureLoaderTest, SignedNumbersMayBeNegative) {

@@ -161,6 +161,27 @@ TEST(Texture, ParametersScaleTexturesAndVertexColours) {
     expect_texel(parameter_value(scene, textured(1, 2.0f), 0, 0, {0.1f, 0.2f, 0.3f}), {0.2f, 0.4f, 0.6f});
 }
 
+TEST(Texture, SecondCoordinatesVertexColoursAndCutoffs) {
+    Scene scene = four_texels();
+    const Vec3 first = texture_color(scene, scene.textures[0], 0.75f, 0.75f);
+    const Vec3 second = texture_color(scene, scene.textures[0], 0.25f, 0.25f);
+    ASSERT_FALSE(first == second);
+    scene.textures[0].parameters.flags = NEARLIGHT_TEXTURE_SECOND_UV;
+    expect_texel(texture_color(scene, scene.textures[0], 0.75f, 0.75f, kWhite, {0.25f, 0.25f}), second);
+    scene.textures[0].parameters.flags = NEARLIGHT_TEXTURE_TIMES_COLOR;
+    expect_texel(texture_color(scene, scene.textures[0], 0.75f, 0.75f, {0.5f, 0.25f, 1}),
+                 first * Vec3{0.5f, 0.25f, 1});
+    scene.textures[0].parameters.flags = 0;
+    for (const float cutoff : {0.5f, 1.5f}) {
+        scene.textures[0].parameters.cutoff = cutoff;
+        for (const float u : {0.25f, 0.4f, 0.6f, 0.75f}) {
+            const Vec3 number = texture_color(scene, scene.textures[0], u, 0.75f);
+            EXPECT_TRUE(number == (Vec3{0, 0, 0}) || number == (Vec3{1, 1, 1}));
+            EXPECT_TRUE(cutoff < 1 || number.x == 0.0f);
+        }
+    }
+}
+
 TEST(Texture, MeansOfTextures) {
     Scene scene = four_texels();
     scene.textures.push_back(checkerboard(textured(0), parameter_of(1.0f)));

@@ -316,6 +316,29 @@ TEST_F(BsdfSurfaceTest, CheckerboardsOfTexturesAndVertexColors) {
     });
 }
 
+TEST_F(BsdfSurfaceTest, BitmapsAtSecondCoordinatesTimesVertexColorsAndCutOff) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        BsdfScene scene;
+        Texture texture = add_picture(scene);
+        scene.textures = {texture};
+        scene.materials = {make_diffuse({{1, 1, 1}, 0})};
+        const float here = reflectance_at(probe, scene, 0.2f, 0.3f);
+        const float there = reflectance_at(probe, scene, 0.8f, 0.6f);
+        ASSERT_NE(here, there);
+        scene.second_uvs = {{0.8f, 0.6f}, {0.8f, 0.6f}, {0.8f, 0.6f}};
+        scene.textures[0].flags = NEARLIGHT_TEXTURE_SECOND_UV;
+        EXPECT_NEAR(reflectance_at(probe, scene, 0.2f, 0.3f), there, 1e-6f);
+        scene.vertex_colors = {{0.5f, 0, 0}, {0.5f, 0, 0}, {0.5f, 0, 0}};
+        scene.textures[0].flags = NEARLIGHT_TEXTURE_TIMES_COLOR;
+        EXPECT_NEAR(reflectance_at(probe, scene, 0.2f, 0.3f), 0.5f * here, 1e-6f);
+        scene.textures[0].flags = 0;
+        scene.textures[0].cutoff = 0.5f * (here + there);
+        EXPECT_EQ(reflectance_at(probe, scene, 0.2f, 0.3f) > 0.5f, here > there);
+        EXPECT_EQ(reflectance_at(probe, scene, 0.8f, 0.6f) > 0.5f, there > here);
+    });
+}
+
 /// A number takes the luminance of a colour.
 TEST_F(BsdfSurfaceTest, RoughnessTakesTheLuminanceOfATexture) {
     on_each_device([](Device& device) {

@@ -2,22 +2,74 @@
 #include "host/scene/gltf/gltf_file.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <string_view>
 
 #include "host/scene/file_text.h"
+#include "host/scene/gltf/draco_codec.h"
+#include "host/scene/gltf/json_survey.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
 namespace {
 
-/// The extensions that a file may require: they are read here, or can be ignored with a note.
-constexpr std::array<std::string_view, 12> kKnownExtensions{
-    "KHR_lights_punctual",        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_sheen",     "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",     "KHR_materials_variants",
-    "KHR_materials_volume",       "KHR_mesh_quantization",   "KHR_texture_transform"};
+/// The extensions that a file may require: they are read here, or can be ignored, with a note where that
+/// changes the picture.
+constexpr std::string_view kKnownExtensions[] = {
+    "EXT_mesh_features",
+    "EXT_mesh_gpu_instancing",
+    "EXT_structural_metadata",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+    "KHR_xmp_json_ld",
+};
+constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
+
+bool is_supported(std::string_view extension) {
+    return extension == kDracoExtension
+               ? can_decode_draco()
+               : std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
+}
+
+/// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
+constexpr std::size_t kMaxNesting = 200;
+
+/// Refuses what tinygltf must not see: extensions that are not supported here, and JSON that would overflow
+/// the stack.
+void check_before_reading(const GltfFile& file, const JsonSurvey& survey) {
+    for (const std::string& extension : survey.required) {
+        if (!is_supported(extension)) {
+            const char* const remedy = extension == kDracoExtension
+                                           ? ", which this build lacks; build with Draco (Debian's "
+                                             "libdraco-dev), or export the scene "
+                                             "without it"
+                                           : ", which is not supported; export the scene without it";
+            file.fail("needs the extension " + extension + remedy);
+        }
+    }
+    if (survey.depth > kMaxNesting) {
+        file.fail("its JSON is nested " + std::to_string(survey.depth) + " levels deep, which is more than " +
+                  std::to_string(kMaxNesting) + "; export the scene without 'extras'");
+    }
+}
 
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
@@ -48,7 +100,13 @@ void GltfFile::fail(const std::string& what) const {
 
 GltfFile read_gltf(const std::filesystem::path& path) {
     GltfFile file{path, {}};
-    const std::string text = read_file_text(path);
+    std::string text = read_file_text(path);
+    const JsonSurvey survey = survey_json(json_of(text));
+    check_before_reading(file, survey);
+    if (survey.is_valid && std::ranges::find(survey.used, kDracoExtension) != survey.used.end() &&
+        can_decode_draco()) {
+        text = without_compressed_indices(text);
+    }
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keep_image, nullptr);
     std::string error;
@@ -62,12 +120,6 @@ GltfFile read_gltf(const std::filesystem::path& path) {
             : reader.LoadASCIIFromString(&file.model, &error, &warning, text.data(), size, folder);
     if (!read) {
         file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
-    }
-    for (const std::string& extension : file.model.extensionsRequired) {
-        if (std::ranges::find(kKnownExtensions, extension) == kKnownExtensions.end()) {
-            file.fail("needs the extension " + extension +
-                      ", which is not supported; export the scene without it");
-        }
     }
     return file;
 }
@@ -83,14 +135,47 @@ int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, co
     return index >= 0 && index <= std::numeric_limits<int>::max() ? static_cast<int>(index) : -1;
 }
 
+std::vector<double> numbers_of(const tinygltf::ExtensionMap& extensions, const char* extension,
+                               const char* key, std::size_t count) {
+    const tinygltf::Value* const value = member(extensions, extension, key);
+    if (value == nullptr || !value->IsArray() || value->ArrayLen() != count) {
+        return {};
+    }
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+        const tinygltf::Value& number = value->Get(static_cast<int>(i));
+        if (!number.IsNumber()) {
+            return {};
+        }
+        numbers.push_back(number.GetNumberAsDouble());
+    }
+    return numbers;
+}
+
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
               Vec3 fallback) {
+    const std::vector<double> numbers = numbers_of(extensions, extension, key, 3);
+    return numbers.empty() ? fallback
+                           : Vec3{static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
+                                  static_cast<float>(numbers[2])};
+}
+
+tinygltf::TextureInfo texture_of(const tinygltf::ExtensionMap& extensions, const char* extension,
+                                 const char* key) {
+    tinygltf::TextureInfo info;
     const tinygltf::Value* const value = member(extensions, extension, key);
-    if (value == nullptr || !value->IsArray() || value->ArrayLen() != 3) {
-        return fallback;
+    if (value == nullptr || !value->IsObject()) {
+        return info;
     }
-    const auto channel = [&](int i) { return static_cast<float>(value->Get(i).GetNumberAsDouble()); };
-    return {channel(0), channel(1), channel(2)};
+    const tinygltf::ExtensionMap members{{"", *value}};
+    info.index = index_of(members, "", "index", -1);
+    info.texCoord = index_of(members, "", "texCoord", 0);
+    if (value->Has("extensions") && value->Get("extensions").IsObject()) {
+        for (const std::string& name : value->Get("extensions").Keys()) {
+            info.extensions[name] = value->Get("extensions").Get(name);
+        }
+    }
+    return info;
 }
 
 }  // namespace nearlight::core::gltf

@@ -52,8 +52,14 @@ double number_of(const tinygltf::ExtensionMap& extensions, const char* extension
 /// The index `key` of an extension's object, or `fallback` if there is none; −1 if it is negative or too
 /// large.
 int index_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key, int fallback);
+/// The numbers `key` of an extension's object; empty if there are not `count` of them.
+std::vector<double> numbers_of(const tinygltf::ExtensionMap& extensions, const char* extension,
+                               const char* key, std::size_t count);
 /// The three numbers `key` of an extension's object, or `fallback` if there are not three.
 Vec3 color_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
               Vec3 fallback);
+/// The texture `key` of an extension's object; its index is −1 if there is none.
+tinygltf::TextureInfo texture_of(const tinygltf::ExtensionMap& extensions, const char* extension,
+                                 const char* key);
 
 }  // namespace nearlight::core::gltf

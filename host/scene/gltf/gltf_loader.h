@@ -8,11 +8,10 @@
 
 namespace nearlight::core {
 
-/// Reads the file's default scene, or its first one if it names none. The parameter `camera` chooses a camera
-/// by its own or its node's name; otherwise the first one is taken. A camera is added if there is none, and
-/// light if nothing emits. The unit is the metre; lights in candela and lux count 1/683 of that in W, and
-/// emission is a radiance. Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for an
-/// unknown parameter or camera.
+/// Reads the file's default scene, or its first one if it names none. Cameras have their own and their nodes'
+/// names. A camera is added if there is none, and a neutral sky if nothing is there to light the scene. The
+/// unit is the metre; lights in candela and lux count 1/683 of that in W, and emission is a radiance. Throws
+/// Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for an unknown parameter or camera.
 Scene load_gltf_scene(const std::filesystem::path& file, const LoadOptions& options);
 
 }  // namespace nearlight::core

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/scene/camera_choice.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
@@ -14,7 +15,7 @@ namespace {
 constexpr double kLumensPerWatt = 683;
 constexpr int kUsualHeight = 480;
 
-Vec3 color_of(const tinygltf::Light& light) {
+Vec3 radiance_of(const tinygltf::Light& light) {
     const auto channel = [&](std::size_t i) {
         const double c = light.color.size() == 3 ? light.color[i] : 1.0;
         return static_cast<float>(std::max(c, 0.0) * std::max(light.intensity, 0.0) / kLumensPerWatt);
@@ -30,7 +31,7 @@ Emitter point_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_POINT;
     emitter.position = transform_point(placed.to_world, {0, 0, 0});
-    emitter.radiance = color_of(*placed.light);
+    emitter.radiance = radiance_of(*placed.light);
     return emitter;
 }
 
@@ -49,7 +50,7 @@ Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
     emitter.direction = forward(placed.to_world);
-    emitter.radiance = color_of(*placed.light);
+    emitter.radiance = radiance_of(*placed.light);
     return emitter;
 }
 
@@ -128,7 +129,7 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
     for (const PlacedLight& placed : lights) {
-        if (!is_finite(color_of(*placed.light))) {
+        if (!is_finite(radiance_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
         }
         if (placed.light->type == "point") {
@@ -144,18 +145,13 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
 }
 
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
-                          const std::string& name) {
-    std::string names;
+                          const std::string& wanted) {
+    std::vector<std::vector<std::string>> names;
     for (const PlacedCamera& placed : cameras) {
-        if (name.empty() || name == placed.node || name == placed.camera->name) {
-            return placed.camera->type == "orthographic" ? orthographic(file, placed)
-                                                         : perspective(file, placed);
-        }
-        names += (names.empty() ? "" : ", ") + (placed.node.empty() ? placed.camera->name : placed.node);
+        names.push_back({placed.node, placed.camera->name});
     }
-    throw Error(ErrorKind::invalid_argument,
-                file.path.string() + ": has no camera '" + name + "'; " +
-                    (names.empty() ? "the file has no cameras" : "choose one of: " + names));
+    const PlacedCamera& placed = cameras[nearlight::core::choose_camera(file.path, names, wanted)];
+    return placed.camera->type == "orthographic" ? orthographic(file, placed) : perspective(file, placed);
 }
 
 }  // namespace nearlight::core::gltf

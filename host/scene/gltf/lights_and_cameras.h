@@ -36,9 +36,9 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 /// scene.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);
 
-/// The first camera, or the one whose node or camera is called `name`, unless that is empty. Throws
-/// Error(ErrorKind::invalid_argument) for an unknown name.
+/// The camera that `wanted` chooses (camera_choice.h) by the names of its node and its own. Throws
+/// Error(ErrorKind::invalid_argument) if there is no such camera.
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
-                          const std::string& name);
+                          const std::string& wanted);
 
 }  // namespace nearlight::core::gltf

@@ -2,19 +2,21 @@
 // Converts glTF's metallic-roughness materials to those of the scene.
 #pragma once
 
+#include <compare>
 #include <map>
-#include <utility>
 
-#include "host/image/image.h"
-#include "host/scene/gltf/gltf_file.h"
-#include "host/scene/texture_loader.h"
+#include "host/scene/gltf/surface_model.h"
+#include "host/scene/gltf/textures.h"
 
 namespace nearlight::core::gltf {
 
-/// The index of a material of the scene, and the set of texture coordinates that it uses.
-struct PlacedMaterial {
-    uint index = 0;
-    int texture_set = 0;
+/// What a mesh has to say about its material.
+struct MaterialUse {
+    int index = -1;            ///< of the material in the file; −1: none, which is grey
+    bool has_colors = false;   ///< the vertices have colours
+    bool is_mirrored = false;  ///< texture coordinates run clockwise as seen from the front
+
+    auto operator<=>(const MaterialUse&) const = default;
 };
 
 /// Makes each material when a mesh first asks for it: a principled one for metals and bases that reflect,
@@ -23,31 +25,34 @@ struct PlacedMaterial {
 class MaterialMaker {
   public:
     MaterialMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
-        : file_(file), scene_(scene), notes_(notes), textures_(scene, notes) {}
+        : file_(file), scene_(scene), notes_(notes), textures_(file, scene, notes) {}
 
-    /// The material with the index in the file; −1 stands for a mesh without a material, which is grey.
-    PlacedMaterial material(int index);
+    /// The index of the material in Scene::materials.
+    uint material(const MaterialUse& use);
+    /// The texture coordinates that the material's textures ask for.
+    [[nodiscard]] TextureSets texture_sets(int index) const;
+    /// Whether the material has a normal map, which tells mirrored texture coordinates from others.
+    [[nodiscard]] bool has_normal_map(int index) const;
+    /// Whether light should leave the back of its surfaces, too.
+    [[nodiscard]] bool emits_back(int index) const;
 
   private:
-    struct Surface;
-    [[nodiscard]] Surface surface_of(const tinygltf::Material& source);
-    [[nodiscard]] uint make(const tinygltf::Material& source);
-    [[nodiscard]] uint add_opaque(const Surface& surface);
-    [[nodiscard]] uint add_glass(const Surface& surface);
+    [[nodiscard]] const tinygltf::Material& source_of(int index) const {
+        return file_.at(file_.model.materials, index, "material", "a mesh");
+    }
+    [[nodiscard]] uint make(const tinygltf::Material& source, const MaterialUse& use);
+    [[nodiscard]] uint add_opaque(const SurfaceModel& surface);
+    [[nodiscard]] uint add_glass(const SurfaceModel& surface);
+    [[nodiscard]] uint add_normal_map(const tinygltf::Material& source, const SurfaceContext& context,
+                                      bool is_mirrored, uint child);
     uint add(const Material& material);
-    [[nodiscard]] Parameter emission_of(const tinygltf::Material& source);
-    [[nodiscard]] Parameter opacity_of(const tinygltf::Material& source);
-    void remark_what_is_left_out(const tinygltf::Material& source);
     void approximate(const std::string& what);
-    [[nodiscard]] Parameter textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule);
-    int load_image(const tinygltf::Image& image, const TexelRule& rule);
 
     const GltfFile& file_;
     Scene& scene_;
     NoteSink& notes_;
-    TextureLoader textures_;
-    std::map<int, PlacedMaterial> made_;
-    std::map<std::pair<int, TexelRule>, int> images_;  ///< index into Scene::images, or −1
+    TextureMaker textures_;
+    std::map<MaterialUse, uint> made_;
 };
 
 }  // namespace nearlight::core::gltf

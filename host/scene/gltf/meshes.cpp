@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/meshes.h"
 
-#include <numeric>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "host/scene/gltf/lights_and_cameras.h"
+#include "host/scene/gltf/rest_pose.h"
+#include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core::gltf {
 namespace {
 
-std::vector<Vec3> read_vectors(const GltfFile& file, int accessor) {
-    const std::vector<float> numbers = read_numbers(file, accessor, 3);
+std::vector<Vec3> to_vectors(const std::vector<float>& numbers) {
     std::vector<Vec3> vectors(numbers.size() / 3);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         vectors[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
@@ -16,8 +22,12 @@ std::vector<Vec3> read_vectors(const GltfFile& file, int accessor) {
 }
 
 /// Reads texture coordinates. v is 0 at the top of an image in glTF, and at its bottom in a Mesh.
-std::vector<std::array<float, 2>> read_uvs(const GltfFile& file, int accessor) {
-    const std::vector<float> numbers = read_numbers(file, accessor, 2);
+std::vector<std::array<float, 2>> read_uvs(const PrimitiveData& data, int set) {
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    if (set < 0 || !data.has(name)) {
+        return {};
+    }
+    const std::vector<float> numbers = data.read(name, 2);
     std::vector<std::array<float, 2>> uvs(numbers.size() / 2);
     for (std::size_t i = 0; i < uvs.size(); ++i) {
         uvs[i] = {numbers[2 * i], 1.0f - numbers[2 * i + 1]};
@@ -48,60 +58,178 @@ bool makes_triangles(int mode) {
            mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// The accessor of an attribute, or −1 if there is none.
-int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
+/// Whether (u, v) runs clockwise over the triangle, as seen from its front.
+bool is_mirrored(const Mesh& mesh, const std::array<uint, 3>& t) {
+    const auto& a = mesh.uvs[t[0]];
+    const auto& b = mesh.uvs[t[1]];
+    const auto& c = mesh.uvs[t[2]];
+    return (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-Mesh read_mesh(const GltfFile& file, const tinygltf::Primitive& primitive, int texture_set) {
-    Mesh mesh;
-    mesh.source = file.path;
-    mesh.positions = read_vectors(file, attribute(primitive, "POSITION"));
-    if (const int normals = attribute(primitive, "NORMAL"); normals >= 0) {
-        mesh.normals = read_vectors(file, normals);
+/// Whether the surface has no border, and therefore no back that could be seen. Corners at the same place
+/// count as one.
+bool is_closed(const Mesh& mesh) {
+    std::map<std::tuple<float, float, float>, uint> places;
+    std::vector<uint> place;
+    for (const Vec3 p : mesh.positions) {
+        place.push_back(places.try_emplace({p.x, p.y, p.z}, static_cast<uint>(places.size())).first->second);
     }
-    if (const int uvs = attribute(primitive, "TEXCOORD_" + std::to_string(texture_set)); uvs >= 0) {
-        mesh.uvs = read_uvs(file, uvs);
+    std::map<std::pair<uint, uint>, int> open_edges;  // how much more often one way than the other
+    for (const std::array<uint, 3>& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const uint from = place[t[k]];
+            const uint to = place[t[(k + 1) % 3]];
+            open_edges[std::minmax(from, to)] += from < to ? 1 : -1;
+        }
     }
-    std::vector<uint> corners(mesh.positions.size());
-    std::iota(corners.begin(), corners.end(), 0u);
-    if (primitive.indices >= 0) {
-        corners = read_indices(file, primitive.indices);
-    }
-    mesh.triangles = triangles_of(primitive.mode, corners);
-    return mesh;
-}
-
-void remark_what_is_left_out(const GltfFile& file, const tinygltf::Node& node,
-                             const tinygltf::Primitive& primitive, NoteSink& notes) {
-    if (!makes_triangles(primitive.mode)) {
-        notes.approximation(file.path, 0, "points and lines are left out");
-    }
-    if (node.skin >= 0 || !primitive.targets.empty()) {
-        notes.approximation(file.path, 0,
-                            "skins and morph targets are ignored; their meshes are shown as modelled");
-    }
-    if (attribute(primitive, "COLOR_0") >= 0) {
-        notes.approximation(file.path, 0, "vertex colours are left out");
-    }
+    return std::ranges::all_of(open_edges, [](const auto& edge) { return edge.second == 0; });
 }
 
 }  // namespace
 
-void add_mesh(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-              MaterialMaker& materials, Scene& scene, NoteSink& notes) {
+Mesh MeshMaker::read_mesh(const tinygltf::Primitive& primitive, const PrimitiveData& data) {
+    Mesh mesh;
+    mesh.source = file_.path;
+    mesh.positions = to_vectors(data.read("POSITION", 3));
+    if (data.has("NORMAL")) {
+        mesh.normals = to_vectors(data.read("NORMAL", 3));
+    }
+    const TextureSets sets = materials_.texture_sets(primitive.material);
+    mesh.uvs = read_uvs(data, sets.first);
+    mesh.second_uvs = read_uvs(data, sets.second);
+    const AttributeData colors = data.read("COLOR_0");
+    const auto stride = static_cast<std::size_t>(colors.components);
+    for (std::size_t i = 0; stride >= 3 && i + 2 < colors.numbers.size(); i += stride) {
+        mesh.colors.push_back({colors.numbers[i], colors.numbers[i + 1], colors.numbers[i + 2]});
+        if (stride == 4 && colors.numbers[i + 3] < 1.0f) {
+            notes_.approximation(file_.path, 0, "the alpha of vertex colours (COLOR_0) is left out");
+        }
+    }
+    mesh.triangles = triangles_of(data.mode(), data.corners(mesh.positions.size()));
+    return mesh;
+}
+
+/// Makes the materials of the mesh: two if texture coordinates are mirrored here and there.
+std::vector<uint> MeshMaker::choose_materials(int material, Mesh& mesh) {
+    MaterialUse use{material, !mesh.colors.empty(), false};
+    std::vector<uint> chosen{materials_.material(use)};
+    if (!materials_.has_normal_map(material) || mesh.uvs.size() != mesh.positions.size()) {
+        return chosen;
+    }
+    for (const std::array<uint, 3>& t : mesh.triangles) {
+        const bool is_valid = std::ranges::all_of(t, [&](uint v) { return v < mesh.positions.size(); });
+        mesh.groups.push_back(is_valid && is_mirrored(mesh, t) ? 1 : 0);
+    }
+    if (std::ranges::find(mesh.groups, 1u) == mesh.groups.end()) {
+        mesh.groups.clear();
+    } else {
+        use.is_mirrored = true;
+        chosen.push_back(materials_.material(use));
+    }
+    return chosen;
+}
+
+/// Adds the back of a surface that shines to both sides, because triangles shine with their front only. It
+/// stands behind the front, at a distance that rays can tell.
+void MeshMaker::add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials) {
+    if (mesh.normals.empty()) {
+        mesh.normals = smooth_normals(mesh.positions, mesh.triangles);
+    }
+    const std::size_t first = scene_.vertices.size();
+    append_mesh(scene_, mesh, {.to_world = to_world, .materials = materials, .flip_normals = true}, notes_);
+    Aabb box;
+    for (std::size_t i = first; i < scene_.vertices.size(); ++i) {
+        box.extend(scene_.vertices[i].position);
+    }
+    const float extent = max_component(box.size());
+    for (std::size_t i = first; i < scene_.vertices.size(); ++i) {
+        Vertex& vertex = scene_.vertices[i];
+        vertex.position += vertex.normal * (4.0f * ray_epsilon(vertex.position, extent));
+    }
+}
+
+/// Where the node's mesh stands: once for each of its instances.
+std::vector<Mat4> MeshMaker::placements_of(const PlacedNode& placed, const tinygltf::Node& node) {
+    constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+    const auto found = node.extensions.find(kInstancing);
+    if (found == node.extensions.end() || !found->second.Has("attributes")) {
+        return {placed.to_world};
+    }
+    const tinygltf::ExtensionMap attributes{{kInstancing, found->second.Get("attributes")}};
+    const auto read = [&](const char* name, int components) {
+        const int accessor = index_of(attributes, kInstancing, name, -1);
+        return accessor < 0 ? std::vector<float>{} : read_numbers(file_, accessor, components);
+    };
+    const std::vector<float> translations = read("TRANSLATION", 3);
+    const std::vector<float> rotations = read("ROTATION", 4);
+    const std::vector<float> scales = read("SCALE", 3);
+    const std::size_t count = std::max({translations.size() / 3, rotations.size() / 4, scales.size() / 3});
+    std::vector<Mat4> placements;
+    for (std::size_t i = 0; i < count; ++i) {
+        tinygltf::Node instance;
+        const auto take = [&](const std::vector<float>& numbers, std::size_t n, std::vector<double>& target) {
+            if ((i + 1) * n <= numbers.size()) {
+                target.assign(numbers.begin() + static_cast<std::ptrdiff_t>(i * n),
+                              numbers.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+            }
+        };
+        take(translations, 3, instance.translation);
+        take(rotations, 4, instance.rotation);
+        take(scales, 3, instance.scale);
+        placements.push_back(placed.to_world * transform_of(file_, instance));
+    }
+    return placements;
+}
+
+void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                              const std::vector<Mat4>& placements) {
+    const PrimitiveData data(file_, primitive);
+    if (!makes_triangles(data.mode())) {
+        notes_.approximation(file_.path, 0, "points and lines are left out");
+        return;
+    }
+    if (!data.has("POSITION")) {
+        return;
+    }
+    Mesh mesh = read_mesh(primitive, data);
+    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive,
+                        mesh);
+    std::vector<Mat4> placed = placements;
+    if (node.skin >= 0) {
+        if (!world_) {
+            world_ = world_transforms(file_);
+        }
+        const tinygltf::Skin& skin = file_.at(file_.model.skins, node.skin, "skin", "a node");
+        apply_skin(file_, data, joint_transforms(file_, skin, *world_), mesh);
+        placed = {Mat4{}};  // joints stand in the world
+    }
+    const std::vector<uint> materials = choose_materials(primitive.material, mesh);
+    const bool emits_back = materials_.emits_back(primitive.material) && !is_closed(mesh);
+    for (const Mat4& to_world : placed) {
+        // Where a file gives no normals, its surfaces have flat facets [glTF 2.0, 3.7.2.1], and where a
+        // transform mirrors, their front is the other side.
+        const bool is_flat = mesh.normals.empty();
+        append_mesh(scene_, mesh,
+                    {.to_world = to_world,
+                     .materials = materials,
+                     .face_normals = is_flat,
+                     .flip_normals = is_flat && linear_determinant(to_world) < 0},
+                    notes_);
+        if (emits_back) {
+            add_shining_back(mesh, to_world, materials);
+        }
+    }
+}
+
+void MeshMaker::add(const PlacedNode& placed) {
+    const tinygltf::Node& node = file_.model.nodes[static_cast<std::size_t>(placed.index)];
     if (node.mesh < 0) {
         return;
     }
-    const tinygltf::Mesh& mesh = file.at(file.model.meshes, node.mesh, "mesh", "node '" + node.name + "'");
+    const tinygltf::Mesh& mesh = file_.at(file_.model.meshes, node.mesh, "mesh", "node '" + node.name + "'");
+    const std::vector<Mat4> placements = placements_of(placed, node);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
-        remark_what_is_left_out(file, node, primitive, notes);
-        if (makes_triangles(primitive.mode) && attribute(primitive, "POSITION") >= 0) {
-            const PlacedMaterial material = materials.material(primitive.material);
-            append_mesh(scene, read_mesh(file, primitive, material.texture_set),
-                        {.to_world = to_world, .materials = std::span(&material.index, 1)}, notes);
-        }
+        add_primitive(node, primitive, placements);
     }
 }
 

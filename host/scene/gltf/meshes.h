@@ -1,15 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/gltf/materials.h"
+#include "host/scene/gltf/nodes.h"
+#include "host/scene/gltf/primitive_data.h"
 #include "host/scene/mesh.h"
 
 namespace nearlight::core::gltf {
 
-/// Adds the triangles of the node's mesh, if it has one, without skin or morphing. Points and lines are left
-/// out, with a note.
-void add_mesh(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-              MaterialMaker& materials, Scene& scene, NoteSink& notes);
+/// Adds the triangles of nodes to the scene, in the pose in which the file has them.
+class MeshMaker {
+  public:
+    MeshMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
+        : file_(file), scene_(scene), notes_(notes), materials_(file, scene, notes) {}
+
+    /// Adds the node's mesh, if it has one, once for each instance (EXT_mesh_gpu_instancing). Points and
+    /// lines are left out, with a note.
+    void add(const PlacedNode& placed);
+
+  private:
+    void add_primitive(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                       const std::vector<Mat4>& placements);
+    [[nodiscard]] Mesh read_mesh(const tinygltf::Primitive& primitive, const PrimitiveData& data);
+    std::vector<uint> choose_materials(int material, Mesh& mesh);
+    void add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials);
+    [[nodiscard]] std::vector<Mat4> placements_of(const PlacedNode& placed, const tinygltf::Node& node);
+
+    const GltfFile& file_;
+    Scene& scene_;
+    NoteSink& notes_;
+    MaterialMaker materials_;
+    std::optional<std::vector<Mat4>> world_;  ///< of all nodes, once a skin asks for it
+};
 
 }  // namespace nearlight::core::gltf

@@ -5,7 +5,7 @@
 
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/delta_light_maker.h"
-#include "host/scene/mitsuba/sky/sky_maker.h"
+#include "host/scene/mitsuba/sky_maker.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::mitsuba {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/mitsuba_loader.h"
 
+#include "host/scene/camera_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/mitsuba/emitter_maker.h"
 #include "host/scene/mitsuba/integrator_maker.h"
@@ -12,23 +13,28 @@ namespace nearlight::core {
 namespace mitsuba {
 namespace {
 
-void apply_sensors(const Object& root, Scene& scene, NoteSink& notes) {
+void apply_sensors(const Object& root, const std::string& wanted, Scene& scene, NoteSink& notes) {
     const std::vector<const Object*> sensors = root.nested("sensor");
+    std::vector<std::vector<std::string>> names;
+    for (const Object* sensor : sensors) {
+        names.push_back({sensor->id});
+    }
+    const std::size_t chosen = choose_camera(scene.source, names, wanted);
     if (sensors.empty()) {
-        scene.camera = default_camera(bounds(scene));
+        scene.camera = default_camera(scene);
         scene.camera.filter = default_filter(FilterKind::gaussian);
         notes.remark(scene.source, root.where.line,
                      "the scene has no sensor; a camera that frames everything is added");
         return;
     }
-    if (sensors.size() > 1) {
+    if (sensors.size() > 1 && wanted.empty()) {
         notes.remark(*sensors[1]->where.file, sensors[1]->where.line,
                      "the scene has several sensors; the first one is used");
     }
-    apply_sensor(*sensors.front(), scene, notes);
+    apply_sensor(*sensors[chosen], scene, notes);
 }
 
-void translate(const Object& root, Scene& scene, NoteSink& notes) {
+void translate(const Object& root, const std::string& camera, Scene& scene, NoteSink& notes) {
     TextureMaker textures(scene, notes);
     MaterialMaker materials(scene, notes, textures);
     ShapeMaker shapes(scene, notes, textures, materials);
@@ -41,7 +47,7 @@ void translate(const Object& root, Scene& scene, NoteSink& notes) {
     for (const Object* emitter : root.nested("emitter")) {
         add_emitter(*emitter, scene, textures, notes);
     }
-    apply_sensors(root, scene, notes);
+    apply_sensors(root, camera, scene, notes);
     for (const Object* integrator : root.nested("integrator")) {
         apply_integrator(*integrator, scene, notes);
     }
@@ -61,7 +67,7 @@ Scene load_mitsuba_scene(const std::filesystem::path& file, const LoadOptions& o
     scene.name = file.stem() == "scene" ? absolute.parent_path().filename().string() : file.stem().string();
     NoteSink notes(scene.notes, options.strict);
     const mitsuba::Document document = mitsuba::read_xml(file, options.parameters, notes);
-    mitsuba::translate(*document.scene, scene, notes);
+    mitsuba::translate(*document.scene, options.camera, scene, notes);
     return scene;
 }
 

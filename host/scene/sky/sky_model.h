@@ -7,7 +7,7 @@
 
 #include "host/base/math.h"
 
-namespace nearlight::core::mitsuba {
+namespace nearlight::core {
 
 /// Radiance of the sky by the model of Hosek and Wilkie (2012).
 class SkyModel {
@@ -36,4 +36,4 @@ struct PlaceAndTime {
 /// The unit vector to the sun [Blanco-Muriel et al., Computing the Solar Vector, 2001].
 Vec3 sun_direction(const PlaceAndTime& when);
 
-}  // namespace nearlight::core::mitsuba
+}  // namespace nearlight::core

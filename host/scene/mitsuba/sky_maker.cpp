@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/mitsuba/sky/sky_maker.h"
+#include "host/scene/mitsuba/sky_maker.h"
 
 #include <cmath>
 
-#include "host/scene/mitsuba/sky/sky_model.h"
+#include "host/scene/sky/sky_light.h"
+#include "host/scene/sky/sky_model.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
-
-constexpr int kSkyWidth = 1024;
-constexpr int kSkyHeight = 512;
-constexpr double kSunAperture = 0.5358;  // degrees
 
 double number_between(const Object& sky, const char* name, double fallback, double low, double high) {
     const double value = sky.number(name, fallback);
@@ -56,32 +53,6 @@ Vec3 local_sun_direction(const Object& sky, const Mat4& to_world) {
     return direction;
 }
 
-/// Fills the map with the mean of four points of each pixel; below the horizon it is black. The map's up is
-/// +Y, the model's is +Z.
-void bake_sky(EnvironmentLight& light, const SkyModel& model, Vec3 sun, float scale) {
-    light.width = kSkyWidth;
-    light.height = kSkyHeight;
-    light.radiance.assign(std::size_t{kSkyWidth} * kSkyHeight, {0, 0, 0});
-    for (int row = 0; row < kSkyHeight / 2; ++row) {
-        for (int column = 0; column < kSkyWidth; ++column) {
-            Vec3 sum{0, 0, 0};
-            for (int part = 0; part < 4; ++part) {
-                const double theta = std::numbers::pi * (row + 0.25 + 0.5 * (part / 2)) / kSkyHeight;
-                const double phi = 2 * std::numbers::pi * (column + 0.25 + 0.5 * (part % 2)) / kSkyWidth;
-                // In the map's frame (sin φ·sin θ, cos θ, −cos φ·sin θ), of which −Z is the model's Y.
-                const Vec3 direction{static_cast<float>(std::sin(phi) * std::sin(theta)),
-                                     static_cast<float>(std::cos(phi) * std::sin(theta)),
-                                     static_cast<float>(std::cos(theta))};
-                const double gamma =
-                    std::acos(std::clamp(static_cast<double>(dot(direction, sun)), -1.0, 1.0));
-                sum += model.radiance(std::cos(theta), gamma) * (0.25f * scale);
-            }
-            light.radiance[static_cast<std::size_t>(row) * kSkyWidth + static_cast<std::size_t>(column)] =
-                sum;
-        }
-    }
-}
-
 Vec3 read_albedo(const Object& sky) {
     const std::optional<Color> color = sky.color("albedo");
     const Vec3 albedo = color ? color->reflectance : Vec3{0.3f, 0.3f, 0.3f};
@@ -91,8 +62,8 @@ Vec3 read_albedo(const Object& sky) {
     return albedo;
 }
 
-void add_sun(EnvironmentLight& light, const Object& sky, double turbidity, Vec3 sun, double elevation,
-             float scale, NoteSink& notes) {
+/// Half the angle under which the sun is seen, radians.
+double read_sun_half_angle(const Object& sky, NoteSink& notes) {
     const double aperture = sky.number("sun_aperture", kSunAperture * sky.number("sun_radius_scale", 1.0));
     if (!(aperture > 0.0 && aperture < 90.0)) {
         fail(sky.where, "the aperture of the sun should be between 0 and 90 degrees");
@@ -100,11 +71,7 @@ void add_sun(EnvironmentLight& light, const Object& sky, double turbidity, Vec3 
     if (sky.boolean("complex_sun", false)) {
         note(notes, sky.where, "'complex_sun' is replaced by an even disc of the same power");
     }
-    const double half_angle = aperture * std::numbers::pi / 360.0;
-    const double solid_angle = 4.0 * std::numbers::pi * std::pow(std::sin(0.5 * half_angle), 2.0);
-    light.sun_direction = normalize(transform_vector(light.to_world, {sun.x, sun.z, -sun.y}));
-    light.sun_half_angle = static_cast<float>(half_angle);
-    light.sun_radiance = sun_irradiance(turbidity, elevation) * (scale / static_cast<float>(solid_angle));
+    return aperture * std::numbers::pi / 360.0;
 }
 
 }  // namespace
@@ -134,20 +101,22 @@ EnvironmentLight make_sky(const Object& emitter, NoteSink& notes) {
     const Vec3 sun = local_sun_direction(emitter, to_world);
     const Vec3 albedo = read_albedo(emitter);
     EnvironmentLight light;
-    light.to_world = to_world * rotation(1, 0, 0, 90);
+    light.to_world = to_world * sky_map_to_model();
     light.width = light.height = 1;
     light.radiance = {{0, 0, 0}};
     if (sun.z < 0.0f) {
         note(notes, emitter.where, "the sun is below the horizon, so the sky is black");
         return light;
     }
-    const double elevation = std::asin(std::min(static_cast<double>(sun.z), 1.0));
-    if (sky_scale > 0.0) {
-        bake_sky(light, SkyModel(turbidity, albedo, elevation), sun, static_cast<float>(sky_scale));
-    }
+    SkyLight sky{.turbidity = turbidity,
+                 .albedo = albedo,
+                 .sun = sun,
+                 .sky_scale = sky_scale,
+                 .sun_scale = sun_scale};
     if (sun_scale > 0.0) {
-        add_sun(light, emitter, turbidity, sun, elevation, static_cast<float>(sun_scale), notes);
+        sky.sun_half_angle = read_sun_half_angle(emitter, notes);
     }
+    set_sky(light, sky);
     return light;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cli/suggestion.h"
+#include "host/base/suggestion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Data of the sky model of Hosek and Wilkie, in linear sRGB; each file names their licence.
 #pragma once
 
-namespace nearlight::core::mitsuba {
+namespace nearlight::core {
 
 inline constexpr int kSkyTurbidities = 10;     ///< 1, 2, … 10
 inline constexpr int kSkyAlbedos = 2;          ///< 0 and 1
@@ -16,4 +16,4 @@ extern const float kSkyRadiance[kSkyTurbidities * kSkyAlbedos * kSkyControlPoint
 /// W/m² across the direction of the sun, in Mitsuba's scale of colours.
 extern const float kSunIrradiance[kSkyTurbidities * kSunElevations * 3];
 
-}  // namespace nearlight::core::mitsuba
+}  // namespace nearlight::core

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/mitsuba/sky/sky_model.h"
+#include "host/scene/sky/sky_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/mitsuba/sky/sky_data.h"
+#include "host/scene/sky/sky_data.h"
 
-namespace nearlight::core::mitsuba {
+namespace nearlight::core {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -122,4 +122,4 @@ Vec3 sun_direction(const PlaceAndTime& when) {
             static_cast<float>(std::sin(zenith) * std::sin(azimuth)), static_cast<float>(std::cos(zenith))};
 }
 
-}  // namespace nearlight::core::mitsuba
+}  // namespace nearlight::core

@@ -24,9 +24,9 @@
 // however caused and on any theory of liability, whether in contract, strict liability, or tort (including
 // negligence or otherwise) arising in any way out of the use of this software, even if advised of the
 // possibility of such damage.
-#include "host/scene/mitsuba/sky/sky_data.h"
+#include "host/scene/sky/sky_data.h"
 
-namespace nearlight::core::mitsuba {
+namespace nearlight::core {
 
 // clang-format off
 const float kSkyParameters[3240] = {
@@ -356,4 +356,4 @@ const float kSkyParameters[3240] = {
 };
 // clang-format on
 
-}  // namespace nearlight::core::mitsuba
+}  // namespace nearlight::core

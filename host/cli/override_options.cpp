@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/override_options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "nearlight/error.h"
+
+namespace nearlight::core {
+namespace {
+
+/// N numbers separated by commas, as `option` wants them.
+template <std::size_t N>
+std::array<double, N> parse_numbers(const char* option, const char* form, const std::string& text) {
+    std::array<double, N> numbers{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < N; ++i) {
+        at += at != end && *at == '+' ? 1 : 0;
+        const auto [after, error] = std::from_chars(at, end, numbers[i]);
+        const bool ends_well = i + 1 < N ? after != end && *after == ',' : after == end;
+        if (error != std::errc{} || !ends_well || !std::isfinite(numbers[i])) {
+            throw Error(ErrorKind::invalid_argument, std::string(option) + " must be " + form +
+                                                         ", finite numbers separated by commas, not '" +
+                                                         text + "'");
+        }
+        at = after == end ? end : after + 1;
+    }
+    return numbers;
+}
+
+void add_camera_options(CLI::App& command, SceneOptions& options) {
+    SceneOverrides& overrides = options.overrides;
+    command
+        .add_option("--camera", options.camera,
+                    "Camera of the scene: its name, or its number counted from 1 (default: the first)")
+        ->type_name("NAME|N");
+    command
+        .add_option_function<std::string>(
+            "--origin",
+            [&](const std::string& text) { overrides.origin = parse_numbers<3>("--origin", "X,Y,Z", text); },
+            "Where the camera stands; it looks at --target")
+        ->type_name("X,Y,Z");
+    command
+        .add_option_function<std::string>(
+            "--target",
+            [&](const std::string& text) { overrides.target = parse_numbers<3>("--target", "X,Y,Z", text); },
+            "What the camera looks at (default with --origin: the middle of the scene)")
+        ->type_name("X,Y,Z");
+    command
+        .add_option_function<std::string>(
+            "--fov",
+            [&](const std::string& text) {
+                overrides.fov_degrees = parse_numbers<1>("--fov", "DEG", text)[0];
+            },
+            "Horizontal field of view, degrees")
+        ->type_name("DEG");
+}
+
+}  // namespace
+
+void add_override_options(CLI::App& command, SceneOptions& options) {
+    SceneOverrides& overrides = options.overrides;
+    add_camera_options(command, options);
+    command
+        .add_option(
+            "--environment", overrides.environment,
+            "Environment in place of the scene's: an image file (latitude-longitude), sky (a clear sky), "
+            "or a colour as R,G,B or #rrggbb")
+        ->type_name("FILE|sky|COLOR");
+    command
+        .add_option("--environment-rotation", overrides.environment_rotation,
+                    "Turns the environment about the vertical axis, +Y")
+        ->type_name("DEG");
+    command
+        .add_option("--environment-scale", overrides.environment_scale,
+                    "Multiplies the light of the environment")
+        ->type_name("F");
+    command
+        .add_option_function<std::string>(
+            "--sun",
+            [&](const std::string& text) {
+                const auto [azimuth, elevation] = parse_numbers<2>("--sun", "AZIMUTH,ELEVATION", text);
+                overrides.sun = SunPosition{azimuth, elevation};
+            },
+            "Adds the sun there: degrees from +Z towards +X, and above the horizon; --environment sky "
+            "follows it")
+        ->type_name("AZIMUTH,ELEVATION");
+    command.add_option("--light-scale", overrides.light_scale, "Multiplies all light of the scene")
+        ->type_name("F");
+}
+
+}  // namespace nearlight::core

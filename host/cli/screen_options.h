@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// How pictures for screens (PNG) look: exposure and tone curve.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/cli/command.h"
+#include "host/image/image_io.h"
+#include "host/scene/scene.h"
+
+namespace nearlight::core {
+
+struct ScreenOptions {
+    std::string exposure;  ///< stops or "auto"; empty: as the scene asks
+    std::optional<ToneCurve> curve;
+};
+
+/// What the options come to for a scene.
+struct ScreenLook {
+    ToneCurve curve = ToneCurve::linear;
+    std::optional<float> exposure = 0.0f;  ///< stops; empty: automatic, by the finished picture
+};
+
+/// Adds --exposure and --tonemap.
+void add_screen_options(CLI::App& command, ScreenOptions& options);
+
+/// Throws Error(ErrorKind::invalid_argument) if the exposure is neither a number nor "auto".
+void check_screen_options(const ScreenOptions& options);
+
+/// Scenes that say how bright their light is are shown as they are, others with automatic exposure and a
+/// neutral curve, unless the options say otherwise.
+ScreenLook screen_look(const ScreenOptions& options, const Scene& scene);
+
+/// Writer options for a PNG file with that look and the attributes that name it.
+ImageWriterOptions screen_writer_options(const ScreenLook& look, float exposure, Metadata metadata);
+
+}  // namespace nearlight::core

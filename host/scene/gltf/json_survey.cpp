@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/json_survey.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace nearlight::core::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Follows the nesting, and collects the strings of the root's lists of extensions.
+class Surveyor : public nlohmann::json_sax<Json> {
+  public:
+    explicit Surveyor(JsonSurvey& survey) : survey_(survey) {}
+
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool string(string_t& value) override {
+        if (list_ != nullptr && depth_ == 2) {
+            list_->push_back(value);
+        }
+        return true;
+    }
+    bool key(string_t& value) override {
+        if (depth_ == 1) {
+            list_ = value == "extensionsRequired" ? &survey_.required
+                    : value == "extensionsUsed"   ? &survey_.used
+                                                  : nullptr;
+        }
+        return true;
+    }
+    bool start_object(std::size_t) override { return begin(); }
+    bool start_array(std::size_t) override { return begin(); }
+    bool end_object() override { return end(); }
+    bool end_array() override { return end(); }
+    bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+  private:
+    bool begin() {
+        survey_.depth = std::max(survey_.depth, ++depth_);
+        return true;
+    }
+    bool end() {
+        --depth_;
+        return true;
+    }
+
+    JsonSurvey& survey_;
+    std::size_t depth_ = 0;
+    std::vector<std::string>* list_ = nullptr;
+};
+
+std::string word(std::size_t value) {
+    const auto number = static_cast<std::uint32_t>(value);
+    return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
+/// The file with another JSON.
+std::string with_json(std::string_view file, std::string json) {
+    if (!file.starts_with("glTF")) {
+        return json;
+    }
+    constexpr std::size_t kHeader = 20;
+    const std::string_view rest = file.substr(kHeader + json_of(file).size());
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    return std::string(file.substr(0, 8)) + word(kHeader + json.size() + rest.size()) + word(json.size()) +
+           std::string(file.substr(16, 4)) + json + std::string(rest);
+}
+
+}  // namespace
+
+JsonSurvey survey_json(std::string_view text) {
+    JsonSurvey survey;
+    Surveyor surveyor(survey);
+    survey.is_valid = Json::sax_parse(text, &surveyor);
+    return survey;
+}
+
+std::string_view json_of(std::string_view file) {
+    if (!file.starts_with("glTF")) {
+        return file;
+    }
+    constexpr std::size_t kHeader = 20;  // of the file and of its first chunk
+    if (file.size() < kHeader) {
+        return {};
+    }
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + 12, sizeof length);
+    return file.substr(kHeader, length);
+}
+
+std::string without_compressed_indices(std::string_view file) {
+    Json root = Json::parse(json_of(file));
+    if (!root.is_object() || !root["meshes"].is_array()) {
+        return std::string(file);
+    }
+    for (Json& mesh : root["meshes"]) {
+        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
+            continue;
+        }
+        for (Json& primitive : mesh["primitives"]) {
+            const bool is_compressed = primitive.is_object() && primitive.contains("extensions") &&
+                                       primitive["extensions"].is_object() &&
+                                       primitive["extensions"].contains("KHR_draco_mesh_compression");
+            if (is_compressed) {
+                primitive.erase("indices");
+            }
+        }
+    }
+    return with_json(file, root.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace nearlight::core::gltf

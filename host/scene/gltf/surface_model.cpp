@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/surface_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "host/scene/material_model.h"
+
+namespace nearlight::core::gltf {
+namespace {
+
+constexpr double kUsualIndex = 1.5;
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+Vec3 clamped(Vec3 c) {
+    return min(max(c, {0, 0, 0}), {1, 1, 1});
+}
+
+Vec3 grey(double number) {
+    return Vec3{1, 1, 1} * static_cast<float>(std::clamp(number, 0.0, 1.0));
+}
+
+Vec3 to_vec3(const std::vector<double>& values, Vec3 fallback) {
+    return values.size() < 3 ? fallback
+                             : Vec3{static_cast<float>(values[0]), static_cast<float>(values[1]),
+                                    static_cast<float>(values[2])};
+}
+
+/// The index at which a dielectric reflects the share `f0` of light head-on.
+double index_of_reflectance(double f0) {
+    const double amplitude = std::min(std::sqrt(f0), 0.95);
+    return (1.0 + amplitude) / (1.0 - amplitude);
+}
+
+/// The colour of the base, and its alpha.
+struct Base {
+    tinygltf::TextureInfo texture;
+    Vec3 color{1, 1, 1};
+    float alpha = 1;
+};
+
+bool has_specular_glossiness(const tinygltf::Material& source) {
+    return source.extensions.contains(kSpecularGlossiness) && !source.values.contains("baseColorTexture");
+}
+
+Base base_of(const tinygltf::Material& source) {
+    Base base;
+    if (has_specular_glossiness(source)) {
+        base.texture = texture_of(source.extensions, kSpecularGlossiness, "diffuseTexture");
+        const std::vector<double> factor =
+            numbers_of(source.extensions, kSpecularGlossiness, "diffuseFactor", 4);
+        base.color = clamped(to_vec3(factor, {1, 1, 1}));
+        base.alpha = factor.empty() ? 1.0f : std::clamp(static_cast<float>(factor[3]), 0.0f, 1.0f);
+        return base;
+    }
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    base.texture = pbr.baseColorTexture;
+    base.color = clamped(to_vec3(pbr.baseColorFactor, {1, 1, 1}));
+    if (pbr.baseColorFactor.size() > 3) {
+        base.alpha = std::clamp(static_cast<float>(pbr.baseColorFactor[3]), 0.0f, 1.0f);
+    }
+    return base;
+}
+
+/// The base's colour times those of the vertices, if there are any.
+Parameter color_of_base(const Base& base, const SurfaceContext& context, const TexelRule& rule = {}) {
+    const Parameter color =
+        context.textures.textured_by(base.texture, base.color, rule, context.sets,
+                                     context.has_colors ? NEARLIGHT_TEXTURE_TIMES_COLOR : 0u);
+    return context.has_colors && color.texture < 0 ? context.textures.vertex_color(color.value) : color;
+}
+
+/// The opacity of masked and blended surfaces; 1 where the material has no holes.
+Parameter opacity_of(const tinygltf::Material& source, const Base& base, const SurfaceContext& context) {
+    if (source.alphaMode == "BLEND") {
+        return context.textures.textured_by(base.texture, Vec3{1, 1, 1} * base.alpha, {.channel = 3},
+                                            context.sets);
+    }
+    const auto cutoff = static_cast<float>(source.alphaCutoff);
+    if (source.alphaMode != "MASK" || !(cutoff > 0.0f)) {
+        return parameter_of(1.0f);
+    }
+    if (base.texture.index < 0 || base.alpha < cutoff) {
+        return parameter_of(base.alpha >= cutoff ? 1.0f : 0.0f);
+    }
+    return context.textures.textured_by(base.texture, {1, 1, 1}, {.channel = 3}, context.sets, 0,
+                                        cutoff / base.alpha);
+}
+
+/// How the alpha of the base's image multiplies the light of the same image, because holes do not shine.
+TexelRule shining_rule(const tinygltf::Material& source, const Base& base) {
+    if (source.alphaMode == "BLEND") {
+        return {.times_alpha = true};
+    }
+    const bool is_mask = source.alphaMode == "MASK" && source.alphaCutoff > 0 && base.alpha > 0;
+    return is_mask ? TexelRule{.times_alpha = true,
+                               .alpha_cutoff = static_cast<float>(source.alphaCutoff) / base.alpha}
+                   : TexelRule{};
+}
+
+/// The emission as a radiance, because exporters write a strength rather than nits.
+Parameter emission_of(const tinygltf::Material& source, const Base& base, const SurfaceContext& context) {
+    const double strength =
+        number_of(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
+    const Vec3 emission =
+        static_cast<float>(strength) * max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
+    if (!is_finite(emission)) {
+        context.file.fail("material '" + source.name + "' emits light that is not finite");
+    }
+    if (is_zero(emission)) {
+        return parameter_of(0.0f);
+    }
+    const bool same = context.textures.share_image(source.emissiveTexture, base.texture);
+    return context.textures.textured_by(source.emissiveTexture, emission,
+                                        same ? shining_rule(source, base) : TexelRule{}, context.sets);
+}
+
+/// The index and the strength of reflections from KHR_materials_ior and KHR_materials_specular.
+void read_reflections(const tinygltf::Material& source, const SurfaceContext& context,
+                      SurfaceModel& surface) {
+    constexpr const char* kSpecular = "KHR_materials_specular";
+    surface.index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
+    const double specular = number_of(source.extensions, kSpecular, "specularFactor", 1);
+    const Vec3 tint = color_of(source.extensions, kSpecular, "specularColorFactor", {1, 1, 1});
+    const double factor = std::max(0.0, specular) * static_cast<double>(std::max(0.0f, luminance(tint)));
+    if (tint.x != tint.y || tint.y != tint.z) {
+        context.approximate("KHR_materials_specular: the colour of reflections is replaced by its luminance");
+    }
+    if (texture_of(source.extensions, kSpecular, "specularTexture").index >= 0 ||
+        texture_of(source.extensions, kSpecular, "specularColorTexture").index >= 0) {
+        context.approximate("KHR_materials_specular: its textures are left out");
+    }
+    surface.reflects = factor > 0.0 && surface.index > 1.0;
+    const double root = (surface.index - 1.0) / (surface.index + 1.0);
+    surface.index = surface.reflects ? index_of_reflectance(root * root * factor) : kUsualIndex;
+}
+
+/// Metalness and roughness of materials that are given by the colour of their reflections. Those that reflect
+/// more than any dielectric and more than they scatter are taken for metals.
+void read_specular_glossiness(const tinygltf::Material& source, const SurfaceContext& context,
+                              SurfaceModel& surface) {
+    context.approximate(std::string(kSpecularGlossiness) + " is converted to metalness and roughness");
+    const tinygltf::TextureInfo texture =
+        texture_of(source.extensions, kSpecularGlossiness, "specularGlossinessTexture");
+    const Vec3 specular =
+        clamped(color_of(source.extensions, kSpecularGlossiness, "specularFactor", {1, 1, 1}));
+    const auto glossiness =
+        static_cast<float>(number_of(source.extensions, kSpecularGlossiness, "glossinessFactor", 1));
+    const Parameter reflected = context.textures.textured_by(texture, specular, {}, context.sets);
+    surface.roughness =
+        texture.index < 0
+            ? parameter_of(grey(1.0 - static_cast<double>(glossiness)))
+            : context.textures.textured_by(
+                  texture, {1, 1, 1}, {.channel = 3, .is_inverse = true, .factor = glossiness}, context.sets);
+    const float mean = luminance(context.textures.mean(reflected));
+    const bool is_metal = mean > 0.25f && mean > luminance(context.textures.mean(surface.color));
+    surface.metallic = parameter_of(is_metal ? 1.0f : 0.0f);
+    if (is_metal) {
+        surface.color = reflected;
+    }
+    surface.reflects = mean > 0.0f;
+    surface.index =
+        surface.reflects ? index_of_reflectance(std::min(static_cast<double>(mean), 0.25)) : kUsualIndex;
+}
+
+void read_metallic_roughness(const tinygltf::Material& source, const SurfaceContext& context,
+                             SurfaceModel& surface) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    surface.metallic = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.metallicFactor),
+                                                    {.channel = 2}, context.sets);
+    surface.roughness = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.roughnessFactor),
+                                                     {.channel = 1}, context.sets);
+    read_reflections(source, context, surface);
+}
+
+/// Glass: KHR_materials_transmission and KHR_materials_volume.
+void read_glass(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
+    constexpr const char* kVolume = "KHR_materials_volume";
+    surface.transmission = context.textures.textured_by(
+        texture_of(source.extensions, "KHR_materials_transmission", "transmissionTexture"),
+        grey(number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0)),
+        {.channel = 0}, context.sets);
+    const double thickness = number_of(source.extensions, kVolume, "thicknessFactor", 0);
+    surface.is_thin = thickness <= 0;
+    const Vec3 color = clamped(color_of(source.extensions, kVolume, "attenuationColor", {1, 1, 1}));
+    const double distance = number_of(source.extensions, kVolume, "attenuationDistance", HUGE_VAL);
+    if (!surface.is_thin && surface.transmits() && distance > 0 && std::isfinite(distance) &&
+        !(color == Vec3{1, 1, 1})) {
+        context.approximate(
+            "KHR_materials_volume: light is absorbed at the faces of glass, as over its thickness");
+        const auto exponent = static_cast<float>(std::min(0.5 * thickness / distance, 1e3));
+        surface.absorption = {std::pow(color.x, exponent), std::pow(color.y, exponent),
+                              std::pow(color.z, exponent)};
+    }
+}
+
+/// KHR_materials_clearcoat and KHR_materials_sheen, as the principled model has them.
+void read_layers(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
+    constexpr const char* kCoat = "KHR_materials_clearcoat";
+    constexpr const char* kSheen = "KHR_materials_sheen";
+    surface.clearcoat = context.textures.textured_by(
+        texture_of(source.extensions, kCoat, "clearcoatTexture"),
+        grey(number_of(source.extensions, kCoat, "clearcoatFactor", 0)), {.channel = 0}, context.sets);
+    surface.clearcoat_roughness =
+        std::clamp(number_of(source.extensions, kCoat, "clearcoatRoughnessFactor", 0), 0.0, 1.0);
+    if (source.extensions.contains(kCoat) && surface.clearcoat.value.x > 0.0f) {
+        context.approximate(
+            "KHR_materials_clearcoat: the coat reflects a quarter as much, evenly smooth and without a "
+            "normal "
+            "map of its own");
+    }
+    const Vec3 sheen = clamped(color_of(source.extensions, kSheen, "sheenColorFactor", {0, 0, 0}));
+    surface.sheen = parameter_of(luminance(sheen));
+    if (source.extensions.contains(kSheen) && !is_zero(sheen)) {
+        context.approximate("KHR_materials_sheen: the sheen is white, of one strength and roughness");
+    }
+}
+
+/// Notes the extensions of materials that nothing here reads.
+void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceContext& context) {
+    constexpr std::array<std::string_view, 11> kRead{
+        "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+        "KHR_materials_ior",          kSpecularGlossiness,
+        "KHR_materials_sheen",        "KHR_materials_specular",
+        "KHR_materials_transmission", "KHR_materials_unlit",
+        "KHR_materials_variants",     "KHR_materials_volume",
+        "KHR_techniques_webgl"};
+    for (const auto& [name, value] : source.extensions) {
+        const bool is_look = name.find("_materials_") != std::string::npos;
+        if (is_look && std::ranges::find(kRead, name) == kRead.end()) {
+            context.approximate(name + " is left out");
+        }
+    }
+}
+
+}  // namespace
+
+bool SurfaceModel::is_diffuse() const {
+    const bool is_metal = metallic.value.x > 0.0f;
+    const bool is_layered = clearcoat.value.x > 0.0f || sheen.value.x > 0.0f;
+    return !is_layered && (!reflects || (!is_metal && roughness.texture < 0 && roughness.value.x >= 1.0f));
+}
+
+SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context) {
+    const Base base = base_of(source);
+    SurfaceModel surface;
+    surface.is_unlit = source.extensions.contains("KHR_materials_unlit");
+    surface.opacity = opacity_of(source, base, context);
+    remark_what_is_left_out(source, context);
+    if (surface.is_unlit) {
+        context.approximate("KHR_materials_unlit: surfaces shine with their colour, and light others");
+        surface.emission = color_of_base(base, context, shining_rule(source, base));
+        return surface;
+    }
+    surface.color = color_of_base(base, context);
+    surface.emission = emission_of(source, base, context);
+    if (has_specular_glossiness(source)) {
+        read_specular_glossiness(source, context, surface);
+    } else {
+        read_metallic_roughness(source, context, surface);
+    }
+    read_glass(source, context, surface);
+    read_layers(source, context, surface);
+    return surface;
+}
+
+}  // namespace nearlight::core::gltf

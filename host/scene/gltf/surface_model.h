@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a glTF material and its extensions say about a surface, as parameters of the scene.
+#pragma once
+
+#include "host/scene/gltf/textures.h"
+#include "host/scene/material_model.h"
+
+namespace nearlight::core::gltf {
+
+/// The properties that decide which material a glTF material becomes.
+struct SurfaceModel {
+    Parameter color = parameter_of(1.0f);
+    Parameter opacity = parameter_of(1.0f);
+    Parameter metallic = parameter_of(0.0f);
+    Parameter roughness = parameter_of(1.0f);  ///< perceptual: the square root of GGX's α
+    Parameter emission = parameter_of(0.0f);   ///< a radiance
+    Parameter transmission = parameter_of(0.0f);
+    Parameter clearcoat = parameter_of(0.0f);
+    Parameter sheen = parameter_of(0.0f);
+    double index = 1.5;
+    double clearcoat_roughness = 0;
+    Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
+    bool is_thin = true;
+    bool reflects = true;
+    bool is_unlit = false;
+
+    /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
+    [[nodiscard]] bool is_diffuse() const;
+    [[nodiscard]] bool transmits() const { return transmission.texture >= 0 || transmission.value.x > 0.0f; }
+};
+
+/// What the reader of a material works with.
+struct SurfaceContext {
+    const GltfFile& file;
+    TextureMaker& textures;
+    NoteSink& notes;
+    TextureSets sets;
+    bool has_colors = false;
+
+    void approximate(const std::string& what) const { notes.approximation(file.path, 0, what); }
+};
+
+/// Reads the material. What cannot be represented is noted by the name of its extension.
+SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context);
+
+}  // namespace nearlight::core::gltf

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/textures.h"
+
+#include <cmath>
+
+#include "host/image/image_io.h"
+#include "host/scene/material_model.h"
+#include "host/scene/texture.h"
+#include "nearlight/error.h"
+
+namespace nearlight::core::gltf {
+namespace {
+
+/// Decodes `%20` and its like, because file names in glTF are URIs.
+std::string decoded_uri(const std::string& uri) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : -1;
+    };
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+            name += static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2]));
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    return name;
+}
+
+std::string name_of(const tinygltf::Image& image) {
+    const std::string kind = image.mimeType == "image/jpeg" ? ".jpg" : ".png";
+    return !image.uri.empty() ? image.uri : (image.name.empty() ? "image" : image.name) + kind;
+}
+
+Image read_pixels(const GltfFile& file, const tinygltf::Image& image) {
+    if (!image.uri.empty()) {
+        return read_image(file.path.parent_path() / decoded_uri(image.uri));
+    }
+    return read_image(
+        image.bufferView >= 0 ? bytes_of(file, image.bufferView) : std::as_bytes(std::span(image.image)),
+        name_of(image));
+}
+
+/// The two numbers `key` of KHR_texture_transform, or `fallback` twice.
+std::array<double, 2> pair_of(const tinygltf::Value& transform, const char* key, double fallback) {
+    const tinygltf::Value& value = transform.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 2) {
+        return {fallback, fallback};
+    }
+    return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
+}
+
+/// Applies KHR_texture_transform. Vertex has v upwards; glTF has v' = 1 − v downwards and looks textures up
+/// at (c·su·u + s·sv·v' + ou, −s·su·u + c·sv·v' + ov).
+void apply_transform(const tinygltf::TextureInfo& info, Texture& texture) {
+    const auto found = info.extensions.find("KHR_texture_transform");
+    if (found == info.extensions.end()) {
+        return;
+    }
+    const auto [scale_u, scale_v] = pair_of(found->second, "scale", 1);
+    const auto [offset_u, offset_v] = pair_of(found->second, "offset", 0);
+    const double angle = number_of(info.extensions, "KHR_texture_transform", "rotation", 0);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    texture.u_scale = static_cast<float>(c * scale_u);
+    texture.u_shear = static_cast<float>(-s * scale_v);
+    texture.u_offset = static_cast<float>(s * scale_v + offset_u);
+    texture.v_shear = static_cast<float>(s * scale_u);
+    texture.v_scale = static_cast<float>(c * scale_v);
+    texture.v_offset = static_cast<float>(1 - c * scale_v - offset_v);
+}
+
+/// How a sampler repeats a texture [glTF 2.0, 5.26].
+uint wrap_of(int mode) {
+    return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? NEARLIGHT_WRAP_CLAMP
+           : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? NEARLIGHT_WRAP_MIRROR
+                                                           : NEARLIGHT_WRAP_REPEAT;
+}
+
+void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
+    texture.wrap_s = wrap_of(sampler.wrapS);
+    texture.wrap_t = wrap_of(sampler.wrapT);
+    texture.filter = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? NEARLIGHT_FILTER_NEAREST
+                                                                          : NEARLIGHT_FILTER_BILINEAR;
+}
+
+}  // namespace
+
+int texture_set_of(const tinygltf::TextureInfo& info) {
+    return index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
+}
+
+int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
+    if (!image.uri.empty()) {
+        return loader_.load(file_.path.parent_path() / decoded_uri(image.uri), rule, file_.path, 0);
+    }
+    try {
+        return loader_.add(read_pixels(file_, image), name_of(image), rule, file_.path, 0);
+    } catch (const Error& error) {
+        throw_unless_file(error);
+        notes_.approximation(
+            file_.path, 0,
+            std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
+        return -1;
+    }
+}
+
+/// The index of the texture's image, −1 if it has none, or −2 with a note if it has only one of a format that
+/// is not read.
+int TextureMaker::image_of(const tinygltf::Texture& texture) {
+    const int webp = index_of(texture.extensions, "EXT_texture_webp", "source", -1);
+    if (webp >= 0 || texture.source >= 0) {
+        return webp >= 0 ? webp : texture.source;
+    }
+    for (const auto& [name, extension] : texture.extensions) {
+        if (extension.Has("source")) {
+            notes_.approximation(file_.path, 0,
+                                 "texture is replaced by mid-grey because " + name + " is not supported");
+            return -2;
+        }
+    }
+    return -1;
+}
+
+Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
+                                    const TextureSets& sets, uint flags, float cutoff) {
+    if (info.index < 0) {
+        return parameter_of(value);
+    }
+    const tinygltf::Texture& source = file_.at(file_.model.textures, info.index, "texture", "a material");
+    const int image = image_of(source);
+    if (image < 0) {
+        return image == -1 ? parameter_of(value) : parameter_of(0.5f);
+    }
+    const auto [entry, is_new] = images_.try_emplace({image, rule}, -1);
+    if (is_new) {
+        entry->second = load_image(file_.at(file_.model.images, image, "image", "a texture"), rule);
+    }
+    if (entry->second < 0) {
+        return parameter_of(0.5f);
+    }
+    SceneTexture texture = plain_texture(entry->second);
+    apply_transform(info, texture.parameters);
+    if (source.sampler >= 0) {
+        apply_sampler(file_.at(file_.model.samplers, source.sampler, "sampler", "a texture"),
+                      texture.parameters);
+    }
+    const int set = texture_set_of(info);
+    if (set != sets.first && set == sets.second) {
+        flags |= NEARLIGHT_TEXTURE_SECOND_UV;
+    } else if (set != sets.first) {
+        notes_.approximation(file_.path, 0,
+                             "a material uses more than two sets of texture coordinates; the first replaces "
+                             "all but the second");
+    }
+    texture.parameters.flags = flags;
+    texture.parameters.cutoff = cutoff;
+    return {value, add_texture(scene_, texture)};
+}
+
+Parameter TextureMaker::vertex_color(Vec3 value) {
+    if (vertex_color_ < 0) {
+        SceneTexture texture = plain_texture(-1);
+        texture.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
+        vertex_color_ = add_texture(scene_, texture);
+    }
+    return {value, vertex_color_};
+}
+
+Vec3 TextureMaker::mean(const Parameter& parameter) const {
+    return mean_value(scene_, parameter);
+}
+
+bool TextureMaker::share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const {
+    const auto image = [&](const tinygltf::TextureInfo& info) {
+        const auto index = static_cast<std::size_t>(info.index);
+        return info.index >= 0 && index < file_.model.textures.size() ? file_.model.textures[index].source
+                                                                      : -1;
+    };
+    return image(a) >= 0 && image(a) == image(b);
+}
+
+}  // namespace nearlight::core::gltf

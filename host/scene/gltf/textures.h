@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures of glTF materials: images, samplers, transforms and sets of texture coordinates.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "host/image/image.h"
+#include "host/scene/gltf/gltf_file.h"
+#include "host/scene/texture_loader.h"
+
+namespace nearlight::core::gltf {
+
+/// Which TEXCOORD_n of a mesh are the first and the second texture coordinates of its vertices.
+struct TextureSets {
+    int first = 0;
+    int second = -1;  ///< −1: none
+};
+
+/// The set that a texture asks for.
+int texture_set_of(const tinygltf::TextureInfo& info);
+
+/// What normal and occlusion textures have in common with all others.
+template <typename Info>
+tinygltf::TextureInfo plain_info(const Info& info) {
+    tinygltf::TextureInfo plain;
+    plain.index = info.index;
+    plain.texCoord = info.texCoord;
+    plain.extensions = info.extensions;
+    return plain;
+}
+
+class TextureMaker {
+  public:
+    TextureMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
+        : file_(file), scene_(scene), notes_(notes), loader_(scene, notes) {}
+
+    /// A parameter of the texture's numbers times `value`; `value` alone if there is no texture, and grey,
+    /// with a note, if it cannot be read. `flags` and `cutoff` are those of Texture.
+    Parameter textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
+                          const TextureSets& sets, uint flags = 0, float cutoff = 0.0f);
+    /// A parameter of the colours of vertices times `value`.
+    Parameter vertex_color(Vec3 value);
+    /// The mean of a parameter over its texture.
+    [[nodiscard]] Vec3 mean(const Parameter& parameter) const;
+    /// Whether both textures show the same image.
+    [[nodiscard]] bool share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const;
+
+  private:
+    [[nodiscard]] int image_of(const tinygltf::Texture& texture);
+    int load_image(const tinygltf::Image& image, const TexelRule& rule);
+
+    const GltfFile& file_;
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader loader_;
+    std::map<std::pair<int, TexelRule>, int> images_;  ///< index into Scene::images, or −1
+    int vertex_color_ = -1;                            ///< index into Scene::textures
+};
+
+}  // namespace nearlight::core::gltf

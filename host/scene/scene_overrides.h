@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera and light that replace what a file says, whatever its format. +Y is up.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/scene/note_sink.h"
+#include "host/scene/scene.h"
+
+namespace nearlight::core {
+
+/// Where the sun stands.
+struct SunPosition {
+    double azimuth = 0;    ///< degrees from +Z towards +X
+    double elevation = 0;  ///< degrees above the horizon, 0 to 90
+};
+
+struct SceneOverrides {
+    std::optional<std::array<double, 3>> origin{};  ///< of the camera; empty: its own
+    /// What the camera looks at; empty: the middle of the scene if there is an origin, otherwise as it
+    /// stands.
+    std::optional<std::array<double, 3>> target{};
+    std::optional<double> fov_degrees{};  ///< horizontal field of view of the picture, above 0 and below 180
+    /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
+    /// radiance, or #rrggbb. Empty: the scene's own environment.
+    std::string environment{};
+    double environment_rotation = 0;   ///< degrees about +Y
+    double environment_scale = 1;      ///< of the environment, whether it is the scene's own or not
+    std::optional<SunPosition> sun{};  ///< a sun, whose place the sky follows
+    double light_scale = 1;            ///< of all light
+
+    /// Whether they bring light of their own.
+    [[nodiscard]] bool bring_light() const { return !environment.empty() || sun.has_value(); }
+};
+
+/// Applies them to a complete scene. Throws Error: ErrorKind::invalid_argument for a number that is not
+/// finite or out of range, or a camera that stands where it looks; ErrorKind::file for an environment that
+/// cannot be read.
+void apply_overrides(Scene& scene, const SceneOverrides& overrides, NoteSink& notes);
+
+}  // namespace nearlight::core

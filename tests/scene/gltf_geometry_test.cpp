@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// What moves, multiplies, compresses and colours the vertices of glTF meshes.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "host/image/image_io.h"
+#include "host/scene/gltf/draco_codec.h"
+#include "tests/scene/gltf_text.h"
+
+namespace nearlight::core {
+namespace {
+
+using testing::HasSubstr;
+using namespace test;
+
+TEST_F(GltfLoader, SkinsStandAsTheirJointsDo) {
+    // The first joint is where the mesh was bound; the second one has moved by (0, 0, 5) since.
+    const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
+                                  1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, 0, 0, 1};
+    gltf_.root["skins"] = {
+        {{"joints", {1, 2}}, {"inverseBindMatrices", gltf_.accessor(bind, 5126, "MAT4", 16)}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
+                           {{"children", {2}}},
+                           {{"translation", {2, 0, 5}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    json& attributes = gltf_.primitive()["attributes"];
+    attributes["JOINTS_0"] = gltf_.accessor(
+        std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 4);
+    attributes["WEIGHTS_0"] = gltf_.accessor(
+        std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+    const Scene scene = load();
+    expect_close(corner(scene, 0, 0), {0, 0, 0});  // the place of the mesh's own node does not count
+    expect_close(corner(scene, 0, 1), {1, 0, 5});
+    expect_close(corner(scene, 0, 2), {1, 1, 2.5f});
+    gltf_.root["skins"][0]["joints"] = {1};
+    EXPECT_THAT(error(), HasSubstr("joint 1"));
+    gltf_.root["skins"][0]["joints"] = {1, 77};
+    EXPECT_THAT(error(), HasSubstr("node 77"));
+}
+
+TEST_F(GltfLoader, MorphTargetsHaveTheWeightsOfTheNodeOrTheMesh) {
+    gltf_.primitive()["targets"] = {{{"POSITION", gltf_.points({0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4})}},
+                                    {{"POSITION", gltf_.points({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0})}}};
+    expect_close(corner(load(), 0, 2), {1, 1, 0});
+    gltf_.root["meshes"][0]["weights"] = {0.5, 0};
+    expect_close(corner(load(), 0, 2), {1, 1, 1.5f});
+    gltf_.root["nodes"][0]["weights"] = {1, -1};
+    expect_close(corner(load(), 0, 2), {0, 1, 3});
+}
+
+TEST_F(GltfLoader, InstancesStandBelowTheirNode) {
+    const double half = std::sqrt(0.5);
+    const auto h = static_cast<float>(half);
+    gltf_.root["nodes"][0]["translation"] = {0, 0, 9};
+    gltf_.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", gltf_.points({0, 0, 0, 5, 0, 0})},
+        {"ROTATION", gltf_.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, h, h}, 5126, "VEC4", 4)},
+        {"SCALE", gltf_.points({1, 1, 1, 2, 2, 2})}};
+    gltf_.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+    const Scene scene = load();
+    ASSERT_EQ(scene.triangles.size(), 4u);
+    expect_close(corner(scene, 0, 1), {1, 0, 9});
+    expect_close(corner(scene, 2, 1), {5, 2, 9});
+}
+
+TEST_F(GltfLoader, QuantizedPositions) {
+    gltf_.root["extensionsRequired"] = {"KHR_mesh_quantization"};
+    gltf_.primitive()["attributes"]["POSITION"] = gltf_.accessor(
+        std::vector<std::int16_t>{0, 0, 0, 300, 0, 0, 300, 300, 0, 0, 300, 0}, 5122, "VEC3", 3);
+    gltf_.root["nodes"][0]["scale"] = {0.01, 0.01, 0.01};
+    expect_close(corner(load(), 0, 2), {3, 3, 0});
+}
+
+TEST_F(GltfLoader, WithoutNormalsFacetsAreFlat) {
+    gltf_.primitive()["attributes"]["POSITION"] = gltf_.points({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1});
+    EXPECT_TRUE(is_zero(load().vertices[0].normal));
+    gltf_.root["nodes"][0]["scale"] = {-1, 1, 1};
+    const Scene mirrored = load();  // and the front stays the front
+    const Vec3 normal = cross(corner(mirrored, 0, 1) - corner(mirrored, 0, 0),
+                              corner(mirrored, 0, 2) - corner(mirrored, 0, 0));
+    EXPECT_GT(normal.z, 0.0f);
+}
+
+TEST_F(GltfLoader, VertexColoursMultiplyTheBase) {
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 1, 1, 1}}, {"metallicFactor", 0}};
+    gltf_.primitive()["attributes"]["COLOR_0"] = gltf_.accessor(
+        std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 51}, 5121,
+        "VEC4", 4, true);
+    const Scene scene = load();
+    expect_close(scene.vertex_colors.at(1), {0, 1, 0});
+    const Material& side = scene.materials.at(scene.materials.at(scene.triangles[0].material).child[0]);
+    ASSERT_GE(side.reflectance.texture, 0);
+    EXPECT_EQ(scene.textures.at(0).parameters.kind, NEARLIGHT_TEXTURE_VERTEX_COLOR);
+    expect_close(side.reflectance.value, {0.5f, 1, 1});
+    EXPECT_THAT(scene.notes.at(0).text, HasSubstr("alpha of vertex colours"));
+}
+
+TEST_F(GltfLoader, TwoSetsOfTextureCoordinates) {
+    write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B"}, {1, 1, 1}});
+    gltf_.root["images"] = {{{"uri", "texel.exr"}}};
+    gltf_.root["textures"] = {{{"source", 0}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}},
+                        {"emissiveTexture", {{"index", 0}, {"texCoord", 0}}},
+                        {"emissiveFactor", {1, 1, 1}}};
+    gltf_.primitive()["attributes"]["TEXCOORD_1"] =
+        gltf_.accessor(std::vector<float>{0.25f, 1, 1, 1, 1, 0, 0, 0}, 5126, "VEC2", 2);
+    const Scene scene = load();
+    EXPECT_EQ(scene.vertices.at(0).u, 0.25f);  // the base's set is the first
+    ASSERT_EQ(scene.second_uvs.size(), scene.vertices.size());
+    EXPECT_EQ(scene.second_uvs[0][0], 0.0f);
+    const Material& top = scene.materials.at(scene.triangles[0].material);
+    const auto emission = static_cast<std::size_t>(top.emission.texture);
+    EXPECT_EQ(scene.textures.at(emission).parameters.flags, NEARLIGHT_TEXTURE_SECOND_UV);
+}
+
+TEST_F(GltfLoader, SurfacesThatShineToBothSidesHaveABack) {
+    gltf_.material()["emissiveFactor"] = {1, 1, 1};
+    EXPECT_EQ(load().triangles.size(), 2u);
+    gltf_.material()["doubleSided"] = true;
+    const Scene scene = load();
+    ASSERT_EQ(scene.triangles.size(), 4u);
+    const Vec3 back =
+        cross(corner(scene, 2, 1) - corner(scene, 2, 0), corner(scene, 2, 2) - corner(scene, 2, 0));
+    EXPECT_LT(back.z, 0.0f);
+    EXPECT_LT(corner(scene, 2, 0).z, 0.0f);
+    EXPECT_GT(corner(scene, 2, 0).z, -1e-3f);
+}
+
+TEST_F(GltfLoader, HiddenNodesAreLeftOut) {
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"children", {1}}},
+                           {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}}};
+    EXPECT_EQ(load().triangles.size(), 2u);
+}
+
+/// A triangle of 4 by 2 as Draco 1.5.5 packs it, with the ids 0 for positions and 1 for colours.
+constexpr const char* kCompressedTriangle =
+    "RFJBQ08CAgEBAAAAAwEBAQAAAQf/AREBAQAC/"
+    "wAAAAAAAQAJAwAAAAECAgMBAQEAAIBAAAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAA"
+    "AAABAQEAAwOtKlUVA6B6gSoKAAAAAP8AAAA=";
+
+TEST_F(GltfLoader, CompressedMeshes) {
+    if (!gltf::can_decode_draco()) {
+        GTEST_SKIP() << "this build has no Draco";
+    }
+    const int view = gltf_.view(from_base64(kCompressedTriangle));
+    gltf_.root["accessors"] = {{{"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}},
+                               {{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}};
+    gltf_.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    gltf_.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    gltf_.primitive() = {{"indices", 0}, {"attributes", {{"POSITION", 1}}}};
+    json& packed = gltf_.primitive()["extensions"]["KHR_draco_mesh_compression"];
+    packed = {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+    for (const bool binary : {false, true}) {
+        const Scene scene = load_scene(binary ? files_.write("scene.glb", gltf_.binary())
+                                              : files_.write("scene.gltf", gltf_.text()));
+        ASSERT_EQ(scene.triangles.size(), 1u);
+        EXPECT_NEAR(triangle_area(scene, scene.triangles[0]), 4.0f, 1e-2f);
+        Vec3 sum{0, 0, 0};
+        for (const Vec3 color : scene.vertex_colors) {
+            sum += color;
+        }
+        expect_close(sum, {2, 2, 1});  // red, green and white
+    }
+    packed["attributes"]["POSITION"] = 7;
+    EXPECT_THAT(error(), HasSubstr("lacks its attribute POSITION"));
+    packed["attributes"]["POSITION"] = 0;
+    packed["bufferView"] = 0;
+    EXPECT_THAT(error(), HasSubstr("cannot be decoded"));
+}
+
+}  // namespace
+}  // namespace nearlight::core

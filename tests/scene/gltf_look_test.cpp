@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extensions of glTF materials, and what is noted where the scene's materials cannot do the same.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "host/image/image_io.h"
+#include "host/scene/texture.h"
+#include "tests/scene/gltf_text.h"
+
+namespace nearlight::core {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using namespace test;
+
+Material top_material(const Scene& scene) {
+    return scene.materials.at(scene.triangles.at(0).material);
+}
+
+/// The material behind wrappers that have one child.
+Material innermost(const Scene& scene) {
+    Material material = top_material(scene);
+    while (material.model >= NEARLIGHT_BSDF_MASK) {
+        material = scene.materials.at(material.child[0]);
+    }
+    return material;
+}
+
+void expect_note(const Scene& scene, const std::string& text) {
+    EXPECT_THAT(scene.notes, Contains(Field(&Note::text, HasSubstr(text))));
+}
+
+class GltfLook : public GltfLoader {
+  protected:
+    /// Texture 0: one texel of these numbers.
+    void add_texel(const std::vector<float>& rgba) {
+        write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B", "A"}, rgba});
+        gltf_.root["images"] = {{{"uri", "texel.exr"}}};
+        gltf_.root["textures"] = {{{"source", 0}}};
+    }
+    json& extension(const std::string& name) { return gltf_.material()["extensions"][name]; }
+};
+
+TEST_F(GltfLook, ClearcoatAndSheenAreThoseOfThePrincipledModel) {
+    add_texel({0.5f, 0, 0, 1});
+    extension("KHR_materials_clearcoat") = {{"clearcoatFactor", 0.8}, {"clearcoatTexture", {{"index", 0}}}};
+    extension("KHR_materials_sheen") = {{"sheenColorFactor", {0.5, 0.5, 0.5}}};
+    const Scene scene = load();
+    const Material side = innermost(scene);
+    EXPECT_EQ(side.model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_NEAR(parameter_value(scene, side.clearcoat, 0.5f, 0.5f).x, 0.4f, 1e-3f);
+    EXPECT_FLOAT_EQ(side.clearcoat_gloss.value.x, 1.0f);
+    EXPECT_FLOAT_EQ(side.sheen.value.x, 0.5f);
+    expect_note(scene, "KHR_materials_clearcoat");
+    expect_note(scene, "KHR_materials_sheen");
+}
+
+TEST_F(GltfLook, UnlitSurfacesShineWithTheirColour) {
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}};
+    extension("KHR_materials_unlit") = json::object();
+    const Scene scene = load();
+    expect_close(top_material(scene).emission.value, {0.2f, 0.4f, 0.6f});
+    EXPECT_TRUE(is_zero(innermost(scene).reflectance.value));
+    expect_note(scene, "KHR_materials_unlit");
+}
+
+TEST_F(GltfLook, HolesOfUnlitSurfacesDoNotShine) {
+    add_texel({1, 1, 1, 0.25f});
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"alphaMode", "BLEND"}};
+    extension("KHR_materials_unlit") = json::object();
+    const Scene scene = load();
+    EXPECT_NEAR(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f).x, 0.25f, 1e-3f);
+    EXPECT_NEAR(parameter_value(scene, top_material(scene).reflectance, 0.5f, 0.5f).x, 0.25f, 1e-3f);
+}
+
+TEST_F(GltfLook, TransmissionIsTextured) {
+    add_texel({0.5f, 0, 0, 1});
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 0.5},
+                                               {"transmissionTexture", {{"index", 0}}}};
+    const Scene scene = load();
+    const Material blend = top_material(scene);
+    ASSERT_EQ(blend.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_NEAR(parameter_value(scene, blend.reflectance, 0.5f, 0.5f).x, 0.25f, 1e-3f);
+}
+
+TEST_F(GltfLook, BodiesAbsorbAtTheirFaces) {
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+    extension("KHR_materials_volume") = {
+        {"thicknessFactor", 2}, {"attenuationDistance", 1}, {"attenuationColor", {0.5, 1, 0.25}}};
+    const Scene scene = load();
+    const Vec3 face = top_material(scene).transmission.value;
+    expect_close(face * face, {0.25f, 1, 0.0625f});  // both faces together: 2 m
+    expect_note(scene, "KHR_materials_volume");
+}
+
+TEST_F(GltfLook, SpecularGlossinessIsConverted) {
+    add_texel({1, 1, 1, 0.5f});
+    extension("KHR_materials_pbrSpecularGlossiness") = {{"diffuseFactor", {0.1, 0.2, 0.3, 1}},
+                                                        {"specularFactor", {0.04, 0.04, 0.04}},
+                                                        {"glossinessFactor", 0.75}};
+    const Material dielectric = innermost(load());
+    expect_close(dielectric.reflectance.value, {0.1f, 0.2f, 0.3f});
+    EXPECT_NEAR(dielectric.eta.x, 1.5f, 1e-5f);
+    EXPECT_FLOAT_EQ(dielectric.roughness.value.x, 0.25f);
+    extension("KHR_materials_pbrSpecularGlossiness")["specularFactor"] = {0.9, 0.6, 0.3};
+    const Material metal = innermost(load());
+    EXPECT_EQ(metal.metallic.value.x, 1.0f);
+    expect_close(metal.reflectance.value, {0.9f, 0.6f, 0.3f});
+    extension("KHR_materials_pbrSpecularGlossiness")["specularGlossinessTexture"] = {{"index", 0}};
+    const Scene textured = load();
+    EXPECT_NEAR(parameter_value(textured, innermost(textured).roughness, 0.5f, 0.5f).x, 1 - 0.375f, 1e-3f);
+}
+
+TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {
+    add_texel({0.75f, 0.75f, 1, 1});
+    gltf_.material()["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    const Scene scene = load();
+    expect_close(parameter_value(scene, top_material(scene).reflectance, 0.5f, 0.5f), {0.625f, 0.625f, 1},
+                 1e-3f);
+    gltf_.primitive()["attributes"]["TEXCOORD_0"] =
+        gltf_.accessor(std::vector<float>{1, 1, 0, 1, 0, 0, 1, 0}, 5126, "VEC2", 2);
+    const Scene mirrored = load();
+    expect_close(parameter_value(mirrored, top_material(mirrored).reflectance, 0.5f, 0.5f),
+                 {0.625f, 0.375f, 1}, 1e-3f);
+}
+
+TEST_F(GltfLook, BaseTexturesAreMultipliedByVertexColours) {
+    add_texel({1, 1, 1, 1});
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+    gltf_.primitive()["attributes"]["COLOR_0"] = gltf_.points({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
+    const Scene scene = load();
+    const auto texture = static_cast<std::size_t>(innermost(scene).reflectance.texture);
+    EXPECT_EQ(scene.textures.at(texture).parameters.flags, NEARLIGHT_TEXTURE_TIMES_COLOR);
+}
+
+TEST_F(GltfLook, UnknownLooksAndFormatsAreNoted) {
+    extension("KHR_materials_iridescence") = {{"iridescenceFactor", 1}};
+    gltf_.root["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+    const Scene scene = load();
+    expect_note(scene, "KHR_materials_iridescence is left out");
+    expect_note(scene, "KHR_texture_basisu is not supported");
+}
+
+}  // namespace
+}  // namespace nearlight::core

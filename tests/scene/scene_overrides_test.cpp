@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/scene_overrides.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "host/image/image_io.h"
+#include "tests/scene/scene_files.h"
+
+namespace nearlight::core {
+namespace {
+
+using testing::HasSubstr;
+using namespace test;
+
+const std::string kScene =
+    "<shape type='rectangle'/><emitter type='constant'><rgb name='radiance' value='1,2,3'/></emitter>"
+    "<sensor type='perspective' id='first'><float name='fov' value='60'/></sensor>"
+    "<sensor type='perspective' id='second'><float name='fov' value='30'/></sensor>";
+
+class Overrides : public testing::Test {
+  protected:
+    [[nodiscard]] Scene load(const SceneOverrides& overrides) const {
+        LoadOptions options;
+        options.overrides = overrides;
+        return files_.load_xml(kScene, options);
+    }
+    void expect_refused(const SceneOverrides& overrides, const std::string& part) const {
+        try {
+            static_cast<void>(load(overrides));
+            ADD_FAILURE() << part;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
+            EXPECT_THAT(error.what(), HasSubstr(part));
+        }
+    }
+    SceneFiles files_;
+};
+
+TEST_F(Overrides, NothingChangesWithoutThem) {
+    const Scene scene = load({});
+    EXPECT_EQ(scene_hash(scene), scene_hash(files_.load_xml(kScene)));
+    EXPECT_FALSE(scene.has_open_exposure);
+}
+
+TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
+    const SceneCamera camera =
+        load({.origin = std::array{0.0, 0.0, 5.0}, .target = std::array{0.0, 0.0, -1.0}, .fov_degrees = 70})
+            .camera;
+    EXPECT_EQ(camera.fov_x_degrees, 70);
+    const Vec3 forward = transform_vector(camera.to_world, {0, 0, 1});
+    EXPECT_NEAR(forward.z, -1, 1e-6f);
+    EXPECT_NEAR(transform_vector(camera.to_world, {0, 1, 0}).y, 1, 1e-6f);
+    const SceneCamera from_above =
+        load({.origin = std::array{0.0, 9.0, 0.0}}).camera;  // at the middle, (0, 0, 0)
+    EXPECT_NEAR(transform_vector(from_above.to_world, {0, 0, 1}).y, -1, 1e-6f);
+    expect_refused({.origin = std::array{1.0, 2.0, 3.0}, .target = std::array{1.0, 2.0, 3.0}},
+                   "the same point");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    expect_refused({.origin = std::array{nan, 2.0, 3.0}}, "finite");
+    expect_refused({.fov_degrees = 180}, "field of view");
+}
+
+TEST_F(Overrides, SensorsByNameAndNumber) {
+    const auto fov_of = [&](const std::string& camera) {
+        LoadOptions options;
+        options.camera = camera;
+        return files_.load_xml(kScene, options).camera.fov_x_degrees;
+    };
+    EXPECT_NEAR(fov_of("second"), 30, 1e-9);
+    EXPECT_NEAR(fov_of("2"), 30, 1e-9);
+    EXPECT_NEAR(fov_of(""), 60, 1e-9);
+    try {
+        fov_of("secand");
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("did you mean 'second'?"));
+    }
+}
+
+TEST_F(Overrides, EnvironmentsAreColoursFilesOrTheSky) {
+    const auto first_pixel = [&](const std::string& name) {
+        return load({.environment = name}).environment.radiance[0];
+    };
+    EXPECT_EQ(first_pixel("1,0.5,0.25"), (Vec3{1, 0.5f, 0.25f}));
+    EXPECT_EQ(first_pixel("2"), (Vec3{2, 2, 2}));
+    EXPECT_NEAR(first_pixel("#ff8000").y, 0.2159f, 1e-3f);
+    write_image(files_.path("sky.exr"), {2, 2, {"R", "G", "B"}, {1, 2, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}});
+    const EnvironmentLight map =
+        load({.environment = files_.path("sky.exr"), .environment_scale = 2}).environment;
+    EXPECT_EQ(map.radiance[0], (Vec3{2, 4, 6}));
+    EXPECT_TRUE(map.is_interpolated);
+    const EnvironmentLight sky = load({.environment = "sky"}).environment;
+    EXPECT_GT(sky.width, 100);
+    EXPECT_GT(sky.radiance[10].z, sky.radiance[10].x);
+    EXPECT_EQ(sky.sun_half_angle, 0.0f);
+    expect_refused({.environment = "1,-1,1"}, "not below 0");
+    const std::filesystem::path text = files_.write("sky.txt", "not a picture");
+    EXPECT_THAT(file_error([&] { static_cast<void>(load({.environment = text})); }), HasSubstr("sky.txt"));
+    EXPECT_THAT(file_error([&] { static_cast<void>(load({.environment = files_.path("none.exr")})); }),
+                HasSubstr("no such file"));
+}
+
+TEST_F(Overrides, EnvironmentsTurnAboutTheVertical) {
+    const Mat4 to_world = load({.environment_rotation = 90}).environment.to_world;
+    EXPECT_NEAR(transform_vector(to_world, {0, 0, 1}).x, 1, 1e-6f);
+}
+
+TEST_F(Overrides, TheSunStandsWhereItIsPut) {
+    const EnvironmentLight own = load({.sun = SunPosition{90, 30}}).environment;
+    EXPECT_EQ(own.radiance[0], (Vec3{1, 2, 3}));
+    EXPECT_NEAR(own.sun_direction.x, std::sqrt(0.75f), 1e-5f);
+    EXPECT_NEAR(own.sun_direction.y, 0.5f, 1e-5f);
+    EXPECT_GT(own.sun_radiance.x, 100.0f);
+    const EnvironmentLight sky = load({.environment = "sky", .sun = SunPosition{90, 30}}).environment;
+    EXPECT_NEAR(sky.sun_direction.x, own.sun_direction.x, 1e-5f);
+    // The sky is brightest around its sun.
+    const auto brightest = std::max_element(sky.radiance.begin(), sky.radiance.end(),
+                                            [](Vec3 a, Vec3 b) { return luminance(a) < luminance(b); });
+    const auto index = static_cast<int>(brightest - sky.radiance.begin());
+    const float phi =
+        2 * kPi * (static_cast<float>(index % sky.width) + 0.5f) / static_cast<float>(sky.width);
+    const Vec3 direction = transform_vector(sky.to_world, {std::sin(phi), 0, -std::cos(phi)});
+    EXPECT_GT(direction.x, 0.95f);
+    expect_refused({.sun = SunPosition{0, -5}}, "elevation");
+}
+
+TEST_F(Overrides, AllLightIsScaled) {
+    EXPECT_EQ(load({.light_scale = 0.5}).environment.radiance[0], (Vec3{0.5f, 1, 1.5f}));
+    expect_refused({.light_scale = -1}, "scale of light");
+}
+
+TEST_F(Overrides, LightOfTheirOwnReplacesTheNeutralSky) {
+    const std::filesystem::path obj = files_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_GT(load_scene(obj).environment.width, 1);
+    LoadOptions options;
+    options.overrides.environment = "0.5";
+    const Scene scene = load_scene(obj, options);
+    EXPECT_EQ(scene.environment.width, 1);
+    EXPECT_TRUE(scene.has_open_exposure);
+    options.camera = "1";
+    EXPECT_THROW(load_scene(obj, options), Error);
+}
+
+}  // namespace
+}  // namespace nearlight::core
