@@ -43,8 +43,10 @@ def main():
     parser.add_argument("--width", type=int)
     arguments = parser.parse_args()
 
-    session = nearlight.Session(arguments.scene)
-    view = session.look(width=arguments.width)
+    scene = nearlight.load(arguments.scene)
+    session = nearlight.Session(scene)
+    width = arguments.width or scene.width
+    view = session.look(width=width, height=max(1, round(width * scene.height / scene.width)))
     cell = arguments.cell or view.range / 40
     vpls = session.sample(view, sampler=arguments.sampler, vpl_count=arguments.vpls)
     positions = vpls.lights()["position"]

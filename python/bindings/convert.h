@@ -48,7 +48,7 @@ struct Convert {
         } else if constexpr (std::floating_point<T>) {
             return static_cast<T>(to_double(name, value));
         } else if constexpr (std::is_enum_v<T>) {
-            return to_member(name, py::type::of<T>(), value).template cast<T>();
+            return to_member(name, py::type::of(py::cast(T{})), value).template cast<T>();
         } else {
             if (!py::isinstance<T>(value)) {
                 fail_type(name, "a " + py::type::of<T>().attr("__name__").template cast<std::string>(),
