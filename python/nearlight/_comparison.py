@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compares samplers on a scene."""
 
+from __future__ import annotations
+
 import dataclasses
 import math
 import statistics
 import time
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from ._core import Policy, SamplerKind, SamplingSettings, diff
+
+if TYPE_CHECKING:
+    from . import GatherSettings, Image, Session, View
 
 _COLUMNS = ("sampler", "vpl_count", "rmse", "±", "relative MSE", "mean ratio", "FLIP", "sample s", "gather s")
 
@@ -27,37 +34,37 @@ class ComparisonRow:
     sample_seconds: float
     gather_seconds: float
 
-    def _cells(self):
+    def _cells(self) -> list[str]:
         name = self.sampler if self.sampler != "close_range" else f"{self.sampler}/{self.policy}"
         errors = (self.rmse, self.rmse_deviation, self.relative_mse, self.mean_ratio, self.flip)
         seconds = (self.sample_seconds, self.gather_seconds)
         return [name, str(self.vpl_count), *(f"{e:.4g}" for e in errors), *(f"{s:.3f}" for s in seconds)]
 
 
-class Comparison(list):
+class Comparison(list[ComparisonRow]):
     """A list of ComparisonRow that prints as a table, and shows itself as one in notebooks."""
 
-    def __str__(self):
+    def __str__(self) -> str:
         lines = [list(_COLUMNS), *(row._cells() for row in self)]
         widths = [max(len(line[i]) for line in lines) for i in range(len(_COLUMNS))]
         return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(line, widths)) for line in lines)
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         head = "".join(f'<th scope="col">{name}</th>' for name in _COLUMNS)
         body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row._cells()) + "</tr>" for row in self)
         return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
 def compare(
-    session,
-    view,
-    reference,
-    samplers=("close_range", "instant_radiosity"),
-    vpl_counts=(1000,),
-    seeds=4,
-    layer="beauty",
-    gather=None,
-):
+    session: Session,
+    view: View,
+    reference: Image,
+    samplers: Iterable[SamplerKind | str | SamplingSettings] = ("close_range", "instant_radiosity"),
+    vpl_counts: Iterable[int] = (1000,),
+    seeds: int = 4,
+    layer: str = "beauty",
+    gather: GatherSettings | None = None,
+) -> Comparison:
     """Renders a view with several samplers, and compares the pictures with a reference of the same size.
 
     session, view: where to render; all samplers share them.
@@ -71,16 +78,26 @@ def compare(
     Returns a Comparison. The program's `nearlight compare` does more: clamped references, equal errors, plots.
     """
     session.gather(view, session.sample(view, vpl_count=100), gather)  # compiles kernels before clocks run
+    counts = list(vpl_counts)
     rows = Comparison()
     for sampler in samplers:
         settings = sampler if isinstance(sampler, SamplingSettings) else SamplingSettings(sampler=sampler)
         session.sample(view, settings)
-        for vpl_count in vpl_counts:
+        for vpl_count in counts:
             rows.append(_measure(session, view, reference, settings, vpl_count, seeds, layer, gather))
     return rows
 
 
-def _measure(session, view, reference, settings, vpl_count, seeds, layer, gather):
+def _measure(
+    session: Session,
+    view: View,
+    reference: Image,
+    settings: SamplingSettings,
+    vpl_count: int,
+    seeds: int,
+    layer: str,
+    gather: GatherSettings | None,
+) -> ComparisonRow:
     differences = []
     sample_seconds = []
     gather_seconds = []

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The exceptions of nearlight."""
 
+from typing import Any
+
 
 class Error(Exception):
     """What the library could not do. The text is one line: what failed, on what, and what to do.
@@ -10,13 +12,13 @@ class Error(Exception):
     exit_code: what the program `nearlight` returns for this kind.
     """
 
-    def __init__(self, message, kind="failure", setting="", exit_code=1):
+    def __init__(self, message: str, kind: str = "failure", setting: str = "", exit_code: int = 1) -> None:
         super().__init__(message)
         self.kind = kind
         self.setting = setting
         self.exit_code = exit_code
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (*self.args, self.kind, self.setting, self.exit_code)
 
 

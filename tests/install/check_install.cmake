@@ -47,7 +47,7 @@ function(expect_text text pattern)
 endfunction()
 
 # What is installed: the face, and nothing that is behind it.
-foreach(component Development Runtime)
+foreach(component Library Development Runtime)
   run("${CMAKE_COMMAND}" --install "${BINARY_DIR}" --prefix "${prefix}" --component ${component})
 endforeach()
 file(GLOB_RECURSE headers RELATIVE "${prefix}/include" "${prefix}/include/*")
@@ -66,6 +66,15 @@ expect_text("${output}" "nearlight::Session::Session")
 if(output MATCHES "nearlight::core::[^\n]*")
   message(FATAL_ERROR "the library shows ${CMAKE_MATCH_0}")
 endif()
+
+# What belongs to the program: pages and completions.
+foreach(file share/man/man1/nearlight-render.1 share/bash-completion/completions/nearlight
+    share/zsh/vendor-completions/_nearlight share/fish/vendor_completions.d/nearlight.fish)
+  file(STRINGS "${prefix}/${file}" options REGEX "clamp")
+  if(NOT options)
+    message(FATAL_ERROR "${file} does not name --clamp-radius")
+  endif()
+endforeach()
 
 # By the CMake package.
 foreach(project examples tests/install/outside)
