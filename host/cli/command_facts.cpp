@@ -23,14 +23,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-/// The choices that the parser writes behind the name of a type, as in "on|off:{on,off}".
+/// The choices that the parser writes behind the name of a type, as in "on|off:{on,off}" or, where words
+/// stand for numbers, "NAME:{fast->0,slow->1} OR {0,1}".
 std::vector<std::string> choices_in(const std::string& type) {
     const std::size_t open = type.find('{');
     const std::size_t close = type.find('}', open);
     if (open == std::string::npos || close == std::string::npos) {
         return {};
     }
-    return split(type.substr(open + 1, close - open - 1), ',');
+    std::vector<std::string> words = split(type.substr(open + 1, close - open - 1), ',');
+    for (std::string& word : words) {
+        word = word.substr(0, word.find("->"));
+    }
+    return words;
 }
 
 std::string without_brackets(const std::string& text) {
@@ -85,6 +90,7 @@ OptionFacts option_facts(const CLI::Option& option) {
             facts.names.push_back("--" + name);
         }
     }
+    facts.is_repeated = option.get_items_expected_max() > 1;
     const bool has_value = facts.is_positional || option.get_items_expected_max() > 0;
     if (has_value) {
         const std::string type = option.get_type_name();

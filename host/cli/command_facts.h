@@ -11,7 +11,7 @@ namespace nearlight::core {
 
 struct OptionFacts {
     std::vector<std::string>
-        names;            ///< with their dashes, short ones first; one without dashes if positional
+        names{};          ///< with their dashes, short ones first; one without dashes if positional
     std::string value{};  ///< what stands for the value, as in "N"; empty for a flag
     std::vector<std::string> choices{};  ///< the values that it takes; empty if they cannot be listed
     std::string description;
@@ -19,6 +19,7 @@ struct OptionFacts {
     std::string group;          ///< the heading above it in --help
     bool is_positional = false;
     bool is_required = false;
+    bool is_repeated = false;  ///< takes several values
     bool takes_file = false;  ///< the value names a file or a folder
 
     [[nodiscard]] bool is_flag() const { return value.empty() && !is_positional; }

@@ -85,10 +85,11 @@ std::string zsh_option(const OptionFacts& option) {
     const std::string action = option.takes_file         ? "_files"
                                : !option.choices.empty() ? "(" + words_of(option.choices) + ")"
                                                          : " ";
+    const std::string stars = option.is_repeated ? "*" : "";
     std::string text;
     for (const std::string& name : option.names) {
         const std::string value = option.is_flag() ? "" : ":" + option.value + ":" + action;
-        text += " \\\n        " + quoted_text(option.is_positional ? "*:" + option.value + ":" + action
+        text += " \\\n        " + quoted_text(option.is_positional ? stars + ":" + option.value + ":" + action
                                                                    : "*" + name + "[" + title + "]" + value,
                                               "'\\''");
     }

@@ -11,14 +11,6 @@
 namespace nearlight {
 namespace {
 
-constexpr std::string_view kBeauty = "beauty";
-
-/// The layer of a channel: "direct" for "direct.R", and the beauty for R, G and B.
-std::string_view layer_part(std::string_view channel) {
-    const std::size_t dot = channel.rfind('.');
-    return dot == std::string_view::npos ? kBeauty : channel.substr(0, dot);
-}
-
 std::string_view channel_part(std::string_view channel) {
     return channel.substr(channel.rfind('.') + 1);
 }
@@ -78,11 +70,19 @@ ColorLayers color_layers_of(const Image& image, const Image& reference, std::str
 
 }  // namespace
 
+std::string_view layer_of(std::string_view channel) {
+    const std::size_t dot = channel.rfind('.');
+    if (dot != std::string_view::npos) {
+        return channel.substr(0, dot);
+    }
+    return channel == "R" || channel == "G" || channel == "B" ? "beauty" : channel;
+}
+
 std::vector<std::string> layer_names(const Image& image) {
     std::vector<std::string> names;
     for (const std::string& channel : image.channels) {
-        if (std::ranges::find(names, layer_part(channel)) == names.end()) {
-            names.emplace_back(layer_part(channel));
+        if (std::ranges::find(names, layer_of(channel)) == names.end()) {
+            names.emplace_back(layer_of(channel));
         }
     }
     return names;
@@ -91,7 +91,7 @@ std::vector<std::string> layer_names(const Image& image) {
 Image layer(const Image& image, std::string_view name) {
     std::vector<std::size_t> selected;
     for (std::size_t i = 0; i < image.channels.size(); ++i) {
-        if (layer_part(image.channels[i]) == name) {
+        if (layer_of(image.channels[i]) == name) {
             selected.push_back(i);
         }
     }

@@ -39,7 +39,11 @@ struct WriteOptions {
     float exposure = 0.0f;
 };
 
-/// The names of the layers of an image, each once; "beauty" stands for R, G and B.
+/// The layer of a channel: "direct" for "direct.R", "beauty" for R, G and B, and for any other channel
+/// without a dot its own name, as "A" for alpha.
+NEARLIGHT_API std::string_view layer_of(std::string_view channel);
+
+/// The names of the layers of an image, each once.
 NEARLIGHT_API std::vector<std::string> layer_names(const Image& image);
 
 /// A copy of one layer with the layer's name removed from its channels: layer(image, "indirect") has the

@@ -34,16 +34,11 @@ py::array view_of(const SharedImage& image, ChannelRun run, bool drops_single) {
     return {py::dtype::of<float>(), shape, strides, image->values.data() + run.first, py::cast(image)};
 }
 
-std::string_view layer_name(std::string_view channel) {
-    const std::size_t dot = channel.rfind('.');
-    return dot == std::string_view::npos ? "beauty" : channel.substr(0, dot);
-}
-
 /// The channels of a layer, if they lie evenly.
 std::optional<ChannelRun> run_of(const Image& image, const std::string& layer) {
     std::vector<py::ssize_t> indices;
     for (std::size_t i = 0; i < image.channels.size(); ++i) {
-        if (layer_name(image.channels[i]) == layer) {
+        if (layer_of(image.channels[i]) == layer) {
             indices.push_back(static_cast<py::ssize_t>(i));
         }
     }

@@ -26,10 +26,15 @@ CommandFacts small_program() {
     CLI::App& part = *app.add_subcommand("part", "A part; it's small");
     static std::string text;
     static bool flag = false;
-    part.add_option("--mode", text, "How: fast (quickly), slow [10%] or none")
+    part.add_option("--mode", text, "How: fast (quickly), slow or none")
         ->type_name("NAME")
         ->default_str("fast");
-    part.add_option("--switch", text, "On or off")->check(CLI::IsMember({"on", "off"}))->type_name("on|off");
+    const std::map<std::string, int> numbers{{"one", 1}, {"two", 2}};
+    static int number = 1;
+    part.add_option("--number", number, "A number")
+        ->transform(CLI::CheckedTransformer(numbers))
+        ->type_name("NAME");
+    part.add_option("--switch", text, "On [or] off")->check(CLI::IsMember({"on", "off"}))->type_name("on|off");
     part.add_option("-o,--output", text, "A file (with a back\\slash)")->type_name("OUT")->required();
     part.add_flag("--flag", flag, ".begins with a dot");
     part.add_option("SCENE", text, "A scene")->required();
@@ -48,6 +53,7 @@ TEST(CommandFacts, AreThoseOfTheParser) {
     }
     EXPECT_THAT(options["--mode"].choices, ElementsAre("fast", "slow", "none"));
     EXPECT_EQ(options["--mode"].default_value, "fast");
+    EXPECT_THAT(options["--number"].choices, ElementsAre("one", "two"));
     EXPECT_THAT(options["--switch"].choices, ElementsAre("on", "off"));
     EXPECT_EQ(options["--switch"].value, "on|off");
     EXPECT_THAT(options["--output"].names, ElementsAre("-o", "--output"));

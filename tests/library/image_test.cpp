@@ -38,6 +38,13 @@ TEST(Layers, AreNamedInTheOrderOfTheirChannels) {
     EXPECT_THAT(layer_names(two_pixels()), ElementsAre("beauty", "depth"));
 }
 
+TEST(Layers, AlphaIsNoPartOfTheBeauty) {
+    const Image image{.width = 1, .height = 1, .channels = {"R", "G", "B", "A"}, .values = {1, 2, 3, 0.5f}};
+    EXPECT_THAT(layer_names(image), ElementsAre("beauty", "A"));
+    EXPECT_THAT(layer(image, "beauty").values, ElementsAre(1, 2, 3));
+    EXPECT_THAT(layer(image, "A").values, ElementsAre(0.5f));
+}
+
 TEST(Layers, AreCopiedWithoutTheirName) {
     const Image beauty = layer(two_pixels(), "beauty");
     EXPECT_THAT(beauty.channels, ElementsAre("R", "G", "B"));

@@ -19,4 +19,4 @@ def test_pictures_are_png(picture, tmp_path):
 def test_images_without_colours_show_their_text():
     image = nearlight.Image(np.zeros((2, 3)))
     assert image._repr_png_() is None
-    assert repr(image) == "<nearlight.Image 3x2: beauty>"
+    assert repr(image) == "<nearlight.Image 3x2: Y>"
