@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` installs. The component Development is the library with its headers, its CMake package and its
-# pkg-config file. The component Runtime is the program, which does not need the library.
+# What `cmake --install` installs. The component Library is the shared library, and the modules that both it and the
+# program load: images, and Draco where it is found. Development is the library's headers, CMake package and pkg-config
+# file. Runtime is the program, which needs the modules only.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/nearlight")
 
 install(TARGETS nearlight_library EXPORT nearlight-targets
-  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Development)
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Library NAMELINK_COMPONENT Development)
+install(TARGETS ${NEARLIGHT_MODULES} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Library)
 install(EXPORT nearlight-targets NAMESPACE nearlight:: DESTINATION "${package_dir}" COMPONENT Development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/nearlight" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   COMPONENT Development FILES_MATCHING PATTERN "*.h")
@@ -25,13 +27,17 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/nearlight.pc.in" "${PROJECT_BINARY_D
 install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
   COMPONENT Development)
 
-# Both the program and the library load the modules.
-set(modules nearlight_images)
-if(TARGET nearlight_draco)
-  list(APPEND modules nearlight_draco)
-endif()
-foreach(component Development Runtime)
-  install(TARGETS ${modules} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
-endforeach()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
+
+if(NOT CMAKE_CROSSCOMPILING)
+  install(DIRECTORY "${NEARLIGHT_DOCUMENT_DIR}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT Runtime)
+  install(FILES "${NEARLIGHT_DOCUMENT_DIR}/nearlight.bash" RENAME nearlight
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT Runtime)
+  install(FILES "${NEARLIGHT_DOCUMENT_DIR}/_nearlight"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT Runtime)
+  install(FILES "${NEARLIGHT_DOCUMENT_DIR}/nearlight.fish"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT Runtime)
+endif()
+
+include(Package)

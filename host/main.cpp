@@ -11,6 +11,7 @@
 #include "host/cli/compare_command.h"
 #include "host/cli/devices_command.h"
 #include "host/cli/diff_command.h"
+#include "host/cli/document_command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/info_command.h"
 #include "host/cli/reference_command.h"
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
         nearlight::core::add_devices_command(line);
         nearlight::core::add_info_command(line);
         nearlight::core::add_tune_command(line);
+        nearlight::core::add_document_command(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
         return fail(nearlight::core::with_advice(error).c_str(), nearlight::core::exit_code(error.kind()));

@@ -32,7 +32,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* command : app.get_subcommands(is_listed)) {
         names.push_back(command->get_name());
     }
     return names;
@@ -113,7 +113,7 @@ Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
 
 std::string short_usage(const CLI::App& app) {
     std::string text = "usage: nearlight COMMAND ...\n\n";
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* command : app.get_subcommands(is_listed)) {
         std::string name = command->get_name();
         name.resize(12, ' ');
         text += "  " + name + command->get_description() + "\n";

@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 
+#include "host/cli/command_facts.h"
 #include "host/cli/exit_code.h"
 #include "nearlight/settings.h"
 
@@ -41,6 +42,8 @@ class CommandLine {
     /// Parses the line and runs its command. Throws Error(ErrorKind::invalid_argument) with a hint if the
     /// line is wrong, and what the command throws.
     ExitCode run(int argc, const char* const* argv);
+    /// All commands and options that --help lists.
+    [[nodiscard]] CommandFacts facts() const { return command_facts(app_); }
 
   private:
     CLI::App app_;

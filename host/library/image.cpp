@@ -5,18 +5,11 @@
 #include <utility>
 
 #include "host/image/image_io.h"
+#include "host/image/metrics.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
 namespace {
-
-constexpr std::string_view kBeauty = "beauty";
-
-/// The layer of a channel: "direct" for "direct.R", and the beauty for R, G and B.
-std::string_view layer_part(std::string_view channel) {
-    const std::size_t dot = channel.rfind('.');
-    return dot == std::string_view::npos ? kBeauty : channel.substr(0, dot);
-}
 
 std::string_view channel_part(std::string_view channel) {
     return channel.substr(channel.rfind('.') + 1);
@@ -56,13 +49,53 @@ Image select_channels(const Image& image, const std::vector<std::size_t>& select
     return result;
 }
 
+/// One layer of a picture, for the metrics. They blame files for what is missing, callers of the library have
+/// none.
+core::Image color_layer(const Image& image, std::string_view name, const char* which) {
+    if (image.channels.empty() || image.values.size() != value_count(image)) {
+        throw Error(ErrorKind::invalid_argument,
+                    std::string("the ") + which + " has " + std::to_string(image.values.size()) +
+                        " values, which is not its width times its height times its channels");
+    }
+    Image chosen = layer(image, name);
+    core::Image result{chosen.width, chosen.height, std::move(chosen.channels), std::move(chosen.values)};
+    if (!core::has_color_layer(result, "")) {
+        throw Error(ErrorKind::invalid_argument,
+                    "the layer '" + std::string(name) + "' of the " + which + " has no channels R, G and B");
+    }
+    return result;
+}
+
+struct ColorLayers {
+    core::Image image;
+    core::Image reference;
+};
+
+ColorLayers color_layers_of(const Image& image, const Image& reference, std::string_view name) {
+    if (image.width != reference.width || image.height != reference.height) {
+        throw Error(ErrorKind::invalid_argument,
+                    "pictures of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                        " and " + std::to_string(reference.width) + "x" + std::to_string(reference.height) +
+                        " pixels cannot be compared");
+    }
+    return {color_layer(image, name, "picture"), color_layer(reference, name, "reference")};
+}
+
 }  // namespace
+
+std::string_view layer_of(std::string_view channel) {
+    const std::size_t dot = channel.rfind('.');
+    if (dot != std::string_view::npos) {
+        return channel.substr(0, dot);
+    }
+    return channel == "R" || channel == "G" || channel == "B" ? "beauty" : channel;
+}
 
 std::vector<std::string> layer_names(const Image& image) {
     std::vector<std::string> names;
     for (const std::string& channel : image.channels) {
-        if (std::ranges::find(names, layer_part(channel)) == names.end()) {
-            names.emplace_back(layer_part(channel));
+        if (std::ranges::find(names, layer_of(channel)) == names.end()) {
+            names.emplace_back(layer_of(channel));
         }
     }
     return names;
@@ -71,7 +104,7 @@ std::vector<std::string> layer_names(const Image& image) {
 Image layer(const Image& image, std::string_view name) {
     std::vector<std::size_t> selected;
     for (std::size_t i = 0; i < image.channels.size(); ++i) {
-        if (layer_part(image.channels[i]) == name) {
+        if (layer_of(image.channels[i]) == name) {
             selected.push_back(i);
         }
     }
@@ -118,6 +151,25 @@ Image read_image(const std::filesystem::path& file) {
             .height = image.height,
             .channels = std::move(image.channels),
             .values = std::move(image.values)};
+}
+
+Difference diff(const Image& image, const Image& reference, std::string_view layer) {
+    const ColorLayers layers = color_layers_of(image, reference, layer);
+    const core::ImageDifference difference = core::compare_images(layers.image, layers.reference);
+    return {.rmse = difference.rmse,
+            .relative_mse = difference.relative_mse,
+            .mean_ratio = difference.mean_ratio,
+            .flip = difference.flip,
+            .non_finite = difference.non_finite};
+}
+
+Image diff_map(const Image& image, const Image& reference, std::string_view layer) {
+    const ColorLayers layers = color_layers_of(image, reference, layer);
+    core::Image map = core::flip_map(layers.image, layers.reference);
+    return {.width = map.width,
+            .height = map.height,
+            .channels = std::move(map.channels),
+            .values = std::move(map.values)};
 }
 
 }  // namespace nearlight

@@ -47,7 +47,7 @@ function(expect_text text pattern)
 endfunction()
 
 # What is installed: the face, and nothing that is behind it.
-foreach(component Development Runtime)
+foreach(component Library Development Runtime)
   run("${CMAKE_COMMAND}" --install "${BINARY_DIR}" --prefix "${prefix}" --component ${component})
 endforeach()
 file(GLOB_RECURSE headers RELATIVE "${prefix}/include" "${prefix}/include/*")
@@ -67,6 +67,15 @@ if(output MATCHES "nearlight::core::[^\n]*")
   message(FATAL_ERROR "the library shows ${CMAKE_MATCH_0}")
 endif()
 
+# What belongs to the program: pages and completions.
+foreach(file share/man/man1/nearlight-render.1 share/bash-completion/completions/nearlight
+    share/zsh/vendor-completions/_nearlight share/fish/vendor_completions.d/nearlight.fish)
+  file(STRINGS "${prefix}/${file}" options REGEX "clamp")
+  if(NOT options)
+    message(FATAL_ERROR "${file} does not name --clamp-radius")
+  endif()
+endforeach()
+
 # By the CMake package.
 foreach(project examples tests/install/outside)
   cmake_path(GET project FILENAME name)
@@ -75,15 +84,19 @@ foreach(project examples tests/install/outside)
   run("${CMAKE_COMMAND}" --build "${WORK_DIR}/${name}")
 endforeach()
 
-# The program makes the same picture of the same settings, bit for bit.
+# The program makes the same picture of the same settings, bit for bit. Its files also say how they were made.
+function(expect_same_picture a b)
+  run("${prefix}/bin/nearlight" diff "${a}" "${b}" --json)
+  expect_text("${output}" "\"rmse\": 0\\.0,")
+endfunction()
 run("${WORK_DIR}/examples/render_to_png" "${cornell_box}" "${WORK_DIR}/library.png")
 expect_text("${output}" "^256x256 pixels of cornell-box by [0-9]+ VPLs on .+\n$")
 run("${prefix}/bin/nearlight" render "${cornell_box}" -o "${WORK_DIR}/program.png"
     --size 256x256 --vpls 500 --exposure 0.5)
-run("${CMAKE_COMMAND}" -E compare_files "${WORK_DIR}/library.png" "${WORK_DIR}/program.png")
+expect_same_picture("${WORK_DIR}/library.png" "${WORK_DIR}/program.png")
 run("${WORK_DIR}/outside/outside" "${cornell_box}" "${WORK_DIR}/outside.png")
 run("${prefix}/bin/nearlight" render "${cornell_box}" -o "${WORK_DIR}/small.png" --size 64x64 --vpls 200)
-run("${CMAKE_COMMAND}" -E compare_files "${WORK_DIR}/outside.png" "${WORK_DIR}/small.png")
+expect_same_picture("${WORK_DIR}/outside.png" "${WORK_DIR}/small.png")
 
 # Under the light: I/d² = 1. Aside: I·cosθ/d² = 0.8/1.25². Just above the floor, looking down: its radiosity, 1/2.
 file(WRITE "${WORK_DIR}/points.txt" "0 0 0  0 0 1\n0.75 0 0  0 0 1\n0 0 0.01  0 0 -1\n")

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# Debian packages, by `cpack` in the build folder: nearlight (the program), libnearlight (the shared library and the image
+# module) and libnearlight-dev (headers).
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME nearlight)
+set(CPACK_PACKAGE_VENDOR nearlight)
+set(CPACK_PACKAGE_CONTACT "The nearlight authors <nearlight@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL Runtime Library Development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+
+set(version "${PROJECT_VERSION}")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nearlight)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+# Without a driver the program can do little more than say so.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libnearlight (= ${version})")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Renderer of global illumination with virtual point lights
+ on any OpenCL device, with its path-traced reference and its test bench.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libnearlight)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Shared library of nearlight
+ A scene on OpenCL devices: pictures, virtual point lights and irradiance.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libnearlight-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libnearlight (= ${version})")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers of libnearlight
+ The headers, the CMake package and the pkg-config file.")
+include(CPack)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/command_facts.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace nearlight::core {
+namespace {
+
+/// The words that stand for files and folders in --help.
+constexpr std::array<std::string_view, 7> kFileValues{"OUT", "MAP", "FILE", "DIR", "SCENE", "A", "B"};
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+/// The choices that the parser writes behind the name of a type, as in "on|off:{on,off}" or, where words
+/// stand for numbers, "NAME:{fast->0,slow->1} OR {0,1}".
+std::vector<std::string> choices_in(const std::string& type) {
+    const std::size_t open = type.find('{');
+    const std::size_t close = type.find('}', open);
+    if (open == std::string::npos || close == std::string::npos) {
+        return {};
+    }
+    std::vector<std::string> words = split(type.substr(open + 1, close - open - 1), ',');
+    for (std::string& word : words) {
+        word = word.substr(0, word.find("->"));
+    }
+    return words;
+}
+
+std::string without_brackets(const std::string& text) {
+    std::string plain;
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '(' ? 1 : 0;
+        if (depth == 0) {
+            plain += c;
+        }
+        depth -= c == ')' ? 1 : 0;
+    }
+    return plain;
+}
+
+/// The choices of an option whose description lists them behind a colon, as in "Gather kernel: packets (for
+/// CPUs), rays (for GPUs) or auto". The parser does not know them, because the error for other words names
+/// them.
+std::vector<std::string> choices_named(const std::string& type, const std::string& description) {
+    const std::size_t colon = description.find(": ");
+    if (type.substr(0, type.find(':')) != "NAME" || colon == std::string::npos) {
+        return {};
+    }
+    std::string list = without_brackets(description.substr(colon + 2));
+    if (const std::size_t last = list.find(" or "); last != std::string::npos) {
+        list.replace(last, 4, ", ");
+    }
+    std::vector<std::string> words = split(list, ',');
+    for (std::string& word : words) {
+        const std::size_t first = word.find_first_not_of(' ');
+        word = first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(' ') - first + 1);
+        if (word.empty() || word.find(' ') != std::string::npos) {
+            return {};
+        }
+    }
+    return words;
+}
+
+OptionFacts option_facts(const CLI::Option& option) {
+    OptionFacts facts{.description = option.get_description(),
+                      .default_value = option.get_default_str(),
+                      .group = option.get_group(),
+                      .is_positional = option.get_positional(),
+                      .is_required = option.get_required()};
+    if (facts.is_positional) {
+        facts.names.push_back(option.get_name(true, false));
+    } else {
+        for (const std::string& name : option.get_snames()) {
+            facts.names.push_back("-" + name);
+        }
+        for (const std::string& name : option.get_lnames()) {
+            facts.names.push_back("--" + name);
+        }
+    }
+    facts.is_repeated = option.get_items_expected_max() > 1;
+    const bool has_value = facts.is_positional || option.get_items_expected_max() > 0;
+    if (has_value) {
+        const std::string type = option.get_type_name();
+        facts.choices = choices_in(type);
+        if (facts.choices.empty()) {
+            facts.choices = choices_named(type, facts.description);
+        }
+        facts.value = facts.is_positional ? facts.names.front() : type.substr(0, type.find(':'));
+        facts.takes_file = std::ranges::find(kFileValues, facts.value) != kFileValues.end();
+    }
+    return facts;
+}
+
+CommandFacts facts_below(const CLI::App& command, const std::string& parents) {
+    CommandFacts facts{.name = command.get_name(),
+                       .full_name = parents + command.get_name(),
+                       .description = command.get_description()};
+    for (const CLI::Option* option : command.get_options()) {
+        if (!option->get_group().empty()) {
+            facts.options.push_back(option_facts(*option));
+        }
+    }
+    for (const CLI::App* part : command.get_subcommands(is_listed)) {
+        facts.parts.push_back(facts_below(*part, facts.full_name + " "));
+    }
+    return facts;
+}
+
+}  // namespace
+
+CommandFacts command_facts(const CLI::App& command) {
+    return facts_below(command, "");
+}
+
+}  // namespace nearlight::core

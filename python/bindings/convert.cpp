@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/bindings/convert.h"
+
+namespace nearlight::python {
+namespace {
+
+bool is_boolean(py::handle value) {
+    return PyBool_Check(value.ptr()) != 0 ||
+           std::string(Py_TYPE(value.ptr())->tp_name).starts_with("numpy.bool");
+}
+
+bool is_text(py::handle value) {
+    return PyUnicode_Check(value.ptr()) != 0 || PyBytes_Check(value.ptr()) != 0;
+}
+
+py::list members_of(py::handle type) {
+    return py::list(type.attr("__members__"));
+}
+
+}  // namespace
+
+std::string shown(py::handle object) {
+    return py::repr(object).cast<std::string>();
+}
+
+void fail_type(const char* name, const std::string& wanted, py::handle value) {
+    throw py::type_error(name + (" must be " + wanted + ", not " + shown(value)));
+}
+
+bool to_bool(const char* name, py::handle value) {
+    if (!is_boolean(value)) {
+        fail_type(name, "True or False", value);
+    }
+    return PyObject_IsTrue(value.ptr()) == 1;
+}
+
+std::int64_t to_integer(const char* name, py::handle value, std::int64_t min, std::int64_t max) {
+    if (is_boolean(value) || PyIndex_Check(value.ptr()) == 0) {
+        fail_type(name, "a whole number", value);
+    }
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!index) {
+        throw py::error_already_set();
+    }
+    int overflow = 0;
+    const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+    if (overflow != 0 || number < min || number > max) {
+        throw Error(ErrorKind::invalid_argument,
+                    name + (" is " + shown(index)) + "; it must be from " + std::to_string(min) + " to " +
+                        std::to_string(max),
+                    name);
+    }
+    return number;
+}
+
+double to_double(const char* name, py::handle value) {
+    const bool is_number =
+        PyFloat_Check(value.ptr()) != 0 || PyIndex_Check(value.ptr()) != 0 || py::hasattr(value, "__float__");
+    if (is_boolean(value) || is_text(value) || !is_number) {
+        fail_type(name, "a number", value);
+    }
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (number == -1.0 && PyErr_Occurred() != nullptr) {
+        throw py::error_already_set();
+    }
+    return number;
+}
+
+Vec3 to_vector(const char* name, py::handle value) {
+    if (is_text(value) || PySequence_Check(value.ptr()) == 0 || py::len(value) != 3) {
+        fail_type(name, "three numbers", value);
+    }
+    const auto component = [&](int i) { return static_cast<float>(to_double(name, value[py::int_(i)])); };
+    return {component(0), component(1), component(2)};
+}
+
+std::filesystem::path to_path(py::handle value) {
+    PyObject* bytes = nullptr;
+    if (PyUnicode_FSConverter(value.ptr(), &bytes) == 0) {
+        throw py::error_already_set();
+    }
+    return {py::reinterpret_steal<py::bytes>(bytes).cast<std::string>()};
+}
+
+py::object to_member(const char* name, py::handle type, py::handle value) {
+    if (py::isinstance(value, type)) {
+        return py::reinterpret_borrow<py::object>(value);
+    }
+    std::string names;
+    for (const py::handle member : members_of(type)) {
+        names += (names.empty() ? "" : ", ") + member.cast<std::string>();
+    }
+    if (PyUnicode_Check(value.ptr()) == 0) {
+        fail_type(name, "one of " + names, value);
+    }
+    const py::object members = type.attr("__members__");
+    if (!members.contains(value)) {
+        throw Error(ErrorKind::invalid_argument,
+                    std::string("unknown ") + name + " " + shown(value) + "; choose one of: " + names, name);
+    }
+    return members[value];
+}
+
+std::vector<std::uint32_t> Convert<std::vector<std::uint32_t>>::from(const char* name, py::handle value) {
+    if (is_text(value) || PySequence_Check(value.ptr()) == 0) {
+        fail_type(name, "a sequence of whole numbers", value);
+    }
+    std::vector<std::uint32_t> numbers;
+    for (const py::handle item : value) {
+        numbers.push_back(Convert<std::uint32_t>::from(name, item));
+    }
+    return numbers;
+}
+
+std::map<std::string, std::string> Convert<std::map<std::string, std::string>>::from(const char* name,
+                                                                                     py::handle value) {
+    if (!py::isinstance<py::dict>(value)) {
+        fail_type(name, "a dict of names and values", value);
+    }
+    std::map<std::string, std::string> result;
+    for (const auto& [key, text] : value.cast<py::dict>()) {
+        result[py::str(key).cast<std::string>()] = py::str(text).cast<std::string>();
+    }
+    return result;
+}
+
+}  // namespace nearlight::python

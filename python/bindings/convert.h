@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of settings from Python objects, with errors that name the setting, what is wrong and what it takes.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nearlight/nearlight.h"
+
+namespace nearlight::python {
+
+namespace py = pybind11;
+
+/// shown() of an object, for messages.
+std::string shown(py::handle object);
+/// Throws Python's TypeError: "NAME must be WANTED, not VALUE".
+/// (In all these functions `name` is a string literal, because Error::setting() refers to it.)
+[[noreturn]] void fail_type(const char* name, const std::string& wanted, py::handle value);
+
+bool to_bool(const char* name, py::handle value);
+/// Takes whole numbers of any Python or NumPy type in [min, max]; others throw
+/// Error(ErrorKind::invalid_argument).
+std::int64_t to_integer(const char* name, py::handle value, std::int64_t min, std::int64_t max);
+double to_double(const char* name, py::handle value);
+Vec3 to_vector(const char* name, py::handle value);
+/// Takes str, bytes or os.PathLike, as Python's own functions do.
+std::filesystem::path to_path(py::handle value);
+/// Takes a member of the enumeration `type` or the name of one.
+py::object to_member(const char* name, py::handle type, py::handle value);
+
+/// Converts a value of a setting; one specialisation a type.
+template <typename T>
+struct Convert {
+    static T from(const char* name, py::handle value) {
+        if constexpr (std::same_as<T, bool>) {
+            return to_bool(name, value);
+        } else if constexpr (std::integral<T>) {
+            return static_cast<T>(
+                to_integer(name, value, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+        } else if constexpr (std::floating_point<T>) {
+            return static_cast<T>(to_double(name, value));
+        } else if constexpr (std::is_enum_v<T>) {
+            return to_member(name, py::type::of(py::cast(T{})), value).template cast<T>();
+        } else {
+            if (!py::isinstance<T>(value)) {
+                fail_type(name, "a " + py::type::of<T>().attr("__name__").template cast<std::string>(),
+                          value);
+            }
+            return value.cast<T>();
+        }
+    }
+};
+
+template <>
+struct Convert<Vec3> {
+    static Vec3 from(const char* name, py::handle value) { return to_vector(name, value); }
+};
+
+template <typename T>
+struct Convert<std::optional<T>> {
+    static std::optional<T> from(const char* name, py::handle value) {
+        return value.is_none() ? std::nullopt : std::optional<T>(Convert<T>::from(name, value));
+    }
+};
+
+template <>
+struct Convert<std::vector<std::uint32_t>> {
+    static std::vector<std::uint32_t> from(const char* name, py::handle value);
+};
+
+template <>
+struct Convert<std::map<std::string, std::string>> {
+    static std::map<std::string, std::string> from(const char* name, py::handle value);
+};
+template <>
+struct Convert<std::filesystem::path> {
+    static std::filesystem::path from(const char*, py::handle value) { return to_path(value); }
+};
+
+/// The seed that functions take beside their settings.
+inline std::uint32_t to_seed(py::handle value) {
+    return Convert<std::uint32_t>::from("seed", value);
+}
+
+/// A value of a setting for Python.
+template <typename T>
+py::object to_python(const T& value) {
+    return py::cast(value);
+}
+inline py::object to_python(Vec3 value) {
+    return py::make_tuple(value.x, value.y, value.z);
+}
+template <typename T>
+py::object to_python(const std::optional<T>& value) {
+    return value ? to_python(*value) : py::none();
+}
+inline py::object to_python(const std::vector<std::uint32_t>& values) {
+    py::list list;
+    for (const std::uint32_t value : values) {
+        list.append(value);
+    }
+    return list;
+}
+
+inline py::object to_python(const std::map<std::string, std::string>& values) {
+    py::dict dict;
+    for (const auto& [name, value] : values) {
+        dict[py::str(name)] = value;
+    }
+    return dict;
+}
+inline py::object to_python(const std::filesystem::path& path) {
+    return py::str(path.string());
+}
+
+}  // namespace nearlight::python
