@@ -96,6 +96,10 @@ void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {
                     "normals");
     }
     for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (!std::isfinite(points[i].x + points[i].y + points[i].z)) {
+            throw Error(ErrorKind::invalid_argument,
+                        "point " + std::to_string(i) + " has a number that is not finite", "points");
+        }
         if (!is_unit(normals[i])) {
             throw Error(ErrorKind::invalid_argument,
                         "normal " + std::to_string(i) + " does not have length 1; normalise it", "normals");

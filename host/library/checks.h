@@ -15,8 +15,8 @@ void check(const GatherSettings& settings);
 void check(const IrradianceSettings& settings);
 void check(const RenderSettings& settings);
 
-/// Throws Error(ErrorKind::invalid_argument) unless there are as many normals as points and all have length
-/// 1.
+/// Throws Error(ErrorKind::invalid_argument) unless there are as many normals as points, points are finite
+/// and normals have length 1.
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals);
 
 }  // namespace nearlight

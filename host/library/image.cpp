@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/image/image_io.h"
+#include "host/image/metrics.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
@@ -41,6 +42,38 @@ Image select_channels(const Image& image, const std::vector<std::size_t>& select
         }
     }
     return result;
+}
+
+/// One layer of a picture, for the metrics. They blame files for what is missing, callers of the library have
+/// none.
+core::Image color_layer(const Image& image, std::string_view name, const char* which) {
+    if (image.channels.empty() || image.values.size() != value_count(image)) {
+        throw Error(ErrorKind::invalid_argument,
+                    std::string("the ") + which + " has " + std::to_string(image.values.size()) +
+                        " values, which is not its width times its height times its channels");
+    }
+    Image chosen = layer(image, name);
+    core::Image result{chosen.width, chosen.height, std::move(chosen.channels), std::move(chosen.values)};
+    if (!core::has_color_layer(result, "")) {
+        throw Error(ErrorKind::invalid_argument,
+                    "the layer '" + std::string(name) + "' of the " + which + " has no channels R, G and B");
+    }
+    return result;
+}
+
+struct ColorLayers {
+    core::Image image;
+    core::Image reference;
+};
+
+ColorLayers color_layers_of(const Image& image, const Image& reference, std::string_view name) {
+    if (image.width != reference.width || image.height != reference.height) {
+        throw Error(ErrorKind::invalid_argument,
+                    "pictures of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                        " and " + std::to_string(reference.width) + "x" + std::to_string(reference.height) +
+                        " pixels cannot be compared");
+    }
+    return {color_layer(image, name, "picture"), color_layer(reference, name, "reference")};
 }
 
 }  // namespace
@@ -92,6 +125,25 @@ Image read_image(const std::filesystem::path& file) {
             .height = image.height,
             .channels = std::move(image.channels),
             .values = std::move(image.values)};
+}
+
+Difference diff(const Image& image, const Image& reference, std::string_view layer) {
+    const ColorLayers layers = color_layers_of(image, reference, layer);
+    const core::ImageDifference difference = core::compare_images(layers.image, layers.reference);
+    return {.rmse = difference.rmse,
+            .relative_mse = difference.relative_mse,
+            .mean_ratio = difference.mean_ratio,
+            .flip = difference.flip,
+            .non_finite = difference.non_finite};
+}
+
+Image diff_map(const Image& image, const Image& reference, std::string_view layer) {
+    const ColorLayers layers = color_layers_of(image, reference, layer);
+    core::Image map = core::flip_map(layers.image, layers.reference);
+    return {.width = map.width,
+            .height = map.height,
+            .channels = std::move(map.channels),
+            .values = std::move(map.values)};
 }
 
 }  // namespace nearlight

@@ -5,6 +5,7 @@
 
 #include "host/base/message.h"
 #include "host/library/states.h"
+#include "host/scene/camera.h"
 #include "host/scene/scene_loader.h"
 
 namespace nearlight {
@@ -50,6 +51,10 @@ int Scene::width() const {
 
 int Scene::height() const {
     return state_->scene.camera.height;
+}
+
+CameraPose Scene::camera() const {
+    return core::pose_of(state_->scene.camera);
 }
 
 std::uint64_t Scene::hash() const {

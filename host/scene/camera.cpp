@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/camera.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -37,7 +38,84 @@ void set_filter(const SceneCamera& from, Camera& to) {
     }
 }
 
+std::array<double, 3> column(const Mat4& m, int index) {
+    return {m(0, index), m(1, index), m(2, index)};
+}
+
+double norm(std::array<double, 3> v) {
+    return std::hypot(v[0], v[1], v[2]);
+}
+
+[[noreturn]] void refuse_pose(const std::string& reason) {
+    throw Error(ErrorKind::invalid_argument, "the camera cannot be placed: " + reason, "camera");
+}
+
+void refuse_not_finite(std::array<double, 3> v, const char* what) {
+    if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2])) {
+        refuse_pose(std::string("its ") + what + " has a number that is not finite");
+    }
+}
+
+std::array<double, 3> doubles(nearlight::Vec3 v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
 }  // namespace
+
+CameraPose pose_of(const SceneCamera& camera) {
+    const auto vector = [](std::array<double, 3> v) {
+        return nearlight::Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    };
+    const auto unit = [](std::array<double, 3> v) {
+        const double length = norm(v);
+        return std::array<double, 3>{v[0] / length, v[1] / length, v[2] / length};
+    };
+    const std::array<double, 3> origin = column(camera.to_world, 3);
+    const std::array<double, 3> forward = unit(column(camera.to_world, 2));
+    CameraPose pose{
+        .origin = vector(origin),
+        .target = vector({origin[0] + forward[0], origin[1] + forward[1], origin[2] + forward[2]}),
+        .up = vector(unit(column(camera.to_world, 1)))};
+    if (camera.kind == CameraKind::perspective) {
+        pose.fov_x_degrees = camera.fov_x_degrees;
+    }
+    return pose;
+}
+
+SceneCamera posed(SceneCamera camera, const CameraPose& pose) {
+    const std::array<double, 3> origin = doubles(pose.origin);
+    const std::array<double, 3> target = doubles(pose.target);
+    const std::array<double, 3> up = pose.up ? doubles(*pose.up) : column(camera.to_world, 1);
+    refuse_not_finite(origin, "origin");
+    refuse_not_finite(target, "target");
+    refuse_not_finite(up, "vector `up`");
+    const Mat4 frame = look_at(origin, target, up);
+    if (!(norm(column(frame, 2)) > 0.5)) {
+        refuse_pose("its target is its origin");
+    }
+    if (!(norm(column(frame, 0)) > 0.5)) {
+        refuse_pose("it looks along its vector `up`; give another one");
+    }
+    const bool loses_scale = pose.fov_x_degrees && camera.kind == CameraKind::orthographic;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double scale = loses_scale ? 1.0 : norm(column(camera.to_world, axis));
+        for (int row = 0; row < 3; ++row) {
+            camera.to_world(row, axis) = frame(row, axis) * scale;
+        }
+    }
+    for (int row = 0; row < 3; ++row) {
+        camera.to_world(row, 3) = frame(row, 3);
+    }
+    if (pose.fov_x_degrees) {
+        if (!(*pose.fov_x_degrees > 0.0 && *pose.fov_x_degrees < 180.0)) {
+            refuse_pose("its field of view is " + std::to_string(*pose.fov_x_degrees) +
+                        " degrees; it must be between 0 and 180");
+        }
+        camera.kind = CameraKind::perspective;
+        camera.fov_x_degrees = *pose.fov_x_degrees;
+    }
+    return camera;
+}
 
 PictureWindow picture_window(const SceneCamera& camera, int width, int height) {
     const double film_width = camera.kind == CameraKind::orthographic

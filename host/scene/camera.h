@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/scene/scene.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -24,6 +25,13 @@ PictureWindow picture_window(const SceneCamera& camera, int width, int height);
 /// any aspect, and pixels are square. Throws Error(ErrorKind::invalid_argument) for a picture without pixels
 /// or a field of view that is not between 0 and 180 degrees.
 Camera make_camera(const SceneCamera& camera, int width, int height);
+
+/// Where the camera stands and looks: a target at the distance 1, and a field of view if it is perspective.
+CameraPose pose_of(const SceneCamera& camera);
+/// Moves the camera and keeps the rest: film, lens and clips, and the scale of an orthographic one. Throws
+/// Error(ErrorKind::invalid_argument) if a number is not finite, if the target lies at the origin or in the
+/// direction of `up` from there, or if the field of view is not between 0 and 180 degrees.
+SceneCamera posed(SceneCamera camera, const CameraPose& pose);
 
 /// The ray through the centre of a pixel, and of the lens; the direction has unit length.
 RayQuery pixel_ray(const Camera& camera, uint x, uint y);

@@ -30,7 +30,7 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
                  const ViewSettings& settings, uint seed) {
     View view;
     view.seed = seed;
-    view.scene_camera = scene.camera;
+    view.scene_camera = settings.camera ? posed(scene.camera, *settings.camera) : scene.camera;
     view.scene_camera.width = settings.width.value_or(scene.camera.width);
     view.scene_camera.height = settings.height.value_or(scene.camera.height);
     view.camera = make_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);

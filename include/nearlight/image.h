@@ -59,4 +59,21 @@ NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& i
 /// reason, ErrorKind::failure if the library's image module is missing. May be called from several threads.
 NEARLIGHT_API Image read_image(const std::filesystem::path& file);
 
+/// How much a picture differs from a reference, over all pixels that are finite in both.
+struct Difference {
+    double rmse = 0;             ///< root of the mean square over pixels and R, G, B
+    double relative_mse = 0;     ///< mean of (a − b)² / (b² + 0.01), b the reference
+    double mean_ratio = 0;       ///< mean luminance of the picture divided by that of the reference
+    double flip = 0;             ///< mean FLIP of the tone-mapped pictures, 0 (equal) to 1
+    std::size_t non_finite = 0;  ///< pixels with NaN or infinity in either picture
+};
+
+/// Compares one layer of a picture with that of a reference of the same size. The layer must have the
+/// channels R, G and B. Throws Error: ErrorKind::invalid_argument if the sizes differ or the layer is
+/// missing.
+NEARLIGHT_API Difference diff(const Image& image, const Image& reference, std::string_view layer = "beauty");
+
+/// The FLIP error of each pixel as a picture, from dark (equal) to bright. Takes and throws what diff() does.
+NEARLIGHT_API Image diff_map(const Image& image, const Image& reference, std::string_view layer = "beauty");
+
 }  // namespace nearlight

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nearlight/export.h"
+#include "nearlight/settings.h"
 #include "nearlight/vec3.h"
 
 namespace nearlight {
@@ -63,6 +64,9 @@ class NEARLIGHT_API Scene {
     /// The size of the camera's picture in pixels.
     [[nodiscard]] int width() const;
     [[nodiscard]] int height() const;
+    /// Where the camera stands; its target is 1 m in front of it. There is no field of view if the camera is
+    /// orthographic.
+    [[nodiscard]] CameraPose camera() const;
     /// A hash of everything that shapes the picture: equal scenes have equal hashes, on any machine. Each
     /// call computes it again, in time proportional to the size of the scene.
     [[nodiscard]] std::uint64_t hash() const;

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "nearlight/vec3.h"
+
 namespace nearlight {
 
 /// How virtual point lights (VPLs) are chosen.
@@ -41,10 +43,21 @@ enum class BvhQuality {
     quality,  ///< triangles may be split among leaves: fewer steps per ray, twice the time to build
 };
 
+/// Where a camera stands and where it looks.
+struct CameraPose {
+    Vec3 origin{};             ///< m
+    Vec3 target{};             ///< a point in the middle of the picture, m
+    std::optional<Vec3> up{};  ///< what points upwards in the picture; empty: as the scene's camera has it
+    /// The horizontal field of view of the film in degrees, between 0 and 180, with which an orthographic
+    /// camera becomes a perspective one; empty: the scene's.
+    std::optional<double> fov_x_degrees{};
+};
+
 /// What to look at. The scene and a pilot view of about 1000 receivers decide the options that are empty.
 struct ViewSettings {
-    std::optional<int> width{};    ///< pixels; empty: the scene's
-    std::optional<int> height{};   ///< pixels; empty: the scene's
+    std::optional<CameraPose> camera{};  ///< empty: the scene's
+    std::optional<int> width{};          ///< pixels; empty: the scene's
+    std::optional<int> height{};         ///< pixels; empty: the scene's
     std::optional<float> range{};  ///< range, m; empty: the close range holds nine tenths of what is seen
     /// R of the bounded geometry term, m. Empty takes range / 20, and from there Session::sample() lets a
     /// pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.

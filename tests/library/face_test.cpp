@@ -129,6 +129,57 @@ TEST_F(LibrarySession, DecidesWhatTheSettingsLeaveOpen) {
     EXPECT_EQ(session().look({.range = 0.5f, .clamp_radius = 0.2f}).clamp_radius(), 0.2f);
 }
 
+TEST(LibraryScene, HasACamera) {
+    const CameraPose pose = Scene::load(kFloor).camera();
+    EXPECT_FLOAT_EQ(pose.origin.y, -1.5f);
+    EXPECT_FLOAT_EQ(pose.target.y, -1.5f + std::sqrt(0.5f));
+    EXPECT_FLOAT_EQ(pose.target.z, 1.5f - std::sqrt(0.5f));
+    EXPECT_FLOAT_EQ(pose.up->z, std::sqrt(0.5f));
+    EXPECT_DOUBLE_EQ(pose.fov_x_degrees.value(), 60.0);
+}
+
+/// From straight above, P of the middle is the middle of the floor, and a field of view of 90 degrees from 1
+/// m shows it to its borders.
+TEST_F(LibrarySession, LooksFromAnotherPlace) {
+    const CameraPose above{
+        .origin = {0, 0, 1}, .target = {0, 0, 0}, .up = Vec3{0, 1, 0}, .fov_x_degrees = 90};
+    const View view = session().look({.camera = above, .width = 65, .height = 65});
+    const VplSet vpls = session().sample(session().look(), {.vpl_count = 10});
+    const Image place = layer(session().gather(view, vpls, {.samples_per_pixel = 1}).image, "P");
+    EXPECT_NEAR(place.at(32, 32, 0), 0.0f, 0.02f);
+    EXPECT_NEAR(place.at(32, 32, 1), 0.0f, 0.02f);
+    EXPECT_NEAR(place.at(64, 0, 0), 1.0f, 0.04f);
+    EXPECT_NEAR(place.at(64, 0, 1), 1.0f, 0.04f);
+}
+
+/// The scene's own pose, given by hand, sees what the scene's camera sees.
+TEST_F(LibrarySession, TheScenesOwnPoseChangesNothing) {
+    const RenderSettings settings{.sampling = {.vpl_count = 50}, .gather = {.samples_per_pixel = 1}};
+    RenderSettings posed = settings;
+    posed.view.camera = Scene::load(kFloor).camera();
+    const Image place = layer(session().render(settings).image, "P");
+    const Image same = layer(session().render(posed).image, "P");
+    for (std::size_t i = 0; i < place.values.size(); ++i) {
+        ASSERT_NEAR(place.values[i], same.values[i], 1e-4f) << i;
+    }
+}
+
+TEST_F(LibrarySession, CamerasThatCannotStandAreRefused) {
+    const auto reason = [](const CameraPose& pose) {
+        const auto error = error_of([&] { session().look({.camera = pose}); });
+        EXPECT_EQ(error->kind(), ErrorKind::invalid_argument);
+        EXPECT_EQ(error->setting(), "camera");
+        return std::string(error->what());
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(reason({.origin = {kNan, 0, 0}, .target = {0, 0, 0}}), HasSubstr("origin"));
+    EXPECT_THAT(reason({.origin = {0, 0, 1}, .target = {0, INFINITY, 0}}), HasSubstr("target"));
+    EXPECT_THAT(reason({.origin = {0, 0, 1}, .target = {0, 0, 1}}), HasSubstr("target is its origin"));
+    EXPECT_THAT(reason({.origin = {0, 0, 1}, .target = {0, 0, 0}, .up = Vec3{0, 0, 1}}), HasSubstr("`up`"));
+    EXPECT_THAT(reason({.origin = {0, 0, 1}, .target = {0, 1, 0}, .fov_x_degrees = 180}),
+                HasSubstr("field of view"));
+}
+
 /// The floor reflects half of what the light sends into its solid angle, 2π/3.
 TEST_F(LibrarySession, LightsCarryTheReflectedFlux) {
     const VplSet vpls = session().sample(session().look(), {.vpl_count = 1000}, 3);
@@ -188,6 +239,8 @@ TEST_F(LibrarySession, SettingsOutOfRangeAreNamed) {
     const std::vector<Vec3> point{{0, 0, 0}};
     EXPECT_EQ(setting_of([&] { session().irradiance(point, {}, vpls); }), "normals");
     EXPECT_EQ(setting_of([&] { session().irradiance(point, point, vpls); }), "normals");
+    const std::vector<Vec3> nowhere{{0, std::numeric_limits<float>::quiet_NaN(), 0}};
+    EXPECT_EQ(setting_of([&] { session().irradiance(nowhere, {{{0, 0, 1}}}, vpls); }), "points");
     EXPECT_EQ(setting_of([] { session().render({.passes = 0}); }), "passes");
 }
 

@@ -98,5 +98,47 @@ TEST_F(ImageFiles, WhatCannotBeWrittenIsAnError) {
     EXPECT_THROW(read_image(file("a.exr")), Error);
 }
 
+/// Half the light in one pixel of two: the mean falls by a sixth, since the other is twice as bright.
+TEST(Differences, AreThoseOfTheLayer) {
+    const Image reference{.width = 2,
+                          .height = 1,
+                          .channels = {"R", "G", "B", "a.R", "a.G", "a.B"},
+                          .values = {1, 1, 1, 5, 5, 5, 2, 2, 2, 5, 5, 5}};
+    Image image = reference;
+    image.at(0, 0, 0) = image.at(0, 0, 1) = image.at(0, 0, 2) = 0.5f;
+    const Difference difference = diff(image, reference);
+    EXPECT_NEAR(difference.rmse, std::sqrt(0.25 / 2), 1e-6);
+    EXPECT_NEAR(difference.relative_mse, 0.25 / 1.01 / 2, 1e-6);
+    EXPECT_NEAR(difference.mean_ratio, 2.5 / 3, 1e-6);
+    EXPECT_GT(difference.flip, 0.01);
+    EXPECT_EQ(difference.non_finite, 0u);
+    EXPECT_EQ(diff(image, reference, "a").rmse, 0.0);
+    EXPECT_GT(diff_map(image, reference).at(0, 0, 0), diff_map(reference, reference).at(0, 0, 0));
+
+    image.at(0, 0, 0) = NAN;
+    EXPECT_EQ(diff(image, reference).non_finite, 1u);
+    EXPECT_EQ(diff(image, reference).rmse, 0.0);
+}
+
+TEST(Differences, OfWhatCannotBeComparedAreErrors) {
+    const auto text = [](const Image& a, const Image& b, const char* layer) -> std::string {
+        try {
+            diff(a, b, layer);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
+            return error.what();
+        }
+        return "";
+    };
+    Image wide = two_pixels();
+    wide.width = 1;
+    EXPECT_THAT(text(two_pixels(), wide, "beauty"), HasSubstr("2x1 and 1x1"));
+    EXPECT_THAT(text(two_pixels(), two_pixels(), "nosuch"), HasSubstr("nosuch"));
+    EXPECT_THAT(text(two_pixels(), two_pixels(), "depth"), HasSubstr("R, G and B"));
+    Image cut = two_pixels();
+    cut.values.pop_back();
+    EXPECT_THAT(text(cut, two_pixels(), "beauty"), HasSubstr("7 values"));
+}
+
 }  // namespace
 }  // namespace nearlight
