@@ -6,6 +6,7 @@
 #include "nearlight/device.h"
 #include "nearlight/error.h"
 #include "nearlight/image.h"
+#include "nearlight/light_share.h"
 #include "nearlight/message.h"
 #include "nearlight/scene.h"
 #include "nearlight/session.h"
