@@ -29,5 +29,10 @@ install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_
 foreach(component Development Runtime)
   install(TARGETS nearlight_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT ${component})
 endforeach()
+# The viewer's module is loaded by the program, and uses the library.
+if(NEARLIGHT_VIEWER)
+  install(TARGETS nearlight_viewer LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Viewer)
+  install(TARGETS nearlight_library LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Viewer NAMELINK_SKIP)
+endif()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
