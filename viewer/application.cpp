@@ -45,6 +45,7 @@ std::pair<int, int> pixel_of(const std::string& text) {
 Application::Application(const ViewerTask& task, Window& window)
     : task_(task),
       window_(window),
+      tev_(task.tev.empty() ? std::nullopt : std::optional<TevLink>(task.tev)),
       renderer_(
           Devices::choose(task.device, task.device_options), [&task] { return load(task); }, task.settings,
           [] { Window::wake(); }) {
@@ -94,8 +95,19 @@ void Application::take_frame() {
     if (!frame_->is_quick || frame_->divisor == 1) {
         dots_ = vpl_dots(*frame_);
     }
-    if (task_.on_frame) {
-        task_.on_frame(frame_->image, frame_->divisor);
+    send_to_tev();
+}
+
+/// Sends whole pictures, because small ones would replace them by pictures of another size.
+void Application::send_to_tev() {
+    if (!tev_ || frame_->divisor > 1) {
+        return;
+    }
+    try {
+        tev_->show(task_.scene.filename().string(), frame_->image);
+    } catch (const Error& error) {
+        state_.message = error.what();
+        tev_.reset();
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "nearlight/tev.h"
 #include "viewer/controls.h"
 #include "viewer/panels.h"
 #include "viewer/renderer.h"
@@ -41,6 +42,7 @@ class Application {
     void take_scene();
     void take_frame();
     void take_input();
+    void send_to_tev();
     void draw_picture();
     void draw_dots(const Place& place) const;
     void apply(const Changes& changes);
@@ -55,6 +57,7 @@ class Application {
 
     const ViewerTask& task_;
     Window& window_;
+    std::optional<TevLink> tev_;
     ViewerState state_;
     bool has_scene_ = false;
     std::optional<CameraPose> first_pose_;  ///< the camera at the start; empty: the scene's to the bit

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "nearlight/device.h"
-#include "nearlight/image.h"
 #include "nearlight/message.h"
 #include "nearlight/scene.h"
 #include "nearlight/settings.h"
@@ -29,8 +28,7 @@ struct ViewerTask {
     /// The arguments of a command line that say what scene to load and how.
     std::vector<std::string> scene_arguments{};
     MessageSink messages{};  ///< gets the library's warnings, in any thread
-    /// Gets each picture that is shown, and by what its size is divided; empty: nobody.
-    std::function<void(const Image& image, int divisor)> on_frame{};
+    std::string tev{};  ///< HOST:PORT of the image viewer tev, which gets whole pictures too; empty: none
 
     // For tests, screenshots and measurements.
     std::uint32_t frames = 0;  ///< ends after so many passes of full size; 0: when the window closes

@@ -22,6 +22,7 @@
 #include "host/cli/render_output.h"
 #include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/tev_picture.h"
 #include "host/session/passes.h"
 #include "host/session/render.h"
 
@@ -38,6 +39,7 @@ struct RenderOptions {
     CameraOptions camera;
     MethodTexts method;
     PassOptions passes;
+    std::string tev;
     int threads = 0;  ///< 0: one per core
 };
 
@@ -114,6 +116,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_outputs(options.picture);
     const Stopwatch total;
     RenderedPicture picture(options.picture, options.threads);
+    TevPicture tev(options.tev, std::filesystem::path(options.picture.outputs.front()).filename().string());
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
@@ -143,10 +146,12 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
             picture.open(started.width, started.height,
                          render_metadata(hash.get(), options.scene, settings, started, view, devices,
                                          global.command_line));
+            tev.open(started.width, started.height);
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
             picture.add_rows(rows);
+            tev.add_rows(rows);
         },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
@@ -220,6 +225,7 @@ void add_render_command(CommandLine& line) {
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N");
     add_pass_options(command, options->passes);
+    add_tev_option(command, options->tev);
     add_camera_options(command, options->camera);
     add_sampler_options(command, options->settings, options->method);
     add_method_options(command, options->settings, options->method);

@@ -12,6 +12,7 @@
 #include "host/cli/method_options.h"
 #include "host/cli/output.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/tev_picture.h"
 #include "host/stages/film_layers.h"
 #include "viewer/viewer.h"
 
@@ -35,6 +36,7 @@ struct ViewOptions {
     std::string inspect;
     bool shows_vpls = false;
     bool measures = false;
+    std::string tev;
 };
 
 viewer::RunViewer load_viewer() {
@@ -103,6 +105,7 @@ viewer::ViewerTask task_of(const ViewOptions& options) {
                                                      : spdlog::level::debug,
                     "{}", text);
     };
+    task.tev = options.tev;
     task.frames = options.frames;
     task.screenshot = options.screenshot;
     task.inspect = options.inspect;
@@ -183,6 +186,7 @@ void add_view_command(CommandLine& line) {
     add_size_option(command, options->size);
     add_camera_options(command, options->camera);
     add_window_options(command, *options);
+    add_tev_option(command, options->tev);
     add_sample_options(command, options->settings.gather);
     add_sampler_options(command, options->settings, options->method);
     add_method_options(command, options->settings, options->method);

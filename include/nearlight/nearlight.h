@@ -11,4 +11,5 @@
 #include "nearlight/scene.h"
 #include "nearlight/session.h"
 #include "nearlight/settings.h"
+#include "nearlight/tev.h"
 #include "nearlight/vec3.h"
