@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -61,7 +62,8 @@ double Application::patience() const {
 RenderSettings Application::settings() const {
     RenderSettings settings = state_.settings;
     // Until it is moved, the camera is the scene's to the bit, which may be tilted.
-    settings.view.camera = state_.camera == state_.first_camera ? first_pose_ : pose_of(state_.camera);
+    settings.view.camera =
+        shows_same(state_.camera, state_.first_camera) ? first_pose_ : pose_of(state_.camera);
     return settings;
 }
 
@@ -155,6 +157,17 @@ Input Application::input_in(const Place& place) const {
     return input;
 }
 
+/// When a drag begins, the pivot goes to the surface in the middle of the picture.
+void Application::turn_about_the_middle() {
+    if (!frame_ || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        return;
+    }
+    const float depth = depth_in_the_middle(frame_->image);
+    if (depth > 0.0f && std::isfinite(depth)) {
+        state_.camera = with_pivot(state_.camera, depth);
+    }
+}
+
 void Application::take_input() {
     if (!has_scene_) {
         return;
@@ -162,8 +175,9 @@ void Application::take_input() {
     const Place place = place_of_picture();
     const Input input = input_in(place);
     is_walking_ = is_walking(input);
+    turn_about_the_middle();
     const FreeCamera camera = moved(state_.camera, input, state_.walking_speed);
-    if (!(camera == state_.camera)) {
+    if (!shows_same(camera, state_.camera)) {
         state_.camera = camera;
         renderer_.show(settings(), Change::camera);
     }

@@ -42,6 +42,7 @@ class Application {
     void take_scene();
     void take_frame();
     void take_input();
+    void turn_about_the_middle();
     void send_to_tev();
     void draw_picture();
     void draw_dots(const Place& place) const;

@@ -57,9 +57,9 @@ Vec3 pivot_of(const FreeCamera& camera) {
 
 }  // namespace
 
-bool operator==(const FreeCamera& a, const FreeCamera& b) {
+bool shows_same(const FreeCamera& a, const FreeCamera& b) {
     return same(a.origin, b.origin) && same(a.forward, b.forward) && same(a.up, b.up) &&
-           a.pivot_distance == b.pivot_distance && a.fov_degrees == b.fov_degrees;
+           a.fov_degrees == b.fov_degrees;
 }
 
 FreeCamera free_camera(const CameraPose& pose, const Box& bounds) {

@@ -13,9 +13,10 @@ struct FreeCamera {
     Vec3 up{0, 1, 0};             ///< unit vector that is upwards in the scene, not along `forward`
     float pivot_distance = 1.0f;  ///< of the point in the middle of the picture that orbits turn about, m
     double fov_degrees = 0.0;     ///< horizontal; 0: the scene's camera has none, because it is orthographic
-
-    friend bool operator==(const FreeCamera& a, const FreeCamera& b);
 };
+
+/// Whether both show the same picture: their pivots may differ.
+bool shows_same(const FreeCamera& a, const FreeCamera& b);
 
 /// The scene's own camera. Upwards is the axis of the world that is nearest to the camera's own direction
 /// upwards. Orbits turn about what is nearest to the middle of the scene.

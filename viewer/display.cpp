@@ -160,6 +160,11 @@ std::span<const ShownLayer> shown_layers() {
     return kLayers;
 }
 
+float depth_in_the_middle(const Image& image) {
+    const Channels depth = channels_of(image, "depth");
+    return depth.count > 0 ? image.at(image.width / 2, image.height / 2, depth.first) : 0.0f;
+}
+
 ScreenPixels to_screen(const Image& image, const DisplaySettings& settings) {
     ScreenPixels screen{.width = image.width, .height = image.height};
     screen.rgba.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4,

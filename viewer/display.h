@@ -37,4 +37,7 @@ struct ScreenPixels {
 /// 1, positions from the picture's smallest to its largest, depth from near (white) to far (black).
 ScreenPixels to_screen(const Image& image, const DisplaySettings& settings);
 
+/// The distance in metres of what the middle of the picture shows; 0 if it shows nothing.
+float depth_in_the_middle(const Image& image);
+
 }  // namespace nearlight::viewer

@@ -70,6 +70,7 @@ void table(const char* title, const std::vector<LightShare>& shares, double tota
 }  // namespace
 
 void draw_inspection_panel(const Inspection& inspection) {
+    ImGui::SetNextWindowPos({kPanelWidth + 8.0f, 8.0f}, ImGuiCond_FirstUseEver);
     ImGui::Begin("What lights this pixel", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     if (!inspection.hits_surface) {
         ImGui::TextUnformatted("The camera sees no surface here.");

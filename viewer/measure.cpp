@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <thread>
 #include <vector>
 
@@ -20,6 +21,7 @@ constexpr std::chrono::milliseconds kPollPeriod{1};
 constexpr float kTurnPerInput = 0.004f;
 constexpr int kSingleMoves = 9;
 constexpr std::uint32_t kPasses = 8;
+constexpr std::uint32_t kRestingSamples = 2;
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,6 +33,18 @@ double median(std::vector<double> values) {
     std::ranges::nth_element(values, middle);
     return *middle;
 }
+
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// What it took from a move to a picture of full size.
+struct Move {
+    double seconds = 0.0;
+    double processor_seconds = 0.0;
+};
 
 /// A hand that moves the camera, and what it sees.
 class Hand {
@@ -54,12 +68,17 @@ class Hand {
         return count / kMotionSeconds;
     }
 
-    /// The seconds from a single move to a picture of full size.
-    double seconds_of_single_move() {
-        turn(10 * kTurnPerInput);
+    /// A single move until there is a picture of full size.
+    Move single_move() {
+        // Right after a first picture VPLs are made, which cannot be stopped; most moves come later.
+        const std::uint32_t enough = std::min(kRestingSamples, settings_.gather.samples_per_pixel);
+        wait_for([&](const Frame& frame) { return !frame.is_quick && frame.samples >= enough; });
         const std::uint64_t before = frame_->state;
+        const double processor = processor_seconds();
+        turn(10 * kTurnPerInput);
         wait_for([&](const Frame& frame) { return frame.divisor == 1 && frame.state > before; });
-        return frame_->seconds_since_change;
+        return {.seconds = frame_->seconds_since_change,
+                .processor_seconds = processor_seconds() - processor};
     }
 
     /// The seconds of each of the passes that follow.
@@ -108,6 +127,9 @@ class Hand {
             if (task_.is_interrupted && task_.is_interrupted()) {
                 throw Error(ErrorKind::failure, "the measurement was interrupted");
             }
+            if (const std::string error = renderer_.error(); !error.empty()) {
+                throw Error(ErrorKind::failure, error);
+            }
             std::this_thread::sleep_for(kPollPeriod);
         }
     }
@@ -127,11 +149,15 @@ ViewerReport measure(const ViewerTask& task) {
     report.moving_frames_per_second = hand.frames_per_second_in_motion();
     report.moving_divisor = hand.frame().divisor;
     std::vector<double> moves;
+    std::vector<double> processor;
     for (int i = 0; i < kSingleMoves; ++i) {
-        moves.push_back(hand.seconds_of_single_move());
+        const Move move = hand.single_move();
+        moves.push_back(move.seconds);
+        processor.push_back(move.processor_seconds);
     }
     report.first_full_seconds = median(moves);
     report.slowest_full_seconds = *std::ranges::max_element(moves);
+    report.first_full_processor_seconds = median(processor);
     report.pass_seconds = median(hand.pass_seconds());
     report.width = hand.frame().image.width;
     report.height = hand.frame().image.height;

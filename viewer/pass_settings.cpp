@@ -8,9 +8,11 @@ namespace {
 
 /// Pixels of a square of this side ask different VPLs.
 constexpr std::uint32_t kInterleave = 4;
-/// The parts of the set of VPLs, of which a pixel asks one: in passes at least, and in quick pictures.
+/// The set of VPLs has at least so many parts, of which a pixel asks one.
 constexpr std::uint32_t kMinStrata = kInterleave * kInterleave;
-constexpr std::uint32_t kQuickStrata = 32;
+/// A pixel of a quick picture asks about so many VPLs: fewer save little, because camera and light rays cost
+/// as much.
+constexpr std::uint32_t kQuickVpls = 8;
 /// A set of VPLs serves so many passes.
 constexpr std::uint32_t kPassesPerSet = 4;
 
@@ -20,19 +22,19 @@ std::uint32_t share_of(std::uint32_t whole, std::uint32_t passes) {
 
 }  // namespace
 
-GatherSettings pass_gather(const GatherSettings& whole, StepKind kind) {
-    const std::uint32_t passes = std::max(whole.samples_per_pixel, 1u);
-    GatherSettings settings = whole;
+GatherSettings pass_gather(const RenderSettings& whole, StepKind kind) {
+    GatherSettings settings = whole.gather;
+    const std::uint32_t passes = std::max(settings.samples_per_pixel, 1u);
     settings.samples_per_pixel = 1;
     settings.interleave = kInterleave;
     if (kind == StepKind::refining) {
         constexpr std::uint32_t kDefaultDirect = 32;
         settings.strata = std::max(passes, kMinStrata);
         settings.direct_samples_per_pixel =
-            share_of(whole.direct_samples_per_pixel.value_or(kDefaultDirect), passes);
-        settings.rays_per_pixel = share_of(whole.rays_per_pixel, passes);
+            share_of(settings.direct_samples_per_pixel.value_or(kDefaultDirect), passes);
+        settings.rays_per_pixel = share_of(settings.rays_per_pixel, passes);
     } else {
-        settings.strata = kQuickStrata;
+        settings.strata = std::max(whole.sampling.vpl_count / kQuickVpls, kMinStrata);
         settings.direct_samples_per_pixel = 1;
         settings.rays_per_pixel = 1;
     }

@@ -10,7 +10,7 @@ namespace nearlight::viewer {
 /// The settings of the gather of one step. `whole` is what a finished picture has: its passes have one sample
 /// per pixel each and share rays and light samples, so that `samples_per_pixel` passes cost and bring what a
 /// render with these settings does. A small or a first picture has as little as possible.
-GatherSettings pass_gather(const GatherSettings& whole, StepKind kind);
+GatherSettings pass_gather(const RenderSettings& whole, StepKind kind);
 
 /// The settings of the view of one step: its size is divided by the divisor, and no pilot takes time.
 ViewSettings pass_view(const ViewSettings& whole, int width, int height, int divisor);

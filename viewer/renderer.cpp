@@ -191,7 +191,7 @@ std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& f
         vpls_ = session.sample(*frame.view, settings.sampling, seed);
     }
     frame.vpls = vpls_;
-    Picture picture = session.gather(*frame.view, *vpls_, pass_gather(settings.gather, job.step.kind), seed,
+    Picture picture = session.gather(*frame.view, *vpls_, pass_gather(settings, job.step.kind), seed,
                                      [&](double) { return is_wanted(job.step); });
     if (picture.interrupted) {
         return std::nullopt;

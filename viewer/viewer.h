@@ -47,7 +47,10 @@ struct ViewerReport {
     int moving_divisor = 1;             ///< of the picture's size during the motion
     double first_full_seconds = 0.0;    ///< from the last camera move to a picture of full size, the median
     double slowest_full_seconds = 0.0;  ///< the same, the longest
-    double pass_seconds = 0.0;          ///< of a refining pass, the median
+    /// Processor time of the whole program for the same, the median: divided by the number of cores, it is
+    /// about what the move takes on an idle machine.
+    double first_full_processor_seconds = 0.0;
+    double pass_seconds = 0.0;  ///< of a refining pass, the median
     int width = 0;
     int height = 0;
 };

@@ -124,15 +124,18 @@ void tell(const viewer::ViewerReport& report, const GlobalOptions& global) {
                     {"moving_divisor", report.moving_divisor},
                     {"first_full_seconds", report.first_full_seconds},
                     {"slowest_full_seconds", report.slowest_full_seconds},
+                    {"first_full_processor_seconds", report.first_full_processor_seconds},
                     {"pass_seconds", report.pass_seconds}});
         return;
     }
-    print(
-        fmt::format("{:.1f} frames per second in motion, at 1/{} of the width\n"
-                    "{:.2f} s to the first picture of {}x{} pixels after a move (at most {:.2f} s)\n"
-                    "{:.2f} s for each further pass\n",
-                    report.moving_frames_per_second, report.moving_divisor, report.first_full_seconds,
-                    report.width, report.height, report.slowest_full_seconds, report.pass_seconds));
+    print(fmt::format(
+        "{:.1f} frames per second in motion, at 1/{} of the width\n"
+        "{:.2f} s to the first picture of {}x{} pixels after a move (at most {:.2f} s; {:.2f} s of "
+        "processor time)\n"
+        "{:.2f} s for each further pass\n",
+        report.moving_frames_per_second, report.moving_divisor, report.first_full_seconds, report.width,
+        report.height, report.slowest_full_seconds, report.first_full_processor_seconds,
+        report.pass_seconds));
 }
 
 ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {

@@ -8,10 +8,10 @@ namespace {
 
 /// All passes together have what the settings of the whole picture say.
 TEST(PassSettings, PassesShareTheWhole) {
-    GatherSettings whole;
-    whole.samples_per_pixel = 16;
-    whole.direct_samples_per_pixel = 32;
-    whole.rays_per_pixel = 64;
+    RenderSettings whole;
+    whole.gather.samples_per_pixel = 16;
+    whole.gather.direct_samples_per_pixel = 32;
+    whole.gather.rays_per_pixel = 64;
     const GatherSettings pass = pass_gather(whole, StepKind::refining);
     EXPECT_EQ(pass.samples_per_pixel, 1u);
     EXPECT_EQ(pass.direct_samples_per_pixel, 2u);
@@ -20,9 +20,9 @@ TEST(PassSettings, PassesShareTheWhole) {
 }
 
 TEST(PassSettings, EveryPassHasARay) {
-    GatherSettings whole;
-    whole.samples_per_pixel = 1000;
-    whole.rays_per_pixel = 1;
+    RenderSettings whole;
+    whole.gather.samples_per_pixel = 1000;
+    whole.gather.rays_per_pixel = 1;
     const GatherSettings pass = pass_gather(whole, StepKind::refining);
     EXPECT_EQ(pass.rays_per_pixel, 1u);
     EXPECT_EQ(pass.direct_samples_per_pixel, 1u);
@@ -30,13 +30,15 @@ TEST(PassSettings, EveryPassHasARay) {
 }
 
 TEST(PassSettings, QuickPicturesAskLeast) {
-    GatherSettings whole;
-    whole.compensate = false;
+    RenderSettings whole;
+    whole.gather.compensate = false;
+    whole.sampling.vpl_count = 2000;
     for (const StepKind kind : {StepKind::reduced, StepKind::full}) {
         const GatherSettings pass = pass_gather(whole, kind);
         EXPECT_EQ(pass.samples_per_pixel, 1u);
         EXPECT_EQ(pass.rays_per_pixel, 1u);
         EXPECT_FALSE(pass.compensate);
+        EXPECT_EQ(pass.strata, 250u) << "eight VPLs a pixel";
     }
 }
 
