@@ -27,6 +27,10 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/nearlight.pc.in" "${PROJECT_BINARY_D
 install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
   COMPONENT Development)
 
+# The viewer's module is loaded by the program, and uses the library.
+if(NEARLIGHT_VIEWER)
+  install(TARGETS nearlight_viewer LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Viewer)
+endif()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
 

@@ -19,6 +19,7 @@
 #include "host/cli/selftest_command.h"
 #include "host/cli/standard_streams.h"
 #include "host/cli/tune_command.h"
+#include "host/cli/view_command.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
     try {
         nearlight::core::CommandLine line;
         nearlight::core::add_render_command(line);
+        nearlight::core::add_view_command(line);
         nearlight::core::add_reference_command(line);
         nearlight::core::add_diff_command(line);
         nearlight::core::add_compare_command(line);

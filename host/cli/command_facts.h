@@ -20,7 +20,7 @@ struct OptionFacts {
     bool is_positional = false;
     bool is_required = false;
     bool is_repeated = false;  ///< takes several values
-    bool takes_file = false;  ///< the value names a file or a folder
+    bool takes_file = false;   ///< the value names a file or a folder
 
     [[nodiscard]] bool is_flag() const { return value.empty() && !is_positional; }
 };

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "host/cli/log.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -49,6 +50,11 @@ void add_camera_options(CLI::App& command, SceneOptions& options) {
         ->type_name("X,Y,Z");
     command
         .add_option_function<std::string>(
+            "--up", [&](const std::string& text) { overrides.up = parse_numbers<3>("--up", "X,Y,Z", text); },
+            "The direction that is upwards in the picture")
+        ->type_name("X,Y,Z");
+    command
+        .add_option_function<std::string>(
             "--fov",
             [&](const std::string& text) {
                 overrides.fov_degrees = parse_numbers<1>("--fov", "DEG", text)[0];
@@ -88,6 +94,29 @@ void add_override_options(CLI::App& command, SceneOptions& options) {
         ->type_name("AZIMUTH,ELEVATION");
     command.add_option("--light-scale", overrides.light_scale, "Multiplies all light of the scene")
         ->type_name("F");
+}
+
+std::vector<std::string> override_arguments(const SceneOptions& options) {
+    const SceneOverrides& overrides = options.overrides;
+    const SceneOverrides otherwise;
+    std::vector<std::string> arguments;
+    const auto add = [&](const char* option, bool is_given, const std::string& value) {
+        if (is_given) {
+            arguments.push_back(std::string(option) + "=" + value);
+        }
+    };
+    const auto add_number = [&](const char* option, double value, double usual) {
+        add(option, value != usual, fmt::format("{}", value));
+    };
+    add("--camera", !options.camera.empty(), options.camera);
+    add("--environment", !overrides.environment.empty(), overrides.environment);
+    add_number("--environment-rotation", overrides.environment_rotation, otherwise.environment_rotation);
+    add_number("--environment-scale", overrides.environment_scale, otherwise.environment_scale);
+    if (overrides.sun) {
+        add("--sun", true, fmt::format("{},{}", overrides.sun->azimuth, overrides.sun->elevation));
+    }
+    add_number("--light-scale", overrides.light_scale, otherwise.light_scale);
+    return arguments;
 }
 
 }  // namespace nearlight::core

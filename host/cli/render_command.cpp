@@ -10,10 +10,10 @@
 
 #include "host/base/stopwatch.h"
 #include "host/bvh/thread_limit.h"
-#include "host/cli/cuts_options.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
+#include "host/cli/method_options.h"
 #include "host/cli/output.h"
 #include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
@@ -21,6 +21,7 @@
 #include "host/cli/render_output.h"
 #include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/tev_picture.h"
 #include "host/session/passes.h"
 #include "host/session/picture_window.h"
 #include "host/session/render.h"
@@ -35,11 +36,9 @@ struct RenderOptions {
     RenderSettings settings;
     SessionOptions session;
     ImageSize size;
-    std::string cuts = "auto";
-    std::string close_fraction = "auto";
-    std::string range = "auto";
-    std::string clamp_radius = "auto";
+    MethodTexts method;
     PassOptions passes;
+    std::string tev;
     int threads = 0;  ///< 0: one per core
 };
 
@@ -50,55 +49,12 @@ const std::map<std::string, GatherKernel> kGatherKernels{
 /// probably a typing error.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 
-/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
-template <typename Choice>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
-                        const std::map<std::string, Choice>& choices, const std::string& description) {
-    const auto choose = [option, &value, choices](const std::string& text) {
-        std::string names;
-        for (const auto& [name, choice] : choices) {
-            names += (names.empty() ? "" : ", ") + name;
-        }
-        const auto found = choices.find(text);
-        if (found == choices.end()) {
-            throw Error(ErrorKind::invalid_argument,
-                        fmt::format("unknown {} '{}'; choose one of: {}", option, text, names));
-        }
-        value = found->second;
-    };
-    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
-}
-
-/// Parses "auto", which gives nothing, or a number in [low, high].
-std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low,
-                                    float high) {
-    if (text == "auto") {
-        return std::nullopt;
-    }
-    float value = NAN;
-    std::size_t used = 0;
-    try {
-        value = std::stof(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used != text.size() || !(value >= low) || !(value <= high)) {
-        throw Error(ErrorKind::invalid_argument,
-                    fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, low,
-                                high, text));
-    }
-    return value;
-}
-
 RenderSettings settled(const RenderOptions& options) {
     RenderSettings settings = options.settings;
     settings.passes = options.passes.passes;
     settings.error = options.passes.error;
     settings.pass_samples = options.passes.pass_samples;
-    settings.sampling.close_fraction = number_or_auto("--close-fraction", options.close_fraction, 0.0f, 1.0f);
-    settings.view.range = number_or_auto("--range", options.range, 1e-6f, 1e9f);
-    settings.view.clamp_radius = number_or_auto("--clamp-radius", options.clamp_radius, 0.0f, 1e9f);
-    settings.sampling.cuts = has_cuts(options.cuts, settings);
+    settle(options.method, settings);
     if (options.size.width > 0) {
         settings.view.width = options.size.width;
         settings.view.height = options.size.height;
@@ -171,6 +127,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     check_outputs(options.picture);
     const Stopwatch total;
     RenderedPicture picture(options.picture, options.threads);
+    TevPicture tev(options.tev, std::filesystem::path(options.picture.outputs.front()).filename().string());
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
@@ -200,10 +157,12 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
                          render_metadata(hash.get(), options.scene, settings, started, view, devices,
                                          global.command_line),
                          screen_look(options.picture.screen, scene), place_of(settings.gather, view));
+            tev.open(started.width, started.height);
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
             picture.add_rows(rows);
+            tev.add_rows(rows);
         },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
@@ -248,92 +207,11 @@ void add_preview_option(CLI::App& command, RenderOptions& options) {
         "pixel of a square of 4x4 asks a sixteenth of the VPLs; other options prevail");
 }
 
-void add_sampler_options(CLI::App& command, RenderOptions& options) {
-    SamplingSettings& sampling = options.settings.sampling;
-    std::map<std::string, SamplerKind> samplers;
-    std::string sampler_help = "Where to put VPLs: ";
-    for (const SamplerEntry& entry : all_samplers()) {
-        samplers.emplace(entry.name, entry.kind);
-        sampler_help +=
-            fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
-    }
-    add_choice(command, "--sampler", sampling.sampler, samplers, sampler_help)
-        ->default_str(to_string(sampling.sampler));
-    std::map<std::string, Policy> policies;
-    std::string policy_help = "Policy of the sampler close-range: ";
-    for (const PolicyEntry& entry : all_policies()) {
-        policies.emplace(entry.name, entry.policy);
-        policy_help +=
-            fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
-    }
-    add_choice(command, "--policy", sampling.policy, policies, policy_help)
-        ->default_str(to_string(sampling.policy));
-    command
-        .add_option("--vpls", sampling.vpl_count,
-                    "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
-                    "together")
-        ->check(CLI::Range(0u, 50'000'000u))
-        ->type_name("N")
-        ->capture_default_str();
-    add_cuts_options(command, options.cuts, sampling);
-    command
-        .add_option("--close-fraction", options.close_fraction,
-                    "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")
-        ->type_name("F")
-        ->capture_default_str();
-}
-
-void add_method_options(CLI::App& command, RenderOptions& options) {
-    RenderSettings& settings = options.settings;
-    command
-        .add_option("--range", options.range,
-                    "Distance from the camera at which the close range ends: scene units, or auto")
-        ->type_name("R")
-        ->capture_default_str();
-    command
-        .add_option("--clamp-radius", options.clamp_radius,
-                    "VPLs closer than R light a point as if they were at the distance R, and rays bring back "
-                    "the rest: scene units, or auto, which chooses the radius of least noise")
-        ->type_name("R")
-        ->capture_default_str();
-    command
-        .add_option_function<std::string>(
-            "--compensate",
-            [&settings](const std::string& text) { settings.gather.compensate = text == "on"; },
-            "on: rays bring back the light that the clamp radius takes away and what surfaces reflect other "
-            "than diffusely, so that the picture is the scene's own; off: the clamped picture of the VPLs")
-        ->check(CLI::IsMember({"on", "off"}))
-        ->type_name("on|off")
-        ->default_str("on");
-    command
-        .add_option("--rays", settings.gather.rays_per_pixel,
-                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and "
-                    "windows in rough reflections")
-        ->check(CLI::Range(1u, 1'000'000u))
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        .add_option(
-            "--max-depth", settings.view.max_depth,
-            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's, or 8)")
-        ->check(CLI::Range(1u, 1024u))
-        ->type_name("N");
-    command
-        .add_option("--seed", settings.seed,
-                    "Seed of the random numbers: the same seed gives the same picture")
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        .add_option("--roulette", settings.gather.roulette,
-                    "Russian roulette: trace a VPL that could bring less than T times the mean only with a "
-                    "probability; 0 traces all")
-        ->check(CLI::Range(0.0f, 1000.0f))
-        ->type_name("T")
-        ->capture_default_str();
-    add_choice(command, "--gather", options.session.gather_kernel, kGatherKernels,
+void add_session_options(CLI::App& command, SessionOptions& session) {
+    add_choice(command, "--gather", session.gather_kernel, kGatherKernels,
                "Gather kernel: packets (for CPUs), rays (for GPUs) or auto")
         ->default_str("auto");
-    add_bvh_option(command, options.session.bvh_quality);
+    add_bvh_option(command, session.bvh_quality);
 }
 
 }  // namespace
@@ -360,12 +238,7 @@ void add_render_command(CommandLine& line) {
         ->type_name("WxH+X+Y");
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
-    command
-        .add_option("--spp", options->settings.gather.samples_per_pixel,
-                    "Camera samples per pixel, for antialiasing")
-        ->check(CLI::Range(1u, 65536u))
-        ->type_name("N")
-        ->capture_default_str();
+    add_sample_options(command, options->settings.gather);
     command
         .add_option(
             "--strata", options->settings.gather.strata,
@@ -373,15 +246,11 @@ void add_render_command(CommandLine& line) {
             "counts for all; 1: each sample asks about all VPLs (default: as many as --spp)")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N");
-    command
-        .add_option("--direct-samples", options->settings.gather.direct_samples_per_pixel,
-                    "Shadow rays per pixel to area and environment lights (default: 16 to 128, chosen by a "
-                    "pilot)")
-        ->check(CLI::Range(1u, 1'000'000u))
-        ->type_name("N");
     add_pass_options(command, options->passes);
-    add_sampler_options(command, *options);
-    add_method_options(command, *options);
+    add_tev_option(command, options->tev);
+    add_sampler_options(command, options->settings, options->method);
+    add_method_options(command, options->settings, options->method);
+    add_session_options(command, options->session);
     add_device_options(command, options->device);
     command
         .add_option("--threads", options->threads,

@@ -26,6 +26,7 @@ core::LoadOptions core_options(const LoadOptions& options) {
     core::SceneOverrides& overrides = wanted.overrides;
     overrides.origin = point_of(options.origin);
     overrides.target = point_of(options.target);
+    overrides.up = point_of(options.up);
     overrides.fov_degrees = options.field_of_view;
     overrides.environment = options.environment;
     overrides.environment_rotation = options.environment_rotation;

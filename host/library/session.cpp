@@ -8,6 +8,7 @@
 
 #include "host/library/checks.h"
 #include "host/library/states.h"
+#include "host/scene/camera.h"
 #include "host/session/picture_window.h"
 #include "host/session/render.h"
 #include "host/stages/film_layers.h"
@@ -96,6 +97,11 @@ std::uint32_t View::max_depth() const {
     return state_->view.max_depth;
 }
 
+std::optional<PicturePlace> View::place_of(Vec3 point) const {
+    const auto found = core::film_position(state_->view.scene_camera, {point.x, point.y, point.z});
+    return found ? std::optional<PicturePlace>({found->x, found->y, found->distance}) : std::nullopt;
+}
+
 VplSet::VplSet(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 std::size_t VplSet::size() const {
@@ -167,6 +173,14 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
         result.push_back({value.x, value.y, value.z});
     }
     return result;
+}
+
+std::vector<LightShare> Session::light_shares(Vec3 point, Vec3 normal, const VplSet& vpls,
+                                              std::uint32_t seed) {
+    refuse_stranger(vpls.state_->view->owner == state_, "a set of VPLs");
+    check_points({&point, 1}, {&normal, 1});
+    return state_->session.light_shares({point.x, point.y, point.z}, {normal.x, normal.y, normal.z},
+                                        vpls.state_->view->view, vpls.state_->set, seed);
 }
 
 Picture Session::render(const RenderSettings& settings, const Progress& progress) {

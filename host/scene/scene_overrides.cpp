@@ -30,9 +30,9 @@ void check_range(double number, double low, double high, const std::string& what
 }
 
 void check(const SceneOverrides& overrides) {
-    for (const std::optional<Point>& point : {overrides.origin, overrides.target}) {
+    for (const std::optional<Point>& point : {overrides.origin, overrides.target, overrides.up}) {
         if (point && !std::ranges::all_of(*point, [](double x) { return std::abs(x) < 1e30; })) {
-            refuse("the origin and the target of the camera must be finite numbers");
+            refuse("the origin, the target and the up vector of the camera must be finite numbers");
         }
     }
     if (overrides.fov_degrees) {
@@ -55,13 +55,9 @@ Point position_of(const Mat4& m) {
     return {m(0, 3), m(1, 3), m(2, 3)};
 }
 
-/// Turns the camera to the target. Its up is the world's axis that is nearest to its own.
-void aim(SceneCamera& camera, const Point& origin, const Point& target) {
-    const Point view{target[0] - origin[0], target[1] - origin[1], target[2] - origin[2]};
+/// The axis of the world that is nearest to the camera's up, unless the camera is to look along it.
+Point upward_axis(const SceneCamera& camera, const Point& view) {
     const double distance = std::hypot(view[0], view[1], view[2]);
-    if (!(distance > 0)) {
-        refuse("the camera's origin and target are the same point; give two points");
-    }
     int up = 1;
     for (int axis = 0; axis < 3; ++axis) {
         up = std::abs(camera.to_world(axis, 1)) > std::abs(camera.to_world(up, 1)) + 1e-6 ? axis : up;
@@ -72,11 +68,34 @@ void aim(SceneCamera& camera, const Point& origin, const Point& target) {
     }
     Point axis{0, 0, 0};
     axis[static_cast<std::size_t>(up)] = sign;
-    camera.to_world = look_at(origin, target, axis);
+    return axis;
+}
+
+bool are_parallel(const Point& a, const Point& b) {
+    const double x = a[1] * b[2] - a[2] * b[1];
+    const double y = a[2] * b[0] - a[0] * b[2];
+    const double z = a[0] * b[1] - a[1] * b[0];
+    return !(std::hypot(x, y, z) > 1e-9 * std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]));
+}
+
+void aim(SceneCamera& camera, const Point& origin, const Point& target, const std::optional<Point>& up) {
+    const Point view{target[0] - origin[0], target[1] - origin[1], target[2] - origin[2]};
+    if (!(std::hypot(view[0], view[1], view[2]) > 0)) {
+        refuse("the camera's origin and target are the same point; give two points");
+    }
+    if (up && are_parallel(*up, view)) {
+        refuse("the camera looks along its up vector; give another one");
+    }
+    camera.to_world = look_at(origin, target, up.value_or(upward_axis(camera, view)));
+}
+
+/// A point 1 m before the camera.
+Point ahead_of(const Mat4& m) {
+    return {m(0, 3) + m(0, 2), m(1, 3) + m(1, 2), m(2, 3) + m(2, 2)};
 }
 
 void apply_camera(Scene& scene, const SceneOverrides& overrides) {
-    if (!overrides.origin && !overrides.target && !overrides.fov_degrees) {
+    if (!overrides.origin && !overrides.target && !overrides.up && !overrides.fov_degrees) {
         return;
     }
     SceneCamera& camera = scene.camera;
@@ -89,10 +108,11 @@ void apply_camera(Scene& scene, const SceneOverrides& overrides) {
         camera.center_x = camera.center_y = 0.0;
         camera.film_part = 1.0;
     }
-    if (overrides.origin || overrides.target) {
+    if (overrides.origin || overrides.target || overrides.up) {
         const Vec3 middle = bounds(scene).center();
-        aim(camera, overrides.origin.value_or(position_of(camera.to_world)),
-            overrides.target.value_or(Point{middle.x, middle.y, middle.z}));
+        const Point own = overrides.origin ? Point{middle.x, middle.y, middle.z} : ahead_of(camera.to_world);
+        aim(camera, overrides.origin.value_or(position_of(camera.to_world)), overrides.target.value_or(own),
+            overrides.up);
     }
 }
 

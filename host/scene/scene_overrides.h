@@ -23,6 +23,8 @@ struct SceneOverrides {
     /// What the camera looks at; empty: the middle of the scene if there is an origin, otherwise as it
     /// stands.
     std::optional<std::array<double, 3>> target{};
+    /// What points upwards in the picture; empty: the axis of the world that does so as the camera stands.
+    std::optional<std::array<double, 3>> up{};
     std::optional<double> fov_degrees{};  ///< horizontal field of view of the picture, above 0 and below 180
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.

@@ -11,6 +11,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/session/light_shares.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
 #include "host/stages/film_layers.h"
@@ -217,6 +218,17 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
             receivers, packets.size(), {.direct_samples = settings.direct_samples, .paths = settings.paths},
             seed, light);
         return unpack(light, points.size());
+    });
+}
+
+std::vector<LightShare> Session::light_shares(Vec3 point, Vec3 normal, const View& view, const VplSet& vpls,
+                                              uint seed) {
+    return pool_.on_leader([&](PoolDevice& leader) {
+        const LitPoint lit{.position = point,
+                           .normal = normal,
+                           .clamp_radius = budget_of(view, vpls, {}).clamp_radius,
+                           .seed = seed};
+        return core::light_shares(leader.device(), leader.scene, scene_, vpls.vpls.download(), lit);
     });
 }
 

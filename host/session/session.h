@@ -12,6 +12,7 @@
 #include "host/samplers/sampler.h"
 #include "host/session/device_pool.h"
 #include "host/session/view.h"
+#include "nearlight/light_share.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {
@@ -68,6 +69,10 @@ class Session {
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const View& view, const VplSet& vpls, const IrradianceSettings& settings,
                                  uint seed);
+
+    /// What each of `vpls` and each emitter brings to a point, see host/session/light_shares.h.
+    std::vector<LightShare> light_shares(Vec3 point, Vec3 normal, const View& view, const VplSet& vpls,
+                                         uint seed);
 
     /// The seconds of getting ready. A second call returns zeros, so that only one picture counts them.
     [[nodiscard]] SessionSeconds take_seconds() { return std::exchange(seconds_, {}); }

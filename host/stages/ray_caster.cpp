@@ -27,11 +27,17 @@ std::vector<BvhHit> RayCaster::closest_hits(const Bvh& bvh, std::span<const RayQ
 }
 
 std::vector<uint> RayCaster::any_hits(const Bvh& bvh, std::span<const RayQuery> rays) {
-    const DeviceTree tree = upload_ray_tree(*device_, bvh);
+    return occluded(upload_ray_tree(*device_, bvh), rays);
+}
+
+std::vector<uint> RayCaster::occluded(const DeviceTree& tree, std::span<const RayQuery> rays) {
+    if (rays.empty()) {
+        return {};
+    }
     const Buffer<RayQuery> queries(*device_, rays);
-    const Buffer<uint> occluded(*device_, rays.size());
-    cast_any_.launch_items(rays.size(), tree, queries, static_cast<uint>(rays.size()), occluded);
-    return occluded.download();
+    const Buffer<uint> is_occluded(*device_, rays.size());
+    cast_any_.launch_items(rays.size(), tree, queries, static_cast<uint>(rays.size()), is_occluded);
+    return is_occluded.download();
 }
 
 }  // namespace nearlight::core

@@ -44,6 +44,7 @@ struct LoadOptions {
     std::optional<Vec3> origin{};  ///< where the camera stands
     /// What the camera looks at; if only the origin is given, that is the middle of the scene.
     std::optional<Vec3> target{};
+    std::optional<Vec3> up{};               ///< what points upwards in the picture
     std::optional<double> field_of_view{};  ///< horizontal, degrees, above 0 and below 180
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.

@@ -15,6 +15,7 @@
 #include "nearlight/device.h"
 #include "nearlight/export.h"
 #include "nearlight/image.h"
+#include "nearlight/light_share.h"
 #include "nearlight/scene.h"
 #include "nearlight/settings.h"
 #include "nearlight/vec3.h"
@@ -32,6 +33,13 @@ struct VirtualPointLight {
     bool close;  ///< lies in the close range
 };
 
+/// A place in a picture.
+struct PicturePlace {
+    double x = 0.0;         ///< in pixels from the left edge
+    double y = 0.0;         ///< in pixels from the top edge
+    double distance = 0.0;  ///< from the camera, in metres
+};
+
 /// A view of a scene whose settings Session::look() has decided. Copies share one state. Accessors may be
 /// called from any thread.
 class NEARLIGHT_API View {
@@ -46,6 +54,9 @@ class NEARLIGHT_API View {
     [[nodiscard]] float clamp_radius() const;
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light.
     [[nodiscard]] std::uint32_t max_depth() const;
+    /// Where the camera sees a point, whether or not something is in between; empty if the point is not
+    /// before the camera. The place may lie beyond the border of the picture.
+    [[nodiscard]] std::optional<PicturePlace> place_of(Vec3 point) const;
 
   private:
     friend class Session;
@@ -145,6 +156,13 @@ class NEARLIGHT_API Session {
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const VplSet& vpls, const IrradianceSettings& settings = {},
                                  std::uint32_t seed = 0);
+
+    /// What each VPL and each emitter brings to a point, in metres, on the side of its normal, which has
+    /// length 1: one share for each VPL, in the order of VplSet::lights(), and then one for each emitter.
+    /// Area lights and the environment are sampled by some thousand rays, images that lights send out count
+    /// by their mean, and light that falls obliquely through a coat counts as if there were none. May be
+    /// called for pictures with the sampler `local`, but knows nothing of its local lights.
+    std::vector<LightShare> light_shares(Vec3 point, Vec3 normal, const VplSet& vpls, std::uint32_t seed = 0);
 
     /// Makes a picture in one call: looks, samples and gathers, and averages several such passes if
     /// `settings` asks for them.

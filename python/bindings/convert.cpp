@@ -124,4 +124,11 @@ std::map<std::string, std::string> Convert<std::map<std::string, std::string>>::
     return result;
 }
 
+std::string Convert<std::string>::from(const char* name, py::handle value) {
+    if (!py::isinstance<py::str>(value)) {
+        fail_type(name, "a str", value);
+    }
+    return value.cast<std::string>();
+}
+
 }  // namespace nearlight::python

@@ -81,6 +81,10 @@ struct Convert<std::map<std::string, std::string>> {
     static std::map<std::string, std::string> from(const char* name, py::handle value);
 };
 template <>
+struct Convert<std::string> {
+    static std::string from(const char* name, py::handle value);
+};
+template <>
 struct Convert<std::filesystem::path> {
     static std::filesystem::path from(const char*, py::handle value) { return to_path(value); }
 };

@@ -117,6 +117,11 @@ void add_enumerations(py::module_& module) {
     py::enum_<BvhQuality>(module, "BvhQuality", "How much time the tree for rays is worth.")
         .value("fast", BvhQuality::fast, "every triangle is in exactly one leaf")
         .value("quality", BvhQuality::quality, "fewer steps per ray, twice the time to build");
+    py::enum_<ToneCurve>(module, "ToneCurve", "From linear light to what a screen shows.")
+        .value("linear", ToneCurve::linear, "as it is; what is above 1 is clipped")
+        .value("neutral", ToneCurve::neutral, "colours as they are up to 0.76, softly limited above")
+        .value("agx", ToneCurve::agx, "a photograph's contrast, where bright colours fade to white")
+        .value("filmic", ToneCurve::filmic, "strong contrast of film");
 }
 
 }  // namespace
@@ -137,10 +142,12 @@ void add_settings(py::module_& module) {
     add_class<CameraPose>(module);
     add_class<ViewSettings>(module);
     add_class<SamplingSettings>(module);
+    add_class<PixelWindow>(module);
     add_class<GatherSettings>(module);
     add_class<RenderSettings>(module);
     add_class<SessionOptions>(module);
     add_class<IrradianceSettings>(module);
+    add_class<SunPosition>(module);
     add_class<LoadOptions>(module);
     add_class<DeviceOptions>(module);
     add_class<WriteOptions>(module);

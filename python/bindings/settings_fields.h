@@ -71,6 +71,16 @@ struct FieldsOf<SamplingSettings> {
 };
 
 template <>
+struct FieldsOf<PixelWindow> {
+    static constexpr const char* name = "PixelWindow";
+    static constexpr const char* text = "A part of a picture, in pixels.";
+    static constexpr auto fields = std::tuple{Field{"x", &PixelWindow::x, "of the leftmost pixel"},
+                                              Field{"y", &PixelWindow::y, "of the topmost pixel"},
+                                              Field{"width", &PixelWindow::width, "at least 1"},
+                                              Field{"height", &PixelWindow::height, "at least 1"}};
+};
+
+template <>
 struct FieldsOf<GatherSettings> {
     static constexpr const char* name = "GatherSettings";
     static constexpr const char* text = "How to make pixels from VPLs and emitters.";
@@ -80,6 +90,7 @@ struct FieldsOf<GatherSettings> {
               "parts of the set of VPLs, of which each sample asks one; None: one a sample"},
         Field{"interleave", &GatherSettings::interleave,
               "1, 2 or 4: the pixels of a square of this size share the strata, which suits denoisers"},
+        Field{"window", &GatherSettings::window, "a PixelWindow, the part to make; None: the whole picture"},
         Field{"direct_samples_per_pixel", &GatherSettings::direct_samples_per_pixel,
               "samples towards area lights and the environment; None: a pilot chooses"},
         Field{"compensate", &GatherSettings::compensate,
@@ -132,10 +143,29 @@ struct FieldsOf<LoadOptions> {
     static constexpr const char* name = "LoadOptions";
     static constexpr const char* text = "How to load a scene.";
     static constexpr auto fields = std::tuple{
-        Field{"definitions", &LoadOptions::definitions,
-              "values of $NAME in a Mitsuba scene, by name; {'camera': NAME} for glTF"},
+        Field{"definitions", &LoadOptions::definitions, "values of $NAME in a Mitsuba scene, by name"},
         Field{"strict", &LoadOptions::strict, "whether an approximation is an error"},
-        Field{"clear_glass", &LoadOptions::clear_glass, "whether light passes glass bodies straight"}};
+        Field{"clear_glass", &LoadOptions::clear_glass, "whether light passes glass bodies straight"},
+        Field{"camera", &LoadOptions::camera, "a camera's name, or its number from 1; '': the first one"},
+        Field{"origin", &LoadOptions::origin, "where the camera stands, m; None: as the file says"},
+        Field{"target", &LoadOptions::target, "what the camera looks at, m"},
+        Field{"up", &LoadOptions::up, "what points upwards in the picture"},
+        Field{"field_of_view", &LoadOptions::field_of_view, "horizontal, degrees"},
+        Field{"environment", &LoadOptions::environment,
+              "an image file, 'sky', or a colour as 'R,G,B' or '#rrggbb'; '': the scene's own"},
+        Field{"environment_rotation", &LoadOptions::environment_rotation, "degrees about +Y"},
+        Field{"environment_scale", &LoadOptions::environment_scale, "multiplies the environment's light"},
+        Field{"sun", &LoadOptions::sun, "a SunPosition, where to add a sun"},
+        Field{"light_scale", &LoadOptions::light_scale, "multiplies all light"}};
+};
+
+template <>
+struct FieldsOf<SunPosition> {
+    static constexpr const char* name = "SunPosition";
+    static constexpr const char* text = "Where the sun stands.";
+    static constexpr auto fields =
+        std::tuple{Field{"azimuth", &SunPosition::azimuth, "degrees from +Z towards +X"},
+                   Field{"elevation", &SunPosition::elevation, "degrees above the horizon, 0 to 90"}};
 };
 
 template <>
@@ -143,7 +173,8 @@ struct FieldsOf<WriteOptions> {
     static constexpr const char* name = "WriteOptions";
     static constexpr const char* text = "How to write a picture.";
     static constexpr auto fields = std::tuple{
-        Field{"exposure", &WriteOptions::exposure, "stops, for PNG: one more doubles the brightness"}};
+        Field{"exposure", &WriteOptions::exposure, "stops, for PNG: one more doubles the brightness"},
+        Field{"tone_curve", &WriteOptions::tone_curve, "a ToneCurve or its name, for PNG"}};
 };
 
 template <>

@@ -43,6 +43,12 @@ class BvhQuality(enum.Enum):
     fast = ...
     quality = ...
 
+class ToneCurve(enum.Enum):
+    linear = ...
+    neutral = ...
+    agx = ...
+    filmic = ...
+
 class CameraPose:
     def __init__(
         self,
@@ -95,6 +101,13 @@ class SamplingSettings:
     set_count: int | None
     close_fraction: float | None
 
+class PixelWindow:
+    def __init__(self, *, x: int = 0, y: int = 0, width: int = 0, height: int = 0) -> None: ...
+    x: int
+    y: int
+    width: int
+    height: int
+
 class GatherSettings:
     def __init__(
         self,
@@ -102,6 +115,7 @@ class GatherSettings:
         samples_per_pixel: int = 16,
         strata: int | None = None,
         interleave: int = 1,
+        window: PixelWindow | None = None,
         direct_samples_per_pixel: int | None = None,
         compensate: bool = True,
         rays_per_pixel: int = 64,
@@ -111,6 +125,7 @@ class GatherSettings:
     samples_per_pixel: int
     strata: int | None
     interleave: int
+    window: PixelWindow | None
     direct_samples_per_pixel: int | None
     compensate: bool
     rays_per_pixel: int
@@ -145,6 +160,7 @@ class RenderSettings:
         samples_per_pixel: int = 16,
         strata: int | None = None,
         interleave: int = 1,
+        window: PixelWindow | None = None,
         direct_samples_per_pixel: int | None = None,
         compensate: bool = True,
         rays_per_pixel: int = 64,
@@ -172,13 +188,42 @@ class IrradianceSettings:
     direct_samples: int
     paths: int
 
+class SunPosition:
+    def __init__(self, *, azimuth: float = 0.0, elevation: float = 0.0) -> None: ...
+    azimuth: float
+    elevation: float
+
 class LoadOptions:
     def __init__(
-        self, *, definitions: Mapping[str, str] = {}, strict: bool = False, clear_glass: bool = False
+        self,
+        *,
+        definitions: Mapping[str, str] = {},
+        strict: bool = False,
+        clear_glass: bool = False,
+        camera: str = "",
+        origin: _Vector | None = None,
+        target: _Vector | None = None,
+        up: _Vector | None = None,
+        field_of_view: float | None = None,
+        environment: str = "",
+        environment_rotation: float = 0.0,
+        environment_scale: float = 1.0,
+        sun: SunPosition | None = None,
+        light_scale: float = 1.0,
     ) -> None: ...
     definitions: Mapping[str, str]
     strict: bool
     clear_glass: bool
+    camera: str
+    origin: _Vector | None
+    target: _Vector | None
+    up: _Vector | None
+    field_of_view: float | None
+    environment: str
+    environment_rotation: float
+    environment_scale: float
+    sun: SunPosition | None
+    light_scale: float
 
 class DeviceOptions:
     def __init__(self, *, kernel_dir: _Path = "", cache_dir: _Path = "") -> None: ...
@@ -186,8 +231,9 @@ class DeviceOptions:
     cache_dir: _Path
 
 class WriteOptions:
-    def __init__(self, *, exposure: float = 0.0) -> None: ...
+    def __init__(self, *, exposure: float = 0.0, tone_curve: ToneCurve | str = "linear") -> None: ...
     exposure: float
+    tone_curve: ToneCurve | str
 
 class DeviceInfo:
     @property
@@ -355,6 +401,7 @@ class Session:
         samples_per_pixel: int = 16,
         strata: int | None = None,
         interleave: int = 1,
+        window: PixelWindow | None = None,
         direct_samples_per_pixel: int | None = None,
         compensate: bool = True,
         rays_per_pixel: int = 64,
@@ -390,6 +437,7 @@ class Session:
         samples_per_pixel: int = 16,
         strata: int | None = None,
         interleave: int = 1,
+        window: PixelWindow | None = None,
         direct_samples_per_pixel: int | None = None,
         compensate: bool = True,
         rays_per_pixel: int = 64,
@@ -416,6 +464,16 @@ def load(
     definitions: Mapping[str, str] = {},
     strict: bool = False,
     clear_glass: bool = False,
+    camera: str = "",
+    origin: _Vector | None = None,
+    target: _Vector | None = None,
+    up: _Vector | None = None,
+    field_of_view: float | None = None,
+    environment: str = "",
+    environment_rotation: float = 0.0,
+    environment_scale: float = 1.0,
+    sun: SunPosition | None = None,
+    light_scale: float = 1.0,
 ) -> Scene: ...
 def read_image(file: _Path) -> Image: ...
 def picture_channels() -> list[str]: ...

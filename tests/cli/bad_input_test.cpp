@@ -82,6 +82,17 @@ class BadInput : public testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(BadInput, CamerasThatCannotBePlaced) {
+    expect_error(render(good_scene(), "--origin 1,2"), 2, "--origin must be X,Y,Z");
+    expect_error(render(good_scene(), "--target 1,2,nan"), 2, "--target must be X,Y,Z");
+    expect_error(render(good_scene(), "--up 1,2,3,4"), 2, "--up must be X,Y,Z");
+}
+
+TEST_F(BadInput, NobodyListensWhereTevShould) {
+    expect_error(render(good_scene(), "--tev localhost"), 1, "start tev first");
+    expect_error(render(good_scene(), "--tev :14158"), 2, "HOST:PORT");
+}
+
 /// The errors that need a device.
 class BadInputOnDevice : public BadInput {
   protected:

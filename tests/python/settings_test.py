@@ -15,16 +15,17 @@ STRUCTS = {
         "CameraPose",
         "ViewSettings",
         "SamplingSettings",
+        "PixelWindow",
         "GatherSettings",
         "RenderSettings",
         "SessionOptions",
         "IrradianceSettings",
     ],
-    "scene.h": ["LoadOptions"],
+    "scene.h": ["SunPosition", "LoadOptions"],
     "image.h": ["WriteOptions"],
     "device.h": ["DeviceOptions"],
 }
-ENUMERATIONS = ["SamplerKind", "Policy", "GatherKernel", "BvhQuality"]
+ENUMERATIONS = ["SamplerKind", "Policy", "GatherKernel", "BvhQuality", "ToneCurve"]
 MEMBERS = {"view": nearlight.ViewSettings, "sampling": nearlight.SamplingSettings, "gather": nearlight.GatherSettings}
 
 
@@ -41,6 +42,8 @@ def default_of(kind, value):
     if kind.startswith("std::map"):
         return {}
     if kind == "std::filesystem::path":
+        return ""
+    if kind == "std::string":
         return ""
     if kind == "Vec3":
         return (0.0, 0.0, 0.0)
@@ -84,7 +87,7 @@ def test_names_and_defaults_are_those_of_the_header(source, header, struct):
 
 @pytest.mark.parametrize("name", ENUMERATIONS)
 def test_enumerations_are_those_of_the_header(source, name):
-    text = without_comments((source / "include/nearlight/settings.h").read_text())
+    text = "".join(without_comments((source / "include/nearlight" / header).read_text()) for header in STRUCTS)
     body = re.search(rf"enum class {name} {{(.*?)}}", text, re.S).group(1)
     assert list(getattr(nearlight, name).__members__) == re.findall(r"\w+", body)
 

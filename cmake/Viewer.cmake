@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+# Finds what the viewer needs, and sets the option NEARLIGHT_VIEWER: on where all of it is there.
+find_package(OpenGL QUIET COMPONENTS OpenGL)
+find_package(glfw3 3.3 QUIET)
+find_path(NEARLIGHT_IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+find_library(NEARLIGHT_IMGUI_LIBRARY imgui)
+
+set(missing "")
+if(NOT OpenGL_FOUND)
+  list(APPEND missing "OpenGL (Debian's libgl-dev)")
+endif()
+if(NOT glfw3_FOUND)
+  list(APPEND missing "GLFW (libglfw3-dev)")
+endif()
+if(NOT NEARLIGHT_IMGUI_INCLUDE_DIR OR NOT NEARLIGHT_IMGUI_LIBRARY)
+  list(APPEND missing "Dear ImGui (libimgui-dev)")
+endif()
+list(JOIN missing ", " missing)
+
+if(missing STREQUAL "")
+  option(NEARLIGHT_VIEWER "Build the window of `nearlight view`" ON)
+else()
+  option(NEARLIGHT_VIEWER "Build the window of `nearlight view`" OFF)
+  if(NEARLIGHT_VIEWER)
+    message(FATAL_ERROR "NEARLIGHT_VIEWER is on, but these are missing: ${missing}")
+  endif()
+  message(STATUS "No viewer, because these are missing: ${missing}")
+endif()

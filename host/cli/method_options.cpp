@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/method_options.h"
+
+#include <cmath>
+
+#include "host/cli/cuts_options.h"
+#include "host/samplers/sampler.h"
+
+namespace nearlight::core {
+namespace {
+
+/// Parses "auto", which gives nothing, or a number in [low, high].
+std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low,
+                                    float high) {
+    if (text == "auto") {
+        return std::nullopt;
+    }
+    float value = NAN;
+    std::size_t used = 0;
+    try {
+        value = std::stof(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used != text.size() || !(value >= low) || !(value <= high)) {
+        throw Error(ErrorKind::invalid_argument,
+                    fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, low,
+                                high, text));
+    }
+    return value;
+}
+
+}  // namespace
+
+void add_sample_options(CLI::App& command, GatherSettings& gather) {
+    command.add_option("--spp", gather.samples_per_pixel, "Camera samples per pixel, for antialiasing")
+        ->check(CLI::Range(1u, 65536u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--direct-samples", gather.direct_samples_per_pixel,
+                    "Shadow rays per pixel to area and environment lights (default: 16 to 128, chosen by a "
+                    "pilot)")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N");
+}
+
+void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts) {
+    SamplingSettings& sampling = settings.sampling;
+    std::map<std::string, SamplerKind> samplers;
+    std::string sampler_help = "Where to put VPLs: ";
+    for (const SamplerEntry& entry : all_samplers()) {
+        samplers.emplace(entry.name, entry.kind);
+        sampler_help +=
+            fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
+    }
+    add_choice(command, "--sampler", sampling.sampler, samplers, sampler_help)
+        ->default_str(to_string(sampling.sampler));
+    std::map<std::string, Policy> policies;
+    std::string policy_help = "Policy of the sampler close-range: ";
+    for (const PolicyEntry& entry : all_policies()) {
+        policies.emplace(entry.name, entry.policy);
+        policy_help +=
+            fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
+    }
+    add_choice(command, "--policy", sampling.policy, policies, policy_help)
+        ->default_str(to_string(sampling.policy));
+    command
+        .add_option("--vpls", sampling.vpl_count,
+                    "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
+                    "together")
+        ->check(CLI::Range(0u, 50'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    add_cuts_options(command, texts.cuts, sampling);
+    command
+        .add_option("--close-fraction", texts.close_fraction,
+                    "Fraction of the VPLs that lie in the close range: 0 to 1, or auto")
+        ->type_name("F")
+        ->capture_default_str();
+}
+
+void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts) {
+    command
+        .add_option("--range", texts.range,
+                    "Distance from the camera at which the close range ends: scene units, or auto")
+        ->type_name("R")
+        ->capture_default_str();
+    command
+        .add_option("--clamp-radius", texts.clamp_radius,
+                    "VPLs closer than R light a point as if they were at the distance R, and rays bring back "
+                    "the rest: scene units, or auto, which chooses the radius of least noise")
+        ->type_name("R")
+        ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--compensate",
+            [&settings](const std::string& text) { settings.gather.compensate = text == "on"; },
+            "on: rays bring back the light that the clamp radius takes away and what surfaces reflect other "
+            "than diffusely, so that the picture is the scene's own; off: the clamped picture of the VPLs")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off")
+        ->default_str("on");
+    command
+        .add_option("--rays", settings.gather.rays_per_pixel,
+                    "Rays per pixel for what --compensate brings back, and as many that look for lamps and "
+                    "windows in rough reflections")
+        ->check(CLI::Range(1u, 1'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--max-depth", settings.view.max_depth,
+            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's, or 8)")
+        ->check(CLI::Range(1u, 1024u))
+        ->type_name("N");
+    command
+        .add_option("--seed", settings.seed,
+                    "Seed of the random numbers: the same seed gives the same picture")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--roulette", settings.gather.roulette,
+                    "Russian roulette: trace a VPL that could bring less than T times the mean only with a "
+                    "probability; 0 traces all")
+        ->check(CLI::Range(0.0f, 1000.0f))
+        ->type_name("T")
+        ->capture_default_str();
+}
+
+void settle(const MethodTexts& texts, RenderSettings& settings) {
+    settings.sampling.close_fraction = number_or_auto("--close-fraction", texts.close_fraction, 0.0f, 1.0f);
+    settings.view.range = number_or_auto("--range", texts.range, 1e-6f, 1e9f);
+    settings.view.clamp_radius = number_or_auto("--clamp-radius", texts.clamp_radius, 0.0f, 1e9f);
+    settings.sampling.cuts = has_cuts(texts.cuts, settings);
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that say how light is computed, for commands that make pictures.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "host/cli/command.h"
+#include "host/cli/log.h"
+#include "nearlight/settings.h"
+
+namespace nearlight::core {
+
+/// Values of options that are settled after the whole line is read.
+struct MethodTexts {
+    std::string cuts = "auto";
+    std::string close_fraction = "auto";
+    std::string range = "auto";
+    std::string clamp_radius = "auto";
+};
+
+/// Adds --spp and --direct-samples.
+void add_sample_options(CLI::App& command, GatherSettings& gather);
+/// Adds --sampler, --policy, --vpls, --cuts, --vpl-set and --close-fraction.
+void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
+/// Adds --range, --clamp-radius, --compensate, --rays, --max-depth, --seed and --roulette.
+void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
+
+/// Puts the settled values into the settings. Throws Error(ErrorKind::invalid_argument) for a value out of
+/// range.
+void settle(const MethodTexts& texts, RenderSettings& settings);
+
+/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
+template <typename Choice>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
+                        const std::map<std::string, Choice>& choices, const std::string& description) {
+    const auto choose = [option, &value, choices](const std::string& text) {
+        std::string names;
+        for (const auto& [name, choice] : choices) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+        const auto found = choices.find(text);
+        if (found == choices.end()) {
+            throw Error(ErrorKind::invalid_argument,
+                        fmt::format("unknown {} '{}'; choose one of: {}", option, text, names));
+        }
+        value = found->second;
+    };
+    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/view_command.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "host/cli/device_options.h"
+#include "host/cli/interrupt.h"
+#include "host/cli/log.h"
+#include "host/cli/method_options.h"
+#include "host/cli/output.h"
+#include "host/cli/override_options.h"
+#include "host/cli/scene_options.h"
+#include "host/cli/tev_picture.h"
+#include "host/stages/film_layers.h"
+#include "viewer/viewer.h"
+
+namespace nearlight::core {
+namespace {
+
+/// The module is found by the run path of the program, as that of images is (host/image/image_codec.h).
+constexpr const char* kModule = "nearlight-viewer.so";
+
+struct ViewOptions {
+    SceneOptions scene;
+    DeviceChoice device;
+    RenderSettings settings;
+    MethodTexts method;
+    ImageSize size;
+    float exposure = 0.0f;
+    std::string layer = "beauty";
+    uint frames = 0;
+    std::string screenshot;
+    std::string inspect;
+    bool shows_vpls = false;
+    bool measures = false;
+    std::string tev;
+};
+
+viewer::RunViewer load_viewer() {
+    void* const module = dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
+    void* const run = module == nullptr ? nullptr : dlsym(module, viewer::kRunViewerName);
+    if (run == nullptr) {
+        const char* const reason = dlerror();
+        throw Error(ErrorKind::failure,
+                    fmt::format("this nearlight has no viewer: cannot load {} ({}); install the packages "
+                                "libglfw3-dev, libimgui-dev and libgl-dev and build again",
+                                kModule, reason == nullptr ? "it is empty" : reason));
+    }
+    return reinterpret_cast<viewer::RunViewer>(run);
+}
+
+/// The arguments of a command line that load the same scene.
+std::vector<std::string> scene_arguments(const SceneOptions& scene) {
+    std::vector<std::string> arguments{scene.file.string()};
+    for (const std::string& definition : scene.definitions) {
+        arguments.insert(arguments.end(), {"-D", definition});
+    }
+    if (scene.clear_glass) {
+        arguments.insert(arguments.end(), {"--glass", "clear"});
+    }
+    std::ranges::move(override_arguments(scene), std::back_inserter(arguments));
+    return arguments;
+}
+
+std::optional<nearlight::Vec3> point_of(const std::optional<std::array<double, 3>>& point) {
+    return point ? std::optional<nearlight::Vec3>({static_cast<float>((*point)[0]),
+                                                   static_cast<float>((*point)[1]),
+                                                   static_cast<float>((*point)[2])})
+                 : std::nullopt;
+}
+
+/// What load_options() says, for the library.
+nearlight::LoadOptions library_options(const SceneOptions& scene) {
+    const LoadOptions load = load_options(scene);
+    const SceneOverrides& overrides = load.overrides;
+    nearlight::LoadOptions options{
+        .definitions = load.parameters, .strict = load.strict, .clear_glass = scene.clear_glass};
+    options.camera = load.camera;
+    options.origin = point_of(overrides.origin);
+    options.target = point_of(overrides.target);
+    options.up = point_of(overrides.up);
+    options.field_of_view = overrides.fov_degrees;
+    options.environment = overrides.environment;
+    options.environment_rotation = overrides.environment_rotation;
+    options.environment_scale = overrides.environment_scale;
+    if (overrides.sun) {
+        options.sun = nearlight::SunPosition{overrides.sun->azimuth, overrides.sun->elevation};
+    }
+    options.light_scale = overrides.light_scale;
+    return options;
+}
+
+std::size_t layer_index(const std::string& name) {
+    std::string names;
+    for (const FilmLayer& layer : kFilmLayers) {
+        if (layer.name == name && layer.files == FileRule::always) {
+            return static_cast<std::size_t>(&layer - kFilmLayers.data());
+        }
+        names += layer.files == FileRule::always ? (names.empty() ? "" : ", ") + std::string(layer.name) : "";
+    }
+    throw Error(ErrorKind::invalid_argument,
+                fmt::format("unknown layer '{}'; choose one of: {}", name, names));
+}
+
+RenderSettings settled(const ViewOptions& options) {
+    RenderSettings settings = options.settings;
+    settle(options.method, settings);
+    if (options.size.width > 0) {
+        settings.view.width = options.size.width;
+        settings.view.height = options.size.height;
+    }
+    return settings;
+}
+
+viewer::ViewerTask task_of(const ViewOptions& options) {
+    viewer::ViewerTask task{.scene = options.scene.file, .settings = settled(options)};
+    task.load = library_options(options.scene);
+    task.device = options.device.device.empty() ? "auto" : options.device.device;
+    task.device_options = {.kernel_dir = options.device.options.kernel_dir,
+                           .cache_dir = options.device.options.cache_dir};
+    task.exposure = options.exposure;
+    task.scene_arguments = scene_arguments(options.scene);
+    task.messages = [](MessageLevel level, std::string_view text) {
+        spdlog::log(level == MessageLevel::error     ? spdlog::level::err
+                    : level == MessageLevel::warning ? spdlog::level::warn
+                                                     : spdlog::level::debug,
+                    "{}", text);
+    };
+    task.tev = options.tev;
+    task.frames = options.frames;
+    task.screenshot = options.screenshot;
+    task.inspect = options.inspect;
+    task.shows_vpls = options.shows_vpls;
+    task.layer = layer_index(options.layer);
+    task.measures = options.measures;
+    task.is_interrupted = interrupted;
+    return task;
+}
+
+void tell(const viewer::ViewerReport& report, const GlobalOptions& global) {
+    if (global.json) {
+        print_json({{"width", report.width},
+                    {"height", report.height},
+                    {"moving_frames_per_second", report.moving_frames_per_second},
+                    {"moving_divisor", report.moving_divisor},
+                    {"first_full_seconds", report.first_full_seconds},
+                    {"slowest_full_seconds", report.slowest_full_seconds},
+                    {"first_full_processor_seconds", report.first_full_processor_seconds},
+                    {"pass_seconds", report.pass_seconds}});
+        return;
+    }
+    print(fmt::format(
+        "{:.1f} frames per second in motion, at 1/{} of the width\n"
+        "{:.2f} s to the first picture of {}x{} pixels after a move (at most {:.2f} s; {:.2f} s of "
+        "processor time)\n"
+        "{:.2f} s for each further pass\n",
+        report.moving_frames_per_second, report.moving_divisor, report.first_full_seconds, report.width,
+        report.height, report.slowest_full_seconds, report.first_full_processor_seconds,
+        report.pass_seconds));
+}
+
+ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
+    const viewer::ViewerTask task = task_of(options);
+    if (!std::filesystem::exists(task.scene)) {
+        throw Error(ErrorKind::file,
+                    fmt::format("cannot read '{}': there is no such file", task.scene.string()));
+    }
+    const viewer::RunViewer run = load_viewer();
+    catch_interrupts();
+    const viewer::ViewerReport report = run(task);
+    if (options.measures) {
+        tell(report, global);
+    }
+    return interrupted() ? ExitCode::interrupted : ExitCode::done;
+}
+
+void add_window_options(CLI::App& command, ViewOptions& options) {
+    command.add_option("--exposure", options.exposure, "Exposure at the start, in stops")
+        ->type_name("EV")
+        ->capture_default_str();
+    command.add_option("--layer", options.layer, "Layer that is shown at the start")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command.add_flag("--show-vpls", options.shows_vpls, "Draw VPLs over the picture from the start");
+    command.add_option("--inspect", options.inspect, "With --frames: ask what lights this pixel")
+        ->type_name("X,Y");
+    command
+        .add_option(
+            "--frames", options.frames,
+            "End by itself when the picture has so many samples per pixel, for tests and screenshots; "
+            "0: when the window is closed")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--screenshot", options.screenshot, "With --frames: write the window to this PNG file")
+        ->type_name("FILE");
+    command.add_flag("--measure", options.measures,
+                     "Open no window, but move the camera about and say how soon pictures come");
+}
+
+}  // namespace
+
+void add_view_command(CommandLine& line) {
+    auto options = std::make_shared<ViewOptions>();
+    CLI::App& command =
+        line.add_command("view", "Walk about in a scene, in a window",
+                         [options](const GlobalOptions& global) { return run_view(*options, global); });
+    add_scene_options(command, options->scene);
+    add_glass_option(command, options->scene.clear_glass);
+    add_size_option(command, options->size);
+    add_override_options(command, options->scene);
+    add_window_options(command, *options);
+    add_tev_option(command, options->tev);
+    add_sample_options(command, options->settings.gather);
+    add_sampler_options(command, options->settings, options->method);
+    add_method_options(command, options->settings, options->method);
+    add_device_options(command, options->device);
+}
+
+}  // namespace nearlight::core

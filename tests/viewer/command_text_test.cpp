@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/command_text.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace nearlight::viewer {
+namespace {
+
+const std::vector<std::string> kScene{"scene.xml"};
+
+TEST(CommandText, DefaultsAreLeftOut) {
+    EXPECT_EQ(command_text(kScene, {}, 0.0f, "a.exr"), "nearlight render scene.xml -o a.exr");
+}
+
+TEST(CommandText, NamesWhatDiffers) {
+    RenderSettings settings;
+    settings.view.camera =
+        CameraPose{.origin = {1, 2.5f, -3}, .target = {0, 0, 0}, .up = Vec3{0, 0, 1}, .fov_x_degrees = 50};
+    settings.view.width = 320;
+    settings.view.height = 200;
+    settings.view.clamp_radius = 0.1f;
+    settings.sampling.sampler = SamplerKind::instant_radiosity;
+    settings.sampling.vpl_count = 2000;
+    settings.gather.compensate = false;
+    EXPECT_EQ(
+        command_text(kScene, settings, -1.5f, "a.png"),
+        "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --up=0,0,1 --fov 50 --size 320x200 "
+        "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure -1.5 -o "
+        "a.png");
+}
+
+TEST(CommandText, ShellsReadOddNamesAsTheyAre) {
+    EXPECT_EQ(shell_word("plain/name-1.xml"), "plain/name-1.xml");
+    EXPECT_EQ(shell_word("my room.xml"), "'my room.xml'");
+    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+    EXPECT_EQ(shell_word("$HOME"), "'$HOME'");
+    EXPECT_EQ(shell_word(""), "''");
+}
+
+}  // namespace
+}  // namespace nearlight::viewer

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nearlight view` with a window on a display that exists in memory only.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "host/cl/devices/device_list.h"
+#include "host/image/image_io.h"
+#include "tests/cli/run_program.h"
+#include "tests/support/device_required.h"
+#include "tests/viewer/virtual_display.h"
+
+namespace nearlight::core {
+namespace {
+
+const std::string kFloor = std::string(NEARLIGHT_SOURCE_DIR) + "/tests/install/floor.xml";
+const std::string kWithoutDisplay = "env -u DISPLAY -u WAYLAND_DISPLAY";
+
+std::size_t lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+void expect_error(const ProgramResult& result, int exit_code, const std::string& part) {
+    EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+    EXPECT_EQ(lines(result.errors), 1u) << result.errors;
+    EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
+}
+
+TEST(ViewCommand, WithoutADisplayThereIsOneClearLine) {
+    expect_error(run_program("view " + kFloor, kWithoutDisplay), 1, "cannot open a window");
+}
+
+TEST(ViewCommand, MistakesAreToldBeforeAWindowOpens) {
+    expect_error(run_program("view nosuch.xml", kWithoutDisplay), 3, "nosuch.xml");
+    expect_error(run_program("view " + kFloor + " --layer nosuch", kWithoutDisplay), 2, "beauty, direct");
+    expect_error(run_program("view " + kFloor + " --range far", kWithoutDisplay), 2, "--range");
+}
+
+TEST(ViewCommand, MeasuresWithoutADisplay) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result =
+        run_program("view " + kFloor + " --size 64x48 --vpls 50 --spp 2 --measure --json", kWithoutDisplay);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_NE(result.output.find("\"first_full_seconds\""), std::string::npos) << result.output;
+}
+
+class ViewWindow : public testing::Test {
+  protected:
+    void SetUp() override {
+        NEARLIGHT_NEEDS_DEVICE();
+        if (!display_.is_there()) {
+            GTEST_SKIP() << "Xvfb is not installed (Debian's package xvfb)";
+        }
+    }
+    [[nodiscard]] std::filesystem::path screenshot() const { return folder_ / "window.png"; }
+    ProgramResult view_floor(const std::string& options, const std::string& before = "") const {
+        return run_program("view " + kFloor + " " + options, display_.prefix() + " " + before);
+    }
+    VirtualDisplay display_;
+    TemporaryFolder folder_;
+};
+
+/// The panel stands on the left, and the lit floor in the middle of what is right of it.
+TEST_F(ViewWindow, ShowsThePicture) {
+    const ProgramResult result = view_floor(
+        "--size 256x256 --vpls 100 --spp 2 --frames 2 --show-vpls --inspect 128,128 --screenshot " +
+        quoted(screenshot()));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const Image window = read_image(screenshot());
+    EXPECT_GT(window.width, 256);
+    EXPECT_GE(window.height, 256);
+    const int middle = window.width - 128;
+    EXPECT_GT(window.at(middle + 40, window.height / 2 + 40, 2), 0.3f);
+    EXPECT_LT(window.at(window.width - 3, 3, 2), 0.2f);
+}
+
+TEST_F(ViewWindow, CtrlCClosesItInTheMiddle) {
+    const ProgramResult result =
+        view_floor("--size 512x512 --spp 4096", "timeout --foreground --preserve-status --signal=INT 6");
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_EQ(result.errors, "");
+}
+
+/// A display that goes away, as a remote one does, ends the program without a crash.
+TEST_F(ViewWindow, ALostDisplayEndsIt) {
+    std::thread ending([&] {
+        std::this_thread::sleep_for(std::chrono::seconds(6));
+        display_.end();
+    });
+    const ProgramResult result = view_floor("--size 512x512 --spp 4096", "timeout 60");
+    ending.join();
+    EXPECT_EQ(result.exit_code, 1) << result.errors;
+}
+
+}  // namespace
+}  // namespace nearlight::core

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/command_text.h"
+
+#include <charconv>
+
+namespace nearlight::viewer {
+namespace {
+
+/// The shortest text that reads back as the same number.
+template <typename Number>
+std::string text_of(Number value) {
+    char text[64];
+    const std::to_chars_result end = std::to_chars(std::begin(text), std::end(text), value);
+    return {text, end.ptr};
+}
+
+std::string text_of(Vec3 v) {
+    return text_of(v.x) + "," + text_of(v.y) + "," + text_of(v.z);
+}
+
+void add_camera(std::string& line, const CameraPose& camera) {
+    line += " --origin=" + text_of(camera.origin) + " --target=" + text_of(camera.target);
+    if (camera.up) {
+        line += " --up=" + text_of(*camera.up);
+    }
+    if (camera.fov_x_degrees) {
+        line += " --fov " + text_of(*camera.fov_x_degrees);
+    }
+}
+
+/// Adds the option if the value is there, or differs from the default.
+template <typename Number>
+void add_option(std::string& line, const char* option, const std::optional<Number>& value) {
+    if (value) {
+        line += std::string(" ") + option + " " + text_of(*value);
+    }
+}
+template <typename Number>
+void add_option(std::string& line, const char* option, Number value, Number otherwise) {
+    if (value != otherwise) {
+        line += std::string(" ") + option + " " + text_of(value);
+    }
+}
+
+void add_view(std::string& line, const ViewSettings& view) {
+    if (view.camera) {
+        add_camera(line, *view.camera);
+    }
+    if (view.width && view.height) {
+        line += " --size " + std::to_string(*view.width) + "x" + std::to_string(*view.height);
+    }
+    add_option(line, "--range", view.range);
+    add_option(line, "--clamp-radius", view.clamp_radius);
+    add_option(line, "--max-depth", view.max_depth);
+}
+
+void add_sampling(std::string& line, const SamplingSettings& sampling) {
+    const SamplingSettings otherwise;
+    if (sampling.sampler != otherwise.sampler) {
+        line += std::string(" --sampler ") + name_of(sampling.sampler);
+    }
+    if (sampling.policy != otherwise.policy) {
+        line += std::string(" --policy ") + name_of(sampling.policy);
+    }
+    add_option(line, "--vpls", sampling.vpl_count, otherwise.vpl_count);
+    add_option(line, "--close-fraction", sampling.close_fraction);
+}
+
+void add_gather(std::string& line, const GatherSettings& gather) {
+    const GatherSettings otherwise;
+    add_option(line, "--spp", gather.samples_per_pixel, otherwise.samples_per_pixel);
+    add_option(line, "--direct-samples", gather.direct_samples_per_pixel);
+    add_option(line, "--rays", gather.rays_per_pixel, otherwise.rays_per_pixel);
+    if (!gather.compensate) {
+        line += " --compensate off";
+    }
+}
+
+}  // namespace
+
+const char* name_of(SamplerKind sampler) {
+    switch (sampler) {
+        case SamplerKind::close_range:
+            return "close-range";
+        case SamplerKind::instant_radiosity:
+            return "instant-radiosity";
+        case SamplerKind::rejection:
+            return "rejection";
+        case SamplerKind::metropolis:
+            return "metropolis";
+        case SamplerKind::bidirectional:
+            return "bidirectional";
+        case SamplerKind::local:
+            return "local";
+    }
+    return "";
+}
+
+const char* name_of(Policy policy) {
+    switch (policy) {
+        case Policy::complete:
+            return "complete";
+        case Policy::paper:
+            return "paper";
+        case Policy::partition:
+            return "partition";
+    }
+    return "";
+}
+
+std::string shell_word(const std::string& text) {
+    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) {
+        return text;
+    }
+    std::string word(1, '\'');
+    for (const char c : text) {
+        if (c == '\'') {
+            word.append("'\\'");
+        }
+        word.push_back(c);
+    }
+    word.push_back('\'');
+    return word;
+}
+
+std::string command_text(std::span<const std::string> scene_arguments, const RenderSettings& settings,
+                         float exposure, const std::string& output) {
+    std::string line = "nearlight render";
+    for (const std::string& argument : scene_arguments) {
+        line.push_back(' ');
+        line += shell_word(argument);
+    }
+    add_view(line, settings.view);
+    add_sampling(line, settings.sampling);
+    add_gather(line, settings.gather);
+    add_option(line, "--seed", settings.seed, 0u);
+    add_option(line, "--exposure", exposure, 0.0f);
+    return line + " -o " + shell_word(output);
+}
+
+}  // namespace nearlight::viewer

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/renderer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "viewer/pass_settings.h"
+
+namespace nearlight::viewer {
+namespace {
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+/// Passes of a picture: the first quick one, and one for each sample of a pixel.
+std::uint32_t passes_of(const RenderSettings& settings) {
+    return 1 + std::max(settings.gather.samples_per_pixel, 1u);
+}
+
+}  // namespace
+
+Renderer::Renderer(Devices devices, std::function<Scene()> load, const RenderSettings& settings,
+                   std::function<void()> on_news)
+    : settings_(settings),
+      refinement_(passes_of(settings)),
+      on_news_(std::move(on_news)),
+      thread_([this, devices = std::move(devices), load = std::move(load)] { run(devices, load); }) {}
+
+Renderer::~Renderer() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+    }
+    changed_.notify_all();
+}
+
+std::optional<Scene> Renderer::scene() const {
+    const std::lock_guard lock(mutex_);
+    return scene_;
+}
+
+void Renderer::show(const RenderSettings& settings, Change change) {
+    {
+        const std::lock_guard lock(mutex_);
+        settings_ = settings;
+        changed_at_ = Clock::now();
+        refinement_.set_max_passes(passes_of(settings));
+        refinement_.restart();
+        needs_vpls_ = needs_vpls_ || change == Change::sampling;
+    }
+    changed_.notify_all();
+}
+
+void Renderer::set_samples(std::uint32_t samples_per_pixel) {
+    {
+        const std::lock_guard lock(mutex_);
+        settings_.gather.samples_per_pixel = samples_per_pixel;
+        refinement_.set_max_passes(passes_of(settings_));
+    }
+    changed_.notify_all();
+}
+
+void Renderer::pause(bool is_paused) {
+    {
+        const std::lock_guard lock(mutex_);
+        is_paused_ = is_paused;
+    }
+    changed_.notify_all();
+}
+
+std::shared_ptr<const Frame> Renderer::frame() const {
+    const std::lock_guard lock(mutex_);
+    return frame_;
+}
+
+bool Renderer::is_done() const {
+    const std::lock_guard lock(mutex_);
+    return frame_ && !refinement_.next();
+}
+
+void Renderer::inspect(std::shared_ptr<const Frame> frame, int x, int y) {
+    {
+        const std::lock_guard lock(mutex_);
+        to_inspect_ = {std::move(frame), x, y};
+    }
+    changed_.notify_all();
+}
+
+std::shared_ptr<const Inspection> Renderer::inspection() const {
+    const std::lock_guard lock(mutex_);
+    return inspection_;
+}
+
+void Renderer::rethrow_failure() const {
+    const std::lock_guard lock(mutex_);
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+}
+
+std::string Renderer::error() const {
+    const std::lock_guard lock(mutex_);
+    return error_;
+}
+
+void Renderer::run(const Devices& devices, const std::function<Scene()>& load) {
+    try {
+        const Scene loaded = load();
+        {
+            const std::lock_guard lock(mutex_);
+            scene_ = loaded;
+        }
+        on_news_();
+        Session session(devices, loaded);
+        while (const std::optional<Job> job = next_job()) {
+            do_job(session, *job);
+            on_news_();
+        }
+        // What is left of the session's memory goes before the session itself.
+        vpls_.reset();
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        failure_ = std::current_exception();
+    }
+    on_news_();
+}
+
+/// Waits for something to do; nothing at the end.
+std::optional<Renderer::Job> Renderer::next_job() {
+    std::unique_lock lock(mutex_);
+    std::optional<Step> step;
+    changed_.wait(lock, [&] {
+        step = is_paused_ ? std::nullopt : refinement_.next();
+        return is_stopping_ || to_inspect_ || step;
+    });
+    if (is_stopping_) {
+        return std::nullopt;
+    }
+    if (to_inspect_) {
+        return Job{.inspected = std::exchange(to_inspect_, std::nullopt)};
+    }
+    return Job{.step = *step,
+               .settings = settings_,
+               .needs_vpls = std::exchange(needs_vpls_, false),
+               .changed_at = changed_at_};
+}
+
+void Renderer::do_job(Session& session, const Job& job) {
+    const Clock::time_point begin = Clock::now();
+    std::string error;
+    try {
+        if (job.inspected) {
+            const InspectionJob& at = *job.inspected;
+            auto answer = std::make_shared<const Inspection>(viewer::inspect(session, *at.frame, at.x, at.y));
+            const std::lock_guard lock(mutex_);
+            inspection_ = std::move(answer);
+            return;
+        }
+        render(session, job);
+    } catch (const std::exception& exception) {
+        error = exception.what();
+        // The picture stays as it is until something changes.
+        finish({.step = {.kind = StepKind::refining, .pass = ~0u - 1, .state = job.step.state}}, true,
+               seconds_between(begin, Clock::now()));
+    }
+    const std::lock_guard lock(mutex_);
+    error_ = std::move(error);
+}
+
+void Renderer::render(Session& session, const Job& job) {
+    const Clock::time_point begin = Clock::now();
+    Frame frame{.state = job.step.state, .divisor = job.step.divisor};
+    std::optional<Image> pass = gather(session, job, frame);
+    frame.seconds = seconds_between(begin, Clock::now());
+    if (pass) {
+        publish(job, std::move(frame), std::move(*pass));
+    }
+    finish(job, pass.has_value(), seconds_between(begin, Clock::now()));
+}
+
+/// Renders the step's pass. Returns nothing if it was stopped.
+std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& frame) {
+    const RenderSettings& settings = job.settings;
+    const Scene scene = this->scene()->scene;
+    const std::uint32_t seed = pass_seed(settings.seed, job.step);
+    frame.view =
+        session.look(pass_view(settings.view, scene.width(), scene.height(), job.step.divisor), seed);
+    if (!vpls_ || job.needs_vpls || makes_vpls(job.step)) {
+        vpls_ = session.sample(*frame.view, settings.sampling, seed);
+    }
+    frame.vpls = vpls_;
+    Picture picture = session.gather(*frame.view, *vpls_, pass_gather(settings, job.step.kind), seed,
+                                     [&](double) { return is_wanted(job.step); });
+    if (picture.interrupted) {
+        return std::nullopt;
+    }
+    return std::move(picture.image);
+}
+
+void Renderer::publish(const Job& job, Frame frame, Image&& pass) {
+    frame.is_quick = job.step.kind != StepKind::refining;
+    if (frame.is_quick) {
+        frame.image = std::move(pass);
+        frame.samples = 1;
+    } else {
+        if (job.step.pass == 1) {
+            mean_.clear();
+        }
+        mean_.add(pass, 1);
+        frame.image = mean_.image();
+        frame.samples = mean_.samples();
+    }
+    if (job.step.kind != StepKind::reduced) {
+        frame.lights = std::make_shared<const std::vector<VirtualPointLight>>(frame.vpls->lights());
+    }
+    frame.seconds_since_change = seconds_between(job.changed_at, Clock::now());
+    auto shared = std::make_shared<const Frame>(std::move(frame));
+    const std::lock_guard lock(mutex_);
+    frame_ = std::move(shared);
+}
+
+void Renderer::finish(const Job& job, bool completed, double seconds) {
+    const std::lock_guard lock(mutex_);
+    if (!completed && job.needs_vpls && !vpls_) {
+        needs_vpls_ = true;
+    }
+    refinement_.finish(job.step, completed, seconds);
+}
+
+bool Renderer::is_wanted(const Step& step) const {
+    const std::lock_guard lock(mutex_);
+    return !is_stopping_ && !refinement_.is_outdated(step);
+}
+
+}  // namespace nearlight::viewer

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The function that the module exports, and the loop of the window.
+#include "viewer/viewer.h"
+
+#include "nearlight/error.h"
+#include "nearlight/message.h"
+#include "viewer/application.h"
+#include "viewer/measure.h"
+#include "viewer/window.h"
+
+namespace nearlight::viewer {
+namespace {
+
+constexpr int kMinWindowHeight = 820;  ///< so that the panel of settings fits
+
+/// Messages go to the caller while this lives.
+class MessageScope {
+  public:
+    explicit MessageScope(const MessageSink& sink) { set_message_sink(sink); }
+    ~MessageScope() { set_message_sink({}); }
+    MessageScope(const MessageScope&) = delete;
+    MessageScope& operator=(const MessageScope&) = delete;
+};
+
+ViewerReport show(const ViewerTask& task) {
+    const int width = task.settings.view.width.value_or(kDefaultWidth);
+    const int height = task.settings.view.height.value_or(kDefaultHeight);
+    Window window("nearlight - " + task.scene.filename().string(), static_cast<int>(kPanelWidth) + width,
+                  std::max(height, kMinWindowHeight));
+    Application application(task, window);
+    while (!window.is_closed() && !application.has_ended() &&
+           !(task.is_interrupted && task.is_interrupted())) {
+        window.wait(application.patience());
+        application.draw();
+    }
+    return {};
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) ViewerReport nearlight_run_viewer(const ViewerTask& task) {
+    const MessageScope messages(task.messages);
+    return task.measures ? measure(task) : show(task);
+}
+
+}  // namespace nearlight::viewer

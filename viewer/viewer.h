@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program `nearlight` asks of the viewer, which is a module that it loads for `nearlight view`,
+// because nothing else needs the libraries of windows.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nearlight/device.h"
+#include "nearlight/message.h"
+#include "nearlight/scene.h"
+#include "nearlight/settings.h"
+
+namespace nearlight::viewer {
+
+struct ViewerTask {
+    std::filesystem::path scene;
+    LoadOptions load{};
+    std::string device = "auto";
+    DeviceOptions device_options{};
+    RenderSettings settings{};  ///< of a finished picture
+    float exposure = 0.0f;      ///< stops
+    /// The arguments of a command line that say what scene to load and how.
+    std::vector<std::string> scene_arguments{};
+    MessageSink messages{};  ///< gets the library's warnings, in any thread
+    std::string tev{};  ///< HOST:PORT of the image viewer tev, which gets whole pictures too; empty: none
+
+    // For tests, screenshots and measurements.
+    std::uint32_t frames = 0;  ///< ends after so many passes of full size; 0: when the window closes
+    std::filesystem::path screenshot{};  ///< gets the window's content before the end; empty: none
+    std::string inspect{};               ///< "X,Y": inspects this pixel before the screenshot
+    bool shows_vpls = false;
+    std::size_t layer = 0;
+    /// Moves the camera about without a window, and says how soon pictures come.
+    bool measures = false;
+    std::function<bool()> is_interrupted{};  ///< whether to end
+};
+
+/// What a measurement found.
+struct ViewerReport {
+    double moving_frames_per_second = 0.0;
+    int moving_divisor = 1;             ///< of the picture's size during the motion
+    double first_full_seconds = 0.0;    ///< from the last camera move to a picture of full size, the median
+    double slowest_full_seconds = 0.0;  ///< the same, the longest
+    /// Processor time of the whole program for the same, the median: divided by the number of cores, it is
+    /// about what the move takes on an idle machine.
+    double first_full_processor_seconds = 0.0;
+    double pass_seconds = 0.0;  ///< of a refining pass, the median
+    int width = 0;
+    int height = 0;
+};
+
+/// Shows the scene until the window is closed. Throws Error: ErrorKind::failure if there is no display, and
+/// what loading and rendering throw.
+using RunViewer = ViewerReport (*)(const ViewerTask& task);
+/// The name of that function in the module.
+inline constexpr const char* kRunViewerName = "nearlight_run_viewer";
+
+}  // namespace nearlight::viewer
