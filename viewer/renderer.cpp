@@ -182,7 +182,7 @@ void Renderer::render(Session& session, const Job& job) {
 /// Renders the step's pass. Returns nothing if it was stopped.
 std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& frame) {
     const RenderSettings& settings = job.settings;
-    const Scene scene = this->scene()->scene;
+    const Scene scene = *this->scene();
     const std::uint32_t seed = pass_seed(settings.seed, job.step);
     frame.view =
         session.look(pass_view(settings.view, scene.width(), scene.height(), job.step.divisor), seed);

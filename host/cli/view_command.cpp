@@ -212,7 +212,6 @@ void add_view_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_glass_option(command, options->scene.clear_glass);
     add_size_option(command, options->size);
-    add_override_options(command, options->scene);
     add_window_options(command, *options);
     add_tev_option(command, options->tev);
     add_sample_options(command, options->settings.gather);
