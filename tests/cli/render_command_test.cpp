@@ -89,6 +89,34 @@ TEST_F(Render, SamplesShareTheVplsUnlessToldOtherwise) {
     EXPECT_EQ(render("--strata 0", output_).exit_code, 2);
 }
 
+TEST_F(Render, PngHasTheExposureAndTheCurveThatWereAskedFor) {
+    const std::filesystem::path png = folder_ / "a.png";
+    const auto brightness = [&](const std::string& options) {
+        static_cast<void>(rendered(options, png));
+        const Image image = read_linear_image(png);
+        double sum = 0;
+        for (const float value : image.values) {
+            sum += static_cast<double>(value);
+        }
+        return sum / static_cast<double>(image.values.size());
+    };
+    const double plain = brightness("");
+    EXPECT_EQ(std::get<std::string>(read_metadata(png).at("nearlight:tonemap")), "linear");
+    EXPECT_EQ(std::get<std::string>(read_metadata(png).at("nearlight:exposure")), "+0.000");
+    const double dark = brightness("--light-scale 1e-4");
+    EXPECT_LT(dark, 0.01 * plain);
+    EXPECT_GT(brightness("--light-scale 1e-4 --exposure auto --tonemap agx"), 0.1);
+    EXPECT_EQ(std::get<std::string>(read_metadata(png).at("nearlight:tonemap")), "agx");
+    EXPECT_LT(brightness("--exposure -3"), 0.5 * plain);
+}
+
+TEST_F(Render, WithoutAnOutputThePictureHasANameOfItsOwn) {
+    const ProgramResult result = run_program("render --vpls 50 --spp 1 --size 16x12 " + quoted(scene_),
+                                             "cd " + quoted(folder_ / ".") + " &&");
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / (scene_.stem().string() + "-render.png")));
+}
+
 TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
     NEARLIGHT_NEEDS_DEVICE();
     const nlohmann::json few = rendered("", output_);

@@ -273,7 +273,17 @@ TEST_F(LibrarySession, WarningsGoToTheSink) {
     Scene::load(dark);
     set_message_sink({});
     std::filesystem::remove(dark);
-    EXPECT_THAT(warnings, testing::Contains(HasSubstr("emits light")));
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("has no light")));
+}
+
+TEST(LibraryScene, CameraAndLightCanBeReplaced) {
+    const std::uint64_t own = Scene::load(kFloor).hash();
+    EXPECT_NE(Scene::load(kFloor, {.environment = "0.5,0.5,1"}).hash(), own);
+    EXPECT_NE(Scene::load(kFloor, {.sun = SunPosition{30, 40}}).hash(), own);
+    EXPECT_NE(Scene::load(kFloor, {.light_scale = 2}).hash(), own);
+    EXPECT_NE(Scene::load(kFloor, {.origin = Vec3{0, 0, 5}, .target = Vec3{0, 0, 0}}).hash(), own);
+    EXPECT_THROW(Scene::load(kFloor, {.camera = "nosuch"}), Error);
+    EXPECT_THROW(Scene::load(kFloor, {.field_of_view = 180.0}), Error);
 }
 
 TEST(LibraryDevices, UnknownOnesAreErrors) {

@@ -86,6 +86,14 @@ TEST_F(ImageFiles, PngIsToneMapped) {
     EXPECT_EQ(read.at(1, 0, 2), 0.0f);
 }
 
+TEST_F(ImageFiles, PngHasAToneCurveAndCanHaveAnAutomaticExposure) {
+    Image grey{.width = 1, .height = 1, .channels = {"R", "G", "B"}, .values = {0.5f, 0.5f, 0.5f}};
+    write_image(file("a.png"), grey, {.tone_curve = ToneCurve::neutral});
+    EXPECT_NEAR(read_image(file("a.png")).at(0, 0, 0), 1.055 * std::pow(0.46, 1 / 2.4) - 0.055, 0.003);
+    EXPECT_NEAR(automatic_exposure(grey), std::log2(0.18f / 0.5f), 1e-4f);
+    EXPECT_THROW(automatic_exposure(layer(two_pixels(), "depth")), Error);
+}
+
 TEST_F(ImageFiles, WhatCannotBeWrittenIsAnError) {
     const auto kind = [&](const std::string& name, const Image& image) {
         try {

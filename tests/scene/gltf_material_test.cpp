@@ -60,7 +60,12 @@ TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {
 TEST_F(GltfLoader, TransmissionIsGlass) {
     gltf_.material() = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.5}, {"metallicFactor", 0}}},
                         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_NE(top_of(load()).flags & NEARLIGHT_MATERIAL_THIN, 0u);
+    EXPECT_EQ(top_of(load()).spec_trans.value.x, 1.0f);
+    gltf_.material()["pbrMetallicRoughness"]["roughnessFactor"] = 0;
     EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    gltf_.material()["pbrMetallicRoughness"]["roughnessFactor"] = 0.5;
     gltf_.material()["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0.1}};
     EXPECT_EQ(top_of(load()).model, NEARLIGHT_BSDF_DIELECTRIC);
     EXPECT_FLOAT_EQ(top_of(load()).roughness.value.x, 0.25f);

@@ -62,19 +62,32 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     return add_two_sided(scene_, material);
 }
 
+/// A pane whose faces scatter what they reflect and let through.
+uint MaterialMaker::add_rough_pane(const SurfaceModel& surface, double index) {
+    Material pane = principled_material(scene_, index);
+    pane.flags |= NEARLIGHT_MATERIAL_THIN;
+    pane.reflectance = surface.color;
+    pane.roughness = surface.roughness;
+    pane.spec_trans = parameter_of(1.0f);
+    pane.transmission = parameter_of(0.0f);
+    return add(pane);
+}
+
 uint MaterialMaker::add_glass(const SurfaceModel& surface) {
     const double index = surface.index > 1.001 ? surface.index : kGlassIndex;
+    const bool is_rough = surface.roughness.texture >= 0 || surface.roughness.value.x > 0.0f;
+    if (surface.is_thin && is_rough) {
+        return add_rough_pane(surface, index);
+    }
     Material glass = surface.is_thin ? thin_dielectric_material(index) : dielectric_material(index);
     glass.transmission = surface.color;
     glass.transmission.value = glass.transmission.value * surface.absorption;
-    const bool is_rough = surface.roughness.texture >= 0 || surface.roughness.value.x > 0.0f;
-    if (is_rough && surface.is_thin) {
-        approximate("KHR_materials_transmission: rough panes of glass are rendered smooth");
-    } else if (surface.roughness.texture >= 0) {
+    if (surface.roughness.texture >= 0) {
         approximate(
-            "KHR_materials_transmission: textures of the roughness of glass are replaced by their means");
+            "KHR_materials_transmission: textures of the roughness of glass bodies are replaced by their "
+            "means");
     }
-    const float roughness = surface.is_thin ? 0.0f : mean_value(scene_, surface.roughness).x;
+    const float roughness = mean_value(scene_, surface.roughness).x;
     glass.roughness = parameter_of(roughness * roughness);
     return add(glass);
 }

@@ -43,6 +43,7 @@ class MaterialMaker {
     [[nodiscard]] uint make(const tinygltf::Material& source, const MaterialUse& use);
     [[nodiscard]] uint add_opaque(const SurfaceModel& surface);
     [[nodiscard]] uint add_glass(const SurfaceModel& surface);
+    [[nodiscard]] uint add_rough_pane(const SurfaceModel& surface, double index);
     [[nodiscard]] uint add_normal_map(const tinygltf::Material& source, const SurfaceContext& context,
                                       bool is_mirrored, uint child);
     uint add(const Material& material);
