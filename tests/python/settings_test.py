@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Settings have the names and defaults of include/nearlight/, and the type stubs have them too."""
+"""Settings have the names and defaults of include/nearlight/, and the type stubs have what the module has."""
 
 import ast
 import copy
@@ -132,76 +132,72 @@ def test_settings_are_changed_by_keywords_of_a_call(session):
     assert settings.height == 16
 
 
-def stub_classes(source):
-    tree = ast.parse((source / "python/nearlight/__init__.pyi").read_text())
-    return tree, {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
+@pytest.fixture(scope="module")
+def stubs(source):
+    """The classes and functions in the type stubs, by name."""
+    tree = ast.parse((source / "python/nearlight/_core.pyi").read_text())
+    return {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
 
 
-def keywords_of(function):
-    """The names and defaults of the keyword arguments of a function in the stubs."""
-    return {
-        argument.arg: None if isinstance(default, ast.Constant) and default.value is ... else ast.literal_eval(default)
-        for argument, default in zip(function.args.kwonlyargs, function.args.kw_defaults)
-    }
+def names_in(node):
+    """What a class in the stubs has: methods and annotated names, in order."""
+    members = [item for item in node.body if isinstance(item, (ast.FunctionDef, ast.AnnAssign))]
+    return [item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in members]
 
 
-def constructor_defaults(name):
-    return {
-        parameter.name: parameter.default
-        for parameter in inspect.signature(getattr(nearlight, name)).parameters.values()
-        if parameter.kind == parameter.KEYWORD_ONLY
-    }
+def keywords_in(function):
+    """The dictionary of keywords that a function in the stubs takes, as "_ViewSettings"."""
+    return function.args.kwarg and ast.unparse(function.args.kwarg.annotation)[len("Unpack[") : -1]
 
 
-def method(node, name):
-    return next(item for item in node.body if isinstance(item, ast.FunctionDef) and item.name == name)
+def test_stubs_name_everything(stubs):
+    python = {"Comparison", "ComparisonRow", "compare", "Error", "InvalidArgument", "__version__"}
+    assert set(nearlight.__all__) == {name for name in stubs if name[0] != "_"} | python
+    for name in set(stubs) & set(nearlight.__all__) - set(ENUMERATIONS):
+        if inspect.isclass(getattr(nearlight, name)):
+            attributes = vars(getattr(nearlight, name))
+            assert {attribute for attribute in attributes if attribute[0] != "_"} <= set(names_in(stubs[name])), name
+            assert all(hasattr(getattr(nearlight, name), attribute) for attribute in names_in(stubs[name])), name
 
 
-def test_stubs_name_everything(source):
-    tree, classes = stub_classes(source)
-    functions = [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]
-    imported = [alias.asname for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names]
-    known = {*classes, *functions, *imported, "__version__"}
-    assert set(nearlight.__all__) == {name for name in known if name and (name[0] != "_" or name == "__version__")}
-    for name, node in classes.items():
-        cls = getattr(nearlight, name)
-        stubbed = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
-        stubbed |= {item.target.id for item in node.body if isinstance(item, ast.AnnAssign)}
-        assert all(hasattr(cls, attribute) for attribute in stubbed), name
-        public = {attribute for attribute in vars(cls) if attribute[0] != "_"}
-        if not issubclass(cls, tuple) and name not in ENUMERATIONS:
-            assert public <= stubbed, name
+@pytest.mark.parametrize("name", ENUMERATIONS)
+def test_stubs_have_the_members_of_enumerations(stubs, name):
+    members = [item.targets[0].id for item in stubs[name].body]
+    assert members == list(getattr(nearlight, name).__members__)
 
 
 @pytest.mark.parametrize("struct", [name for names in STRUCTS.values() for name in names])
-def test_stubs_have_the_defaults_of_settings(source, struct):
-    _, classes = stub_classes(source)
-    expected = constructor_defaults(struct)
+def test_stubs_have_the_fields_of_settings(stubs, struct):
+    fields = fields_of(getattr(nearlight, struct)())
+    assert names_in(stubs["_" + struct]) == fields
+    assert names_in(stubs[struct]) == ["__init__", *fields]
+    assert keywords_in(stubs[struct].body[0]) == "_" + struct
     if struct == "RenderSettings":
-        for member in MEMBERS.values():
-            expected |= constructor_defaults(member.__name__)
-    assert keywords_of(method(classes[struct], "__init__")) == expected
+        bases = [ast.unparse(base) for base in stubs["_RenderSettings"].bases]
+        assert bases == [f"_{member.__name__}" for member in MEMBERS.values()]
 
 
 @pytest.mark.parametrize(
-    "name, structs, more",
+    "owner, name, keywords",
     [
-        ("__init__", ["SessionOptions"], set()),
-        ("look", ["ViewSettings"], {"seed"}),
-        ("sample", ["SamplingSettings"], {"seed"}),
-        ("gather", ["GatherSettings"], {"seed", "progress"}),
-        ("render", ["RenderSettings", "ViewSettings", "SamplingSettings", "GatherSettings"], {"progress"}),
-        ("irradiance", ["IrradianceSettings"], {"seed"}),
+        ("Session", "__init__", "_SessionOptions"),
+        ("Session", "look", "_ViewSettings"),
+        ("Session", "sample", "_SamplingSettings"),
+        ("Session", "gather", "_GatherSettings"),
+        ("Session", "render", "_RenderSettings"),
+        ("Session", "irradiance", "_IrradianceSettings"),
+        ("Devices", "__init__", "_DeviceOptions"),
+        ("Image", "write", "_WriteOptions"),
+        ("Picture", "write", "_WriteOptions"),
     ],
 )
-def test_stubs_have_the_keywords_of_methods(source, name, structs, more):
-    _, classes = stub_classes(source)
-    expected = {}
-    for struct in structs:
-        expected |= constructor_defaults(struct)
-    stub = keywords_of(method(classes["Session"], name))
-    assert {key: value for key, value in stub.items() if key not in more} == expected
-    assert more <= set(stub)
+def test_stubs_have_the_keywords_of_methods(stubs, owner, name, keywords):
+    method = next(item for item in stubs[owner].body if getattr(item, "name", "") == name)
+    assert keywords_in(method) == keywords
+    runtime = list(inspect.signature(getattr(getattr(nearlight, owner), name)).parameters)
+    arguments = method.args
+    named = [argument.arg for argument in (*arguments.args, *arguments.kwonlyargs)] + [arguments.kwarg.arg]
+    assert named == runtime
 
 
 @pytest.mark.parametrize("name", nearlight.__all__)
