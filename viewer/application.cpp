@@ -114,7 +114,7 @@ void Application::send_to_tev() {
 
 void Application::refresh_picture() {
     if (frame_) {
-        window_.set_picture(to_screen(frame_->image, state_.display));
+        window_.set_picture(to_screen(frame_->image, state_.display), frame_->divisor > 1);
     }
 }
 
@@ -268,7 +268,8 @@ void Application::save() {
     try {
         write_image(name, frame_->image, {.exposure = state_.display.exposure});
         write_text(name + ".txt", command() + "\n");
-        state_.message = "wrote " + name + " and " + name + ".txt with its command line";
+        state_.message = "wrote " + name + (frame_->is_smoothed ? " (smoothed, of few samples)" : "") +
+                         " and " + name + ".txt with its command line";
     } catch (const Error& error) {
         state_.message = error.what();
     }

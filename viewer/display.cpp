@@ -63,8 +63,9 @@ Channels channels_of(const Image& image, std::string_view layer) {
     Channels found;
     for (std::size_t i = 0; i < image.channels.size(); ++i) {
         const std::string& channel = image.channels[i];
+        const bool is_beauty = channel == "R" || channel == "G" || channel == "B";
         const std::string_view owner =
-            channel.size() == 1 ? "beauty" : std::string_view(channel).substr(0, channel.find('.'));
+            is_beauty ? "beauty" : std::string_view(channel).substr(0, channel.find('.'));
         if (owner == layer) {
             found.first = found.count == 0 ? i : found.first;
             ++found.count;

@@ -21,6 +21,7 @@ struct Frame {
     std::uint64_t state = 0;            ///< number of the request that it shows
     int divisor = 1;                    ///< above 1, it is a small picture, made during a motion
     bool is_quick = true;               ///< it is a small picture or the first one, which passes will replace
+    bool is_smoothed = false;           ///< its light is averaged over neighbouring pixels
     std::uint32_t samples = 0;          ///< per pixel, in all passes
     double seconds = 0.0;               ///< that its latest step took
     double seconds_since_change = 0.0;  ///< from the latest request to this frame

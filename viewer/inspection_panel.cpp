@@ -58,7 +58,9 @@ void table(const char* title, const std::vector<LightShare>& shares, double tota
     ImGui::TextUnformatted(title);
     if (shares.empty()) {
         ImGui::TextUnformatted("  none");
+        return;
     }
+    ImGui::TextDisabled("%-11s %5s  %7s %7s %7s  %8s  %7s", "", "no.", "x", "y", "z", "W/m2", "share");
     for (const LightShare& share : shares) {
         ImGui::Text("%-11s %5zu  %7.2f %7.2f %7.2f  %8.3g  %5.1f %%", light_name(share.kind), share.index,
                     static_cast<double>(share.position.x), static_cast<double>(share.position.y),
@@ -82,7 +84,7 @@ void draw_inspection_panel(const Inspection& inspection) {
     ImGui::Text("pixel %d, %d at %.3f %.3f %.3f", inspection.x, inspection.y,
                 static_cast<double>(inspection.position.x), static_cast<double>(inspection.position.y),
                 static_cast<double>(inspection.position.z));
-    ImGui::TextUnformatted("irradiance, luminance in W/m2");
+    ImGui::TextUnformatted("luminance of the irradiance, W/m2");
     row("direct", inspection.direct, total);
     row("VPLs", inspection.from_vpls, total);
     row("remainder, by rays", inspection.remainder, total);

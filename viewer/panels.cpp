@@ -86,8 +86,10 @@ void draw_progress(const ViewerState& state, const PanelFacts& facts) {
     }
     const Frame& frame = *facts.frame;
     ImGui::Text("%dx%d%s, %u of %u samples%s", frame.image.width, frame.image.height,
-                frame.divisor > 1 ? " (moving)" : "", frame.is_quick ? 0 : frame.samples,
-                state.settings.gather.samples_per_pixel,
+                frame.divisor > 1   ? " (moving)"
+                : frame.is_smoothed ? " (smoothed)"
+                                    : "",
+                frame.is_quick ? 0 : frame.samples, state.settings.gather.samples_per_pixel,
                 facts.is_done     ? ", done"
                 : state.is_paused ? ", paused"
                                   : "");

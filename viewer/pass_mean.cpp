@@ -7,7 +7,7 @@ namespace nearlight::viewer {
 
 bool is_light(const std::string& channel) {
     const std::string layer = channel.substr(0, channel.find('.'));
-    return channel.size() == 1 || layer == "direct" || layer == "indirect";
+    return channel == "R" || channel == "G" || channel == "B" || layer == "direct" || layer == "indirect";
 }
 
 void PassMean::add(const Image& pass, unsigned samples) {

@@ -6,8 +6,6 @@
 namespace nearlight::viewer {
 namespace {
 
-/// Pixels of a square of this side ask different VPLs.
-constexpr std::uint32_t kInterleave = 4;
 /// The set of VPLs has at least so many parts, of which a pixel asks one.
 constexpr std::uint32_t kMinStrata = kInterleave * kInterleave;
 /// A pixel of a quick picture asks about so many VPLs: fewer save little, because camera and light rays cost

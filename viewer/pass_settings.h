@@ -7,6 +7,9 @@
 
 namespace nearlight::viewer {
 
+/// Pixels of a square of this side ask different VPLs.
+inline constexpr int kInterleave = 4;
+
 /// The settings of the gather of one step. `whole` is what a finished picture has: its passes have one sample
 /// per pixel each and share rays and light samples, so that `samples_per_pixel` passes cost and bring what a
 /// render with these settings does. A small or a first picture has as little as possible.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "viewer/pass_settings.h"
+#include "viewer/smooth.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -12,6 +13,10 @@ namespace {
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
 }
+
+/// Pictures with fewer samples per pixel are smoothed, because their pixels ask so few VPLs that a pattern
+/// is seen.
+constexpr std::uint32_t kUnsmoothedSamples = 8;
 
 /// Passes of a picture: the first quick one, and one for each sample of a pixel.
 std::uint32_t passes_of(const RenderSettings& settings) {
@@ -210,6 +215,10 @@ void Renderer::publish(const Job& job, Frame frame, Image&& pass) {
         mean_.add(pass, 1);
         frame.image = mean_.image();
         frame.samples = mean_.samples();
+    }
+    frame.is_smoothed = frame.samples < kUnsmoothedSamples;
+    if (frame.is_smoothed) {
+        smooth_interleaved(frame.image, kInterleave);
     }
     if (job.step.kind != StepKind::reduced) {
         frame.lights = std::make_shared<const std::vector<VirtualPointLight>>(frame.vpls->lights());

@@ -39,13 +39,11 @@ GLFWwindow* open_window(const std::string& title, int width, int height) {
     return window;
 }
 
-/// A texture that is shown with every pixel as a square.
 unsigned make_texture() {
     unsigned texture = 0;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
@@ -126,8 +124,9 @@ ScreenPixels Window::end_drawing_with_copy() {
     return pixels;
 }
 
-void Window::set_picture(const ScreenPixels& pixels) {
+void Window::set_picture(const ScreenPixels& pixels, bool is_smooth) {
     glBindTexture(GL_TEXTURE_2D, texture_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_smooth ? GL_LINEAR : GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, pixels.width, pixels.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  pixels.rgba.data());
 }

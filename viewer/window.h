@@ -33,8 +33,9 @@ class Window {
     /// Ends drawing too, and returns what the window then shows.
     ScreenPixels end_drawing_with_copy();
 
-    /// Replaces the picture, which texture() is then.
-    void set_picture(const ScreenPixels& pixels);
+    /// Replaces the picture, which texture() is then. If it is to be shown larger, a smooth picture has no
+    /// visible pixels.
+    void set_picture(const ScreenPixels& pixels, bool is_smooth);
     [[nodiscard]] ImTextureID texture() const;
     void set_clipboard(const std::string& text);
 
