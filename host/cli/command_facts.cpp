@@ -55,11 +55,12 @@ std::string without_brackets(const std::string& text) {
 /// CPUs), rays (for GPUs) or auto". The parser does not know them, because the error for other words names
 /// them.
 std::vector<std::string> choices_named(const std::string& type, const std::string& description) {
-    const std::size_t colon = description.find(": ");
+    std::string list = without_brackets(description);
+    const std::size_t colon = list.find(": ");
     if (type.substr(0, type.find(':')) != "NAME" || colon == std::string::npos) {
         return {};
     }
-    std::string list = without_brackets(description.substr(colon + 2));
+    list.erase(0, colon + 2);
     if (const std::size_t last = list.find(" or "); last != std::string::npos) {
         list.replace(last, 4, ", ");
     }

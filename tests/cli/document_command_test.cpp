@@ -17,6 +17,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::IsSupersetOf;
 using testing::Not;
 
@@ -34,7 +35,10 @@ CommandFacts small_program() {
     part.add_option("--number", number, "A number")
         ->transform(CLI::CheckedTransformer(numbers))
         ->type_name("NAME");
-    part.add_option("--switch", text, "On [or] off")->check(CLI::IsMember({"on", "off"}))->type_name("on|off");
+    part.add_option("--other", text, "Any name (default: fast)")->type_name("NAME");
+    part.add_option("--switch", text, "On [or] off")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off");
     part.add_option("-o,--output", text, "A file (with a back\\slash)")->type_name("OUT")->required();
     part.add_flag("--flag", flag, ".begins with a dot");
     part.add_option("SCENE", text, "A scene")->required();
@@ -53,6 +57,7 @@ TEST(CommandFacts, AreThoseOfTheParser) {
     }
     EXPECT_THAT(options["--mode"].choices, ElementsAre("fast", "slow", "none"));
     EXPECT_EQ(options["--mode"].default_value, "fast");
+    EXPECT_THAT(options["--other"].choices, IsEmpty());
     EXPECT_THAT(options["--number"].choices, ElementsAre("one", "two"));
     EXPECT_THAT(options["--switch"].choices, ElementsAre("on", "off"));
     EXPECT_EQ(options["--switch"].value, "on|off");
@@ -170,7 +175,7 @@ TEST_F(Documents, ShellsAndManReadThem) {
         passes("zsh -n " + quoted(folder() / "_nearlight"));
     }
     if (has("fish")) {
-        passes("fish -n " + quoted(folder() / "nearlight.fish"));
+        passes("fish -c 'source '" + quoted(folder() / "nearlight.fish"));
     }
     if (has("groff")) {
         for (const auto& page : std::filesystem::directory_iterator(folder() / "man")) {
