@@ -276,7 +276,14 @@ void Application::save() {
 }
 
 void Application::end_if_wanted() {
-    if (task_.frames == 0 || !frame_ || frame_->is_quick || frame_->samples < task_.frames) {
+    if (task_.frames == 0) {
+        return;
+    }
+    if (const std::string error = renderer_.error(); !error.empty()) {
+        throw Error(ErrorKind::failure, error);
+    }
+    const bool has_enough = frame_ && !frame_->is_quick && frame_->samples >= task_.frames;
+    if (!has_enough && !(frame_ && renderer_.is_done())) {
         return;
     }
     if (!task_.inspect.empty() && !std::exchange(has_asked_, true)) {

@@ -2,6 +2,8 @@
 // The function that the module exports, and the loop of the window.
 #include "viewer/viewer.h"
 
+#include <algorithm>
+
 #include "nearlight/error.h"
 #include "nearlight/message.h"
 #include "viewer/application.h"
@@ -11,7 +13,10 @@
 namespace nearlight::viewer {
 namespace {
 
-constexpr int kMinWindowHeight = 820;  ///< so that the panel of settings fits
+// The panel of settings fits into the smallest window. Larger pictures are shown smaller than they are.
+constexpr int kMinWindowHeight = 820;
+constexpr int kMaxWindowHeight = 1000;
+constexpr int kMaxPictureWidth = 1280;
 
 /// Messages go to the caller while this lives.
 class MessageScope {
@@ -23,10 +28,10 @@ class MessageScope {
 };
 
 ViewerReport show(const ViewerTask& task) {
-    const int width = task.settings.view.width.value_or(kDefaultWidth);
+    const int width = std::min(task.settings.view.width.value_or(kDefaultWidth), kMaxPictureWidth);
     const int height = task.settings.view.height.value_or(kDefaultHeight);
     Window window("nearlight - " + task.scene.filename().string(), static_cast<int>(kPanelWidth) + width,
-                  std::max(height, kMinWindowHeight));
+                  std::clamp(height, kMinWindowHeight, kMaxWindowHeight));
     Application application(task, window);
     while (!window.is_closed() && !application.has_ended() &&
            !(task.is_interrupted && task.is_interrupted())) {

@@ -38,7 +38,7 @@ TEST(CommandLine, HelpAndVersion) {
 }
 
 TEST(CommandLine, HelpFitsInAHundredColumns) {
-    for (const char* command : {"", "render", "reference", "compare", "diff", "info", "devices", "tune",
+    for (const char* command : {"", "render", "view", "reference", "compare", "diff", "info", "devices", "tune",
                                 "selftest", "bench", "bench gather", "bench build", "bench trace"}) {
         std::istringstream help(run_program(std::string(command) + " --help").output);
         std::size_t lines = 0;

@@ -62,6 +62,13 @@ def test_vpls_of_one_view_light_another(session):
     assert picture["direct"][16, 16] == pytest.approx(np.array([1, 2, 3]) * 0.5 / np.pi, rel=0.02)
 
 
+def test_a_window_has_the_pixels_of_the_whole_picture(session):
+    settings = nearlight.RenderSettings(width=64, height=48, vpl_count=50, samples_per_pixel=1)
+    whole = session.render(settings)
+    part = session.render(settings, window=nearlight.PixelWindow(x=10, y=20, width=30, height=8))
+    assert np.array_equal(part.image.values, whole.image.values[20:28, 10:40])
+
+
 def test_progress_goes_up_and_can_stop(session):
     fractions = []
     session.render(width=256, height=256, vpl_count=300, samples_per_pixel=4, progress=fractions.append)

@@ -76,6 +76,13 @@ TEST_F(ViewWindow, ShowsThePicture) {
     EXPECT_LT(window.at(window.width - 3, 3, 2), 0.2f);
 }
 
+/// There may be fewer samples than frames that are asked for, and errors that no frame follows.
+TEST_F(ViewWindow, EndsWhenNothingMoreComes) {
+    EXPECT_EQ(view_floor("--size 64x64 --vpls 50 --spp 1 --frames 9", "timeout 60").exit_code, 0);
+    expect_error(view_floor("--size 64x64 --origin 0,0,1 --target 0,0,1 --frames 1", "timeout 60"), 1,
+                 "camera");
+}
+
 TEST_F(ViewWindow, CtrlCClosesItInTheMiddle) {
     const ProgramResult result =
         view_floor("--size 512x512 --spp 4096", "timeout --foreground --preserve-status --signal=INT 6");
