@@ -156,14 +156,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
             picture.open(started.width, started.height,
                          render_metadata(hash.get(), options.scene, settings, started, view, devices,
                                          global.command_line),
-<<<<<<< HEAD
                          screen_look(options.picture.screen, scene), place_of(settings.gather, view));
             tev.open(started.width, started.height);
-=======
-                         place_of(settings.gather, view));
-            const PixelWindow part = window_of(view, settings.gather);
-            tev.open(static_cast<int>(part.width), static_cast<int>(part.height));
->>>>>>> 26cc896 (The viewer ends by itself also where no more pictures come; its window fits a screen)
         },
         [&](std::span<const float> rows) {
             first_rows.note(total);
