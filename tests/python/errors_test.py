@@ -113,8 +113,8 @@ def test_warnings_go_to_the_logger(tmp_path, caplog):
     dark.write_text("v 0 0 0\n")
     with caplog.at_level(logging.WARNING, "nearlight"):
         scene = nearlight.load(dark)
-    assert any("emits light" in record.message for record in caplog.records)
-    assert any("emits light" in note.text and note.file == dark for note in scene.notes)
+    assert any("no triangles" in record.message for record in caplog.records)
+    assert any("no triangles" in note.text and note.file == dark for note in scene.notes)
 
 
 def test_debug_messages_are_logged_where_they_are_asked_for(session, caplog):
