@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
 #include "host/cl/devices/driver_cache.h"
+#include "host/cl/devices/registered_drivers.h"
 #include "host/cl/opencl_error.h"
 
 namespace nearlight::core {
@@ -230,6 +232,7 @@ DeviceList list_devices() {
     for (const cl::Platform& platform : platforms) {
         list_platform(platform, list);
     }
+    std::ranges::move(drivers_that_do_not_load(), std::back_inserter(list.problems));
     return list;
 }
 

@@ -33,8 +33,8 @@ struct DeviceEntry {
     [[nodiscard]] std::string label() const { return part.empty() ? name : name + " (" + part + ")"; }
 };
 
-/// All devices, and as text the platforms that are broken or have no device, so that the command `devices`
-/// can show them.
+/// All devices, and as text the platforms that are broken or have no device, and the drivers that cannot be
+/// loaded, so that the command `devices` can show them.
 struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The OpenCL drivers that are registered on this machine, of which the loader passes over in silence those
+// that it cannot load.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nearlight::core {
+
+/// A line for each driver that is registered and cannot be loaded, with the reason. To be called when the
+/// loader has loaded the others.
+std::vector<std::string> drivers_that_do_not_load();
+
+}  // namespace nearlight::core
