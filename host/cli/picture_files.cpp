@@ -208,6 +208,7 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
     place_ = place;
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
+            has_waiting_ = true;
             continue;
         }
         std::vector<FilmLayer> layers = layers_for(options_, file);
@@ -225,14 +226,13 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
 
 /// Writes the files that waited for the exposure.
 void PictureFiles::write_waiting() {
-    const auto waits = [&](const std::string& file) { return waits_for_exposure(file); };
-    if (std::ranges::none_of(options_.outputs, waits)) {
+    if (!has_waiting_) {
         return;
     }
-    const float exposure = automatic_exposure(waiting_);
+    const float exposure = automatic_exposure(metered_.empty() ? waiting_ : metered_);
     spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
     for (const std::string& file : options_.outputs) {
-        if (waits(file)) {
+        if (waits_for_exposure(file)) {
             ImageWriter writer(file, width_, height_, {"R", "G", "B"},
                                screen_writer_options(look_, exposure, metadata_));
             writer.write_rows(waiting_);
@@ -243,10 +243,13 @@ void PictureFiles::write_waiting() {
 
 void PictureFiles::write_rows(std::span<const float> rows) {
     const std::size_t stride = channel_count(options_);
-    for (std::size_t first = 0; !look_.exposure && first < rows.size(); first += stride) {
+    for (std::size_t first = 0; has_waiting_ && first < rows.size(); first += stride) {
         const std::span<const float> beauty =
             rows.subspan(first + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
         waiting_.insert(waiting_.end(), beauty.begin(), beauty.end());
+        if (rows[first + NEARLIGHT_LAYER_ALPHA] > 0.5f) {
+            metered_.insert(metered_.end(), beauty.begin(), beauty.end());
+        }
     }
     for (File& file : files_) {
         selected_.clear();

@@ -75,7 +75,10 @@ class PictureFiles {
     Metadata metadata_;
     ScreenLook look_;
     std::optional<ImagePlace> place_;
-    std::vector<float> waiting_;  ///< RGB, for files whose exposure only the whole picture tells
+    bool has_waiting_ = false;    ///< some files wait for the exposure, which only the whole picture tells
+    std::vector<float> waiting_;  ///< RGB, for these files
+    std::vector<float>
+        metered_;  ///< those pixels in which surfaces are seen, which decide about the exposure
     std::vector<float> selected_;
 };
 

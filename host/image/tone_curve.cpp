@@ -128,9 +128,9 @@ Vec3 apply_tone_curve(ToneCurve curve, Vec3 color) {
 }
 
 float automatic_exposure(std::span<const float> rgb) {
-    constexpr float kGrey = 0.18f;       // the mean brightness that is wanted
+    constexpr float kGrey = 0.25f;       // the mean brightness that is wanted
     constexpr double kAlmostAll = 0.97;  // this share of the picture is to stay below kWhite
-    constexpr float kWhite = 2.0f;
+    constexpr float kWhite = 3.0f;
     std::vector<float> brightest;
     double sum = 0;
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {

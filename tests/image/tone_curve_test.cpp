@@ -61,10 +61,10 @@ TEST(ToneCurve, BadNumbersBecomeBlackOrWhite) {
 
 TEST(AutomaticExposure, MakesTheMeanGreyAndKeepsLightsFromBurning) {
     const std::vector<float> even(300, 0.01f);
-    EXPECT_NEAR(automatic_exposure(even), std::log2(18.0f), 1e-3f);
+    EXPECT_NEAR(automatic_exposure(even), std::log2(25.0f), 1e-3f);
     std::vector<float> lamp = even;
     std::fill(lamp.begin(), lamp.begin() + 60, 100.0f);  // a fifth of the picture
-    EXPECT_NEAR(automatic_exposure(lamp), std::log2(0.02f), 1e-3f);
+    EXPECT_NEAR(automatic_exposure(lamp), std::log2(0.03f), 1e-3f);
     std::vector<float> background(300, 0.0f);
     background.insert(background.end(), even.begin(), even.end());
     EXPECT_NEAR(automatic_exposure(background), automatic_exposure(even), 1e-5f);

@@ -13,6 +13,9 @@
 namespace nearlight::core::gltf {
 namespace {
 
+/// The maximum number of triangles that the instances of one mesh may have.
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 28u;
+
 std::vector<Vec3> to_vectors(const std::vector<float>& numbers) {
     std::vector<Vec3> vectors(numbers.size() / 3);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -202,6 +205,10 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
         const tinygltf::Skin& skin = file_.at(file_.model.skins, node.skin, "skin", "a node");
         apply_skin(file_, data, joint_transforms(file_, skin, *world_), mesh);
         placed = {Mat4{}};  // joints stand in the world
+    }
+    if (!mesh.triangles.empty() && placed.size() > kMaxTriangles / mesh.triangles.size()) {
+        file_.fail("node '" + node.name + "' has " + std::to_string(placed.size()) + " instances of " +
+                   std::to_string(mesh.triangles.size()) + " triangles, which are too many");
     }
     const std::vector<uint> materials = choose_materials(primitive.material, mesh);
     const bool emits_back = materials_.emits_back(primitive.material) && !is_closed(mesh);
