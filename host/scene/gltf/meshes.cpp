@@ -15,6 +15,7 @@ namespace {
 
 /// The maximum number of triangles that the instances of one mesh may have.
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 28u;
+constexpr std::size_t kMaxInstances = std::size_t{1} << 20u;
 
 std::vector<Vec3> to_vectors(const std::vector<float>& numbers) {
     std::vector<Vec3> vectors(numbers.size() / 3);
@@ -167,6 +168,10 @@ std::vector<Mat4> MeshMaker::placements_of(const PlacedNode& placed, const tinyg
     const std::vector<float> rotations = read("ROTATION", 4);
     const std::vector<float> scales = read("SCALE", 3);
     const std::size_t count = std::max({translations.size() / 3, rotations.size() / 4, scales.size() / 3});
+    if (count > kMaxInstances) {
+        file_.fail("node '" + node.name + "' has " + std::to_string(count) + " instances; the maximum is " +
+                   std::to_string(kMaxInstances));
+    }
     std::vector<Mat4> placements;
     for (std::size_t i = 0; i < count; ++i) {
         tinygltf::Node instance;
