@@ -99,6 +99,44 @@ TEST(Camera, FilmPositionIsThatOfTheRayThroughThePoint) {
     }
 }
 
+TEST(Camera, PosesPutItWhereTheySay) {
+    SceneCamera camera;
+    camera.to_world = look_at({10, 2, -3}, {20, 2, -3}, {0, 1, 0}) * scaling(2, 3, 2);
+    camera.aperture_radius = 0.5;
+    const CameraPose pose = pose_of(camera);
+    EXPECT_FLOAT_EQ(pose.origin.x, 10.0f);
+    EXPECT_FLOAT_EQ(pose.target.x, 11.0f);
+    EXPECT_FLOAT_EQ(pose.up->y, 1.0f);
+    EXPECT_EQ(pose.fov_x_degrees, camera.fov_x_degrees);
+    const SceneCamera same = posed(camera, pose);
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_NEAR(same.to_world.m[i], camera.to_world.m[i], 1e-6) << i;
+    }
+
+    const SceneCamera moved = posed(camera, {.origin = {0, 0, 1}, .target = {0, 0, 0}, .fov_x_degrees = 70});
+    expect_same(transform_point(moved.to_world, {0, 0, 0}), {0, 0, 1});
+    expect_same(transform_vector(moved.to_world, {0, 0, 1}), {0, 0, -2});  // the lens keeps its scale
+    expect_same(transform_vector(moved.to_world, {0, 1, 0}), {0, 3, 0});   // upwards as before
+    EXPECT_EQ(moved.fov_x_degrees, 70.0);
+    EXPECT_EQ(moved.aperture_radius, 0.5);
+}
+
+TEST(Camera, PosesOfOrthographicCamerasKeepTheirScaleUntilTheyHaveAFieldOfView) {
+    SceneCamera camera;
+    camera.kind = CameraKind::orthographic;
+    camera.to_world = scaling(4, 4, 1);
+    CameraPose pose = pose_of(camera);
+    EXPECT_FALSE(pose.fov_x_degrees);
+    pose.target = {1, 0, 0};
+    const SceneCamera aside = posed(camera, pose);
+    EXPECT_EQ(aside.kind, CameraKind::orthographic);
+    expect_same(transform_vector(aside.to_world, {1, 0, 0}), {0, 0, -4});
+    pose.fov_x_degrees = 50;
+    const SceneCamera perspective = posed(camera, pose);
+    EXPECT_EQ(perspective.kind, CameraKind::perspective);
+    expect_same(transform_vector(perspective.to_world, {1, 0, 0}), {0, 0, -1});
+}
+
 TEST(Camera, RefusesWhatHasNoPicture) {
     SceneCamera camera;
     EXPECT_THROW(make_camera(camera, 0, 10), Error);
