@@ -50,7 +50,7 @@ Application::Application(const ViewerTask& task, Window& window)
           Devices::choose(task.device, task.device_options),
           [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] { Window::wake(); }) {
     state_.settings = task.settings;
-    state_.display = {.layer = task.layer, .exposure = task.exposure};
+    state_.display.layer = task.layer;
     state_.shows_vpls = task.shows_vpls;
 }
 
@@ -63,27 +63,49 @@ RenderSettings Application::settings() const {
     // Until it is moved, the camera is the scene's to the bit, which may be tilted.
     if (!shows_same(state_.camera, state_.first_camera)) {
         settings.view.camera = pose_of(state_.camera);
+        if (state_.camera.fov_degrees == state_.first_camera.fov_degrees) {
+            settings.view.camera->fov_x_degrees.reset();
+        }
     }
     return settings;
 }
 
 std::string Application::command() const {
-    return command_text(task_.scene_arguments, settings(), state_.display.exposure, state_.save_name.data());
+    RenderSettings shown = settings();
+    std::vector<std::string> arguments = task_.scene_arguments;
+    if (!shown.view.camera) {
+        arguments.insert(arguments.end(), task_.camera_arguments.begin(), task_.camera_arguments.end());
+    } else if (task_.load.field_of_view) {
+        shown.view.camera->fov_x_degrees = state_.camera.fov_degrees;
+    }
+    return command_text(arguments, shown, look(), state_.save_name.data());
+}
+
+WriteOptions Application::look() const {
+    return {.exposure = state_.display.exposure, .tone_curve = state_.display.curve};
+}
+
+/// Scenes that say how bright their light is are shown as they are, others by their first whole picture.
+void Application::choose_look(const Scene& scene) {
+    const bool is_open = scene.has_open_exposure();
+    state_.display.curve = task_.curve.value_or(is_open ? ToneCurve::neutral : ToneCurve::linear);
+    state_.display.exposure = task_.exposure.value_or(0.0f);
+    state_.has_automatic_exposure = task_.has_automatic_exposure || (is_open && !task_.exposure);
 }
 
 void Application::take_scene() {
-    const std::optional<Scene> loaded = has_scene_ ? std::nullopt : renderer_.scene();
-    if (!loaded) {
+    const std::optional<Scene> scene = has_scene_ ? std::nullopt : renderer_.scene();
+    if (!scene) {
         return;
     }
     has_scene_ = true;
-    const Scene& scene = *loaded;
-    const Box bounds = scene.bounds();
-    state_.camera = free_camera(scene.camera(), bounds);
+    const Box bounds = scene->bounds();
+    state_.camera = free_camera(scene->camera(), bounds);
     state_.first_camera = state_.camera;
+    choose_look(*scene);
     state_.walking_speed = walking_speed(bounds);
-    state_.settings.view.width = task_.settings.view.width.value_or(scene.width());
-    state_.settings.view.height = task_.settings.view.height.value_or(scene.height());
+    state_.settings.view.width = task_.settings.view.width.value_or(scene->width());
+    state_.settings.view.height = task_.settings.view.height.value_or(scene->height());
 }
 
 void Application::take_frame() {
@@ -92,6 +114,10 @@ void Application::take_frame() {
         return;
     }
     frame_ = std::move(frame);
+    if (state_.has_automatic_exposure) {
+        state_.display.exposure = automatic_exposure(frame_->image);
+        state_.has_automatic_exposure = frame_->divisor > 1;
+    }
     refresh_picture();
     if (!frame_->is_quick || frame_->divisor == 1) {
         dots_ = vpl_dots(*frame_);
@@ -246,7 +272,10 @@ void Application::apply(const Changes& changes) {
     if (changes.pause) {
         renderer_.pause(state_.is_paused);
     }
-    if (changes.display) {
+    if (changes.automatic_exposure && frame_) {
+        state_.display.exposure = automatic_exposure(frame_->image);
+    }
+    if (changes.display || changes.automatic_exposure) {
         refresh_picture();
     }
     if (changes.copy_command) {
@@ -266,7 +295,7 @@ void Application::save() {
     }
     const std::string name = state_.save_name.data();
     try {
-        write_image(name, frame_->image, {.exposure = state_.display.exposure});
+        write_image(name, frame_->image, look());
         write_text(name + ".txt", command() + "\n");
         state_.message = "wrote " + name + (frame_->is_smoothed ? " (smoothed, of few samples)" : "") +
                          " and " + name + ".txt with its command line";

@@ -40,6 +40,7 @@ class Application {
     };
 
     void take_scene();
+    void choose_look(const Scene& scene);
     void take_frame();
     void take_input();
     void turn_about_the_middle();
@@ -54,6 +55,7 @@ class Application {
     [[nodiscard]] Place place_of_picture() const;
     [[nodiscard]] Input input_in(const Place& place) const;
     [[nodiscard]] RenderSettings settings() const;
+    [[nodiscard]] WriteOptions look() const;
     [[nodiscard]] std::string command() const;
 
     const ViewerTask& task_;

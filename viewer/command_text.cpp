@@ -20,9 +20,6 @@ std::string text_of(Vec3 v) {
 
 void add_camera(std::string& line, const CameraPose& camera) {
     line += " --origin=" + text_of(camera.origin) + " --target=" + text_of(camera.target);
-    if (camera.up) {
-        line += " --up=" + text_of(*camera.up);
-    }
     if (camera.fov_x_degrees) {
         line += " --fov " + text_of(*camera.fov_x_degrees);
     }
@@ -108,6 +105,20 @@ const char* name_of(Policy policy) {
     return "";
 }
 
+const char* name_of(ToneCurve curve) {
+    switch (curve) {
+        case ToneCurve::linear:
+            return "linear";
+        case ToneCurve::neutral:
+            return "neutral";
+        case ToneCurve::agx:
+            return "agx";
+        case ToneCurve::filmic:
+            return "filmic";
+    }
+    return "";
+}
+
 std::string shell_word(const std::string& text) {
     const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) {
@@ -125,7 +136,7 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string command_text(std::span<const std::string> scene_arguments, const RenderSettings& settings,
-                         float exposure, const std::string& output) {
+                         const WriteOptions& look, const std::string& output) {
     std::string line = "nearlight render";
     for (const std::string& argument : scene_arguments) {
         line.push_back(' ');
@@ -135,7 +146,8 @@ std::string command_text(std::span<const std::string> scene_arguments, const Ren
     add_sampling(line, settings.sampling);
     add_gather(line, settings.gather);
     add_option(line, "--seed", settings.seed, 0u);
-    add_option(line, "--exposure", exposure, 0.0f);
+    // Models have other defaults than Mitsuba's scenes, so the look is always said.
+    line += " --exposure=" + text_of(look.exposure) + " --tonemap " + name_of(look.tone_curve);
     return line + " -o " + shell_word(output);
 }
 

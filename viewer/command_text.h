@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "nearlight/image.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::viewer {
@@ -12,13 +13,14 @@ namespace nearlight::viewer {
 /// The command line of `nearlight render` for these settings. `scene_arguments` say what scene to load and
 /// how. Settings that have the defaults are left out.
 std::string command_text(std::span<const std::string> scene_arguments, const RenderSettings& settings,
-                         float exposure, const std::string& output);
+                         const WriteOptions& look, const std::string& output);
 
 /// The text as one word of a shell.
 std::string shell_word(const std::string& text);
 
-/// The names of samplers and policies, as the options have them.
+/// The names of samplers, policies and tone curves, as the options have them.
 const char* name_of(SamplerKind sampler);
 const char* name_of(Policy policy);
+const char* name_of(ToneCurve curve);
 
 }  // namespace nearlight::viewer

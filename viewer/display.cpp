@@ -132,10 +132,16 @@ void fill_by_layer(const Image& image, const DisplaySettings& settings, ScreenPi
                           to_byte(is_empty ? 0.0f : grey)};
         });
     } else {
-        const float scale = name == "albedo" ? 1.0f : std::exp2(settings.exposure);
+        const bool is_light = name != "albedo";
+        const float scale = is_light ? std::exp2(settings.exposure) : 1.0f;
+        const ToneCurve curve = is_light ? settings.curve : ToneCurve::linear;
         const SrgbTable& table = srgb();
         fill(image, channels, screen, [&](const float* c) {
-            return Triple{table.code(c[0] * scale), table.code(c[1] * scale), table.code(c[2] * scale)};
+            Vec3 color{c[0] * scale, c[1] * scale, c[2] * scale};
+            if (curve != ToneCurve::linear) {
+                color = tone_mapped(curve, color);
+            }
+            return Triple{table.code(color.x), table.code(color.y), table.code(color.z)};
         });
     }
 }

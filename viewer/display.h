@@ -20,9 +20,10 @@ struct ShownLayer {
 std::span<const ShownLayer> shown_layers();
 
 struct DisplaySettings {
-    std::size_t layer = 0;          ///< index into shown_layers()
-    float exposure = 0.0f;          ///< of layers of light, in stops
-    bool show_close_range = false;  ///< surfaces of the close range are tinted
+    std::size_t layer = 0;                ///< index into shown_layers()
+    float exposure = 0.0f;                ///< of layers of light, in stops
+    ToneCurve curve = ToneCurve::linear;  ///< of layers of light, after the exposure
+    bool show_close_range = false;        ///< surfaces of the close range are tinted
 };
 
 /// Pixels of a screen: red, green, blue and 255, one byte each, the top row first.
@@ -33,8 +34,9 @@ struct ScreenPixels {
 };
 
 /// What a screen shows of the picture, which must have all channels of picture_channels(). Light passes
-/// through the exposure and the sRGB curve, albedo through the curve alone; directions are shown from −1 to
-/// 1, positions from the picture's smallest to its largest, depth from near (white) to far (black).
+/// through the exposure, the tone curve and the sRGB curve, albedo through the curve alone; directions are
+/// shown from −1 to 1, positions from the picture's smallest to its largest, depth from near (white) to far
+/// (black).
 ScreenPixels to_screen(const Image& image, const DisplaySettings& settings);
 
 /// The distance in metres of what the middle of the picture shows; 0 if it shows nothing.

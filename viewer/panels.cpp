@@ -14,6 +14,7 @@ namespace {
 constexpr std::array kSamplers{SamplerKind::close_range,   SamplerKind::instant_radiosity,
                                SamplerKind::rejection,     SamplerKind::metropolis,
                                SamplerKind::bidirectional, SamplerKind::local};
+constexpr std::array kToneCurves{ToneCurve::linear, ToneCurve::neutral, ToneCurve::agx, ToneCurve::filmic};
 constexpr std::array kPolicies{Policy::complete, Policy::partition, Policy::paper};
 
 void tooltip(const char* text) {
@@ -143,7 +144,12 @@ void draw_display_settings(ViewerState& state, Changes& changes) {
         }
         ImGui::EndCombo();
     }
+    changes.automatic_exposure = ImGui::Button("auto");
+    tooltip("the exposure at which this picture looks right");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(146.0f);
     changes.display |= ImGui::SliderFloat("exposure", &state.display.exposure, -10.0f, 10.0f, "%.2f EV");
+    changes.display |= combo("tone curve", state.display.curve, kToneCurves);
     changes.display |= ImGui::Checkbox("show the close range", &state.display.show_close_range);
     ImGui::Checkbox("VPLs", &state.shows_vpls);
     tooltip("orange: close VPLs, blue: distant ones");

@@ -111,13 +111,13 @@ std::string Renderer::error() const {
 
 void Renderer::run(const Devices& devices, const std::function<Scene()>& load) {
     try {
-        const Scene loaded = load();
+        const Scene scene = load();
         {
             const std::lock_guard lock(mutex_);
-            scene_ = loaded;
+            scene_ = scene;
         }
         on_news_();
-        Session session(devices, loaded);
+        Session session(devices, scene);
         while (const std::optional<Job> job = next_job()) {
             do_job(session, *job);
             on_news_();

@@ -19,7 +19,8 @@ struct ViewerState {
     bool shows_vpls = false;
     bool shows_hidden_vpls = false;
     bool is_paused = false;
-    float walking_speed = 1.0f;  ///< m/s
+    bool has_automatic_exposure = false;  ///< the next whole picture decides the exposure
+    float walking_speed = 1.0f;           ///< m/s
     std::array<char, 256> save_name{"picture.exr"};
     std::string message{};  ///< what became of the latest action
 };
@@ -30,6 +31,7 @@ struct Changes {
     bool sampling = false;  ///< anything that VPLs or light depend on
     bool samples = false;   ///< the number of samples alone
     bool display = false;
+    bool automatic_exposure = false;  ///< the picture that is shown is to decide the exposure
     bool pause = false;
     bool save = false;
     bool copy_command = false;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nearlight/device.h"
+#include "nearlight/image.h"
 #include "nearlight/message.h"
 #include "nearlight/scene.h"
 #include "nearlight/settings.h"
@@ -21,11 +22,14 @@ struct ViewerTask {
     LoadOptions load{};
     std::string device = "auto";
     DeviceOptions device_options{};
-    RenderSettings settings{};  ///< of a finished picture
-    float exposure = 0.0f;      ///< stops
+    RenderSettings settings{};            ///< of a finished picture
+    std::optional<float> exposure{};      ///< stops; empty: as the scene asks, or else by its first picture
+    bool has_automatic_exposure = false;  ///< by the first picture, whatever the scene asks
+    std::optional<ToneCurve> curve{};     ///< empty: as the scene asks
     /// The arguments of a command line that say what scene to load and how.
     std::vector<std::string> scene_arguments{};
-    MessageSink messages{};  ///< gets the library's warnings, in any thread
+    std::vector<std::string> camera_arguments{};  ///< those that place the camera at the start
+    MessageSink messages{};                       ///< gets the library's warnings, in any thread
     std::string tev{};  ///< HOST:PORT of the image viewer tev, which gets whole pictures too; empty: none
 
     // For tests, screenshots and measurements.

@@ -2,6 +2,7 @@
 #include "host/cli/view_command.h"
 
 #include <dlfcn.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include "host/cli/output.h"
 #include "host/cli/override_options.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/screen_options.h"
 #include "host/cli/tev_picture.h"
 #include "host/stages/film_layers.h"
 #include "viewer/viewer.h"
@@ -24,13 +26,17 @@ namespace {
 /// The module is found by the run path of the program, as that of images is (host/image/image_codec.h).
 constexpr const char* kModule = "nearlight-viewer.so";
 
+/// Maximum number of pixels: the viewer keeps a few pictures with all layers in memory, about 100 bytes a
+/// pixel each.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
+
 struct ViewOptions {
     SceneOptions scene;
     DeviceChoice device;
     RenderSettings settings;
     MethodTexts method;
     ImageSize size;
-    float exposure = 0.0f;
+    ScreenOptions screen;
     std::string layer = "beauty";
     uint frames = 0;
     std::string screenshot;
@@ -53,45 +59,89 @@ viewer::RunViewer load_viewer() {
     return reinterpret_cast<viewer::RunViewer>(run);
 }
 
-/// The arguments of a command line that load the same scene.
+std::optional<nearlight::Vec3> public_point(const std::optional<std::array<double, 3>>& point) {
+    return point ? std::optional(nearlight::Vec3{static_cast<float>((*point)[0]),
+                                                 static_cast<float>((*point)[1]),
+                                                 static_cast<float>((*point)[2])})
+                 : std::nullopt;
+}
+
+/// The options for the library, which the viewer loads the scene with.
+nearlight::LoadOptions public_options(const SceneOptions& scene) {
+    const SceneOverrides& overrides = scene.overrides;
+    nearlight::LoadOptions load{.definitions = load_options(scene).parameters,
+                                .strict = scene.strict,
+                                .clear_glass = scene.clear_glass,
+                                .camera = scene.camera,
+                                .origin = public_point(overrides.origin),
+                                .target = public_point(overrides.target),
+                                .field_of_view = overrides.fov_degrees,
+                                .environment = overrides.environment,
+                                .environment_rotation = overrides.environment_rotation,
+                                .environment_scale = overrides.environment_scale,
+                                .light_scale = overrides.light_scale};
+    if (overrides.sun) {
+        load.sun = nearlight::SunPosition{overrides.sun->azimuth, overrides.sun->elevation};
+    }
+    return load;
+}
+
+/// The arguments of a command line that load the same scene with the same light.
 std::vector<std::string> scene_arguments(const SceneOptions& scene) {
     std::vector<std::string> arguments{scene.file.string()};
+    const auto add = [&](const std::string& option, const std::string& value) {
+        arguments.push_back(option + "=" + value);
+    };
     for (const std::string& definition : scene.definitions) {
-        arguments.insert(arguments.end(), {"-D", definition});
+        add("--define", definition);
     }
     if (scene.clear_glass) {
-        arguments.insert(arguments.end(), {"--glass", "clear"});
+        add("--glass", "clear");
     }
     std::ranges::move(override_arguments(scene), std::back_inserter(arguments));
     return arguments;
 }
 
-std::optional<nearlight::Vec3> point_of(const std::optional<std::array<double, 3>>& point) {
-    return point ? std::optional<nearlight::Vec3>({static_cast<float>((*point)[0]),
-                                                   static_cast<float>((*point)[1]),
-                                                   static_cast<float>((*point)[2])})
-                 : std::nullopt;
+/// Those that place its camera.
+std::vector<std::string> camera_arguments(const SceneOverrides& overrides) {
+    std::vector<std::string> arguments;
+    if (overrides.origin) {
+        arguments.push_back(fmt::format("--origin={}", fmt::join(*overrides.origin, ",")));
+    }
+    if (overrides.target) {
+        arguments.push_back(fmt::format("--target={}", fmt::join(*overrides.target, ",")));
+    }
+    if (overrides.up) {
+        arguments.push_back(fmt::format("--up={}", fmt::join(*overrides.up, ",")));
+    }
+    if (overrides.fov_degrees) {
+        arguments.push_back(fmt::format("--fov={}", *overrides.fov_degrees));
+    }
+    return arguments;
 }
 
-/// What load_options() says, for the library.
-nearlight::LoadOptions library_options(const SceneOptions& scene) {
-    const LoadOptions load = load_options(scene);
-    const SceneOverrides& overrides = load.overrides;
-    nearlight::LoadOptions options{
-        .definitions = load.parameters, .strict = load.strict, .clear_glass = scene.clear_glass};
-    options.camera = load.camera;
-    options.origin = point_of(overrides.origin);
-    options.target = point_of(overrides.target);
-    options.up = point_of(overrides.up);
-    options.field_of_view = overrides.fov_degrees;
-    options.environment = overrides.environment;
-    options.environment_rotation = overrides.environment_rotation;
-    options.environment_scale = overrides.environment_scale;
-    if (overrides.sun) {
-        options.sun = nearlight::SunPosition{overrides.sun->azimuth, overrides.sun->elevation};
+nearlight::ToneCurve public_curve(ToneCurve curve) {
+    switch (curve) {
+        case ToneCurve::neutral:
+            return nearlight::ToneCurve::neutral;
+        case ToneCurve::agx:
+            return nearlight::ToneCurve::agx;
+        case ToneCurve::filmic:
+            return nearlight::ToneCurve::filmic;
+        default:
+            return nearlight::ToneCurve::linear;
     }
-    options.light_scale = overrides.light_scale;
-    return options;
+}
+
+void set_look(const ScreenOptions& screen, viewer::ViewerTask& task) {
+    check_screen_options(screen);
+    if (screen.curve) {
+        task.curve = public_curve(*screen.curve);
+    }
+    if (!screen.exposure.empty()) {
+        task.exposure = screen_look(screen, {}).exposure;
+        task.has_automatic_exposure = !task.exposure;
+    }
 }
 
 std::size_t layer_index(const std::string& name) {
@@ -109,6 +159,11 @@ std::size_t layer_index(const std::string& name) {
 RenderSettings settled(const ViewOptions& options) {
     RenderSettings settings = options.settings;
     settle(options.method, settings);
+    if (std::int64_t{options.size.width} * options.size.height > kMaxPixels) {
+        throw Error(ErrorKind::out_of_memory,
+                    fmt::format("{}x{} pixels are too many for a window: the maximum is {} million",
+                                options.size.width, options.size.height, kMaxPixels >> 20));
+    }
     if (options.size.width > 0) {
         settings.view.width = options.size.width;
         settings.view.height = options.size.height;
@@ -118,12 +173,13 @@ RenderSettings settled(const ViewOptions& options) {
 
 viewer::ViewerTask task_of(const ViewOptions& options) {
     viewer::ViewerTask task{.scene = options.scene.file, .settings = settled(options)};
-    task.load = library_options(options.scene);
+    task.load = public_options(options.scene);
     task.device = options.device.device.empty() ? "auto" : options.device.device;
     task.device_options = {.kernel_dir = options.device.options.kernel_dir,
                            .cache_dir = options.device.options.cache_dir};
-    task.exposure = options.exposure;
+    set_look(options.screen, task);
     task.scene_arguments = scene_arguments(options.scene);
+    task.camera_arguments = camera_arguments(options.scene.overrides);
     task.messages = [](MessageLevel level, std::string_view text) {
         spdlog::log(level == MessageLevel::error     ? spdlog::level::err
                     : level == MessageLevel::warning ? spdlog::level::warn
@@ -179,9 +235,6 @@ ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
 }
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
-    command.add_option("--exposure", options.exposure, "Exposure at the start, in stops")
-        ->type_name("EV")
-        ->capture_default_str();
     command.add_option("--layer", options.layer, "Layer that is shown at the start")
         ->type_name("NAME")
         ->capture_default_str();
@@ -212,6 +265,7 @@ void add_view_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_glass_option(command, options->scene.clear_glass);
     add_size_option(command, options->size);
+    add_screen_options(command, options->screen);
     add_window_options(command, *options);
     add_tev_option(command, options->tev);
     add_sample_options(command, options->settings.gather);

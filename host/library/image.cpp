@@ -133,6 +133,11 @@ void write_image(const std::filesystem::path& file, const Image& image, const Wr
     writer.commit();
 }
 
+Vec3 tone_mapped(ToneCurve curve, Vec3 color) {
+    const core::Vec3 mapped = core::apply_tone_curve(core_curve(curve), {color.x, color.y, color.z});
+    return {mapped.x, mapped.y, mapped.z};
+}
+
 float automatic_exposure(const Image& image) {
     std::vector<std::size_t> rgb;
     for (const char* name : {"R", "G", "B"}) {

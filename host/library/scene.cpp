@@ -80,6 +80,10 @@ CameraPose Scene::camera() const {
     return core::pose_of(state_->scene.camera);
 }
 
+bool Scene::has_open_exposure() const {
+    return state_->scene.has_open_exposure;
+}
+
 std::uint64_t Scene::hash() const {
     return core::scene_hash(state_->scene);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nearlight/export.h"
+#include "nearlight/vec3.h"
 
 namespace nearlight {
 
@@ -40,6 +41,10 @@ enum class ToneCurve {
     agx,      ///< a photograph's contrast, where bright colours fade to white
     filmic,   ///< strong contrast of film
 };
+
+/// The linear colour that a screen should show, before the sRGB curve: in [0, 1] but for ToneCurve::linear.
+/// What is negative or NaN counts as 0.
+NEARLIGHT_API Vec3 tone_mapped(ToneCurve curve, Vec3 color);
 
 /// How to write a picture.
 struct WriteOptions {

@@ -89,6 +89,9 @@ class NEARLIGHT_API Scene {
     /// Where the camera stands; its target is 1 m in front of it. There is no field of view if the camera is
     /// orthographic.
     [[nodiscard]] CameraPose camera() const;
+    /// Whether the file leaves open how bright its pictures are to be: those of models look right with
+    /// automatic_exposure() and ToneCurve::neutral.
+    [[nodiscard]] bool has_open_exposure() const;
     /// A hash of everything that shapes the picture: equal scenes have equal hashes, on any machine. Each
     /// call computes it again, in time proportional to the size of the scene.
     [[nodiscard]] std::uint64_t hash() const;

@@ -11,7 +11,8 @@ namespace {
 const std::vector<std::string> kScene{"scene.xml"};
 
 TEST(CommandText, DefaultsAreLeftOut) {
-    EXPECT_EQ(command_text(kScene, {}, 0.0f, "a.exr"), "nearlight render scene.xml -o a.exr");
+    EXPECT_EQ(command_text(kScene, {}, {}, "a.exr"),
+              "nearlight render scene.xml --exposure=0 --tonemap linear -o a.exr");
 }
 
 TEST(CommandText, NamesWhatDiffers) {
@@ -24,11 +25,11 @@ TEST(CommandText, NamesWhatDiffers) {
     settings.sampling.sampler = SamplerKind::instant_radiosity;
     settings.sampling.vpl_count = 2000;
     settings.gather.compensate = false;
-    EXPECT_EQ(
-        command_text(kScene, settings, -1.5f, "a.png"),
-        "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --up=0,0,1 --fov 50 --size 320x200 "
-        "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure -1.5 -o "
-        "a.png");
+    EXPECT_EQ(command_text(kScene, settings, {.exposure = -1.5f, .tone_curve = ToneCurve::agx}, "a.png"),
+              "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --fov 50 --size 320x200 "
+              "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure=-1.5 "
+              "--tonemap agx -o "
+              "a.png");
 }
 
 TEST(CommandText, ShellsReadOddNamesAsTheyAre) {

@@ -118,7 +118,7 @@ TEST_F(RendererTest, EndsInTheMiddleOfAnything) {
 
 TEST_F(RendererTest, FailuresOfLoadingAreRethrown) {
     Renderer renderer(
-        Devices::choose(), []() -> Scene { return Scene::load("nosuch.xml"); }, few_samples(), [] {});
+        Devices::choose(), [] { return Scene::load("nosuch.xml"); }, few_samples(), [] {});
     const auto fails = [&] {
         try {
             renderer.rethrow_failure();

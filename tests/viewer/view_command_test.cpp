@@ -36,6 +36,7 @@ TEST(ViewCommand, MistakesAreToldBeforeAWindowOpens) {
     expect_error(run_program("view nosuch.xml", kWithoutDisplay), 3, "nosuch.xml");
     expect_error(run_program("view " + kFloor + " --layer nosuch", kWithoutDisplay), 2, "beauty, direct");
     expect_error(run_program("view " + kFloor + " --range far", kWithoutDisplay), 2, "--range");
+    expect_error(run_program("view " + kFloor + " --size 65536x65536", kWithoutDisplay), 6, "million");
 }
 
 TEST(ViewCommand, MeasuresWithoutADisplay) {
@@ -76,10 +77,10 @@ TEST_F(ViewWindow, ShowsThePicture) {
     EXPECT_LT(window.at(window.width - 3, 3, 2), 0.2f);
 }
 
-/// There may be fewer samples than frames that are asked for, and errors that no frame follows.
+/// There may be fewer samples than frames that are asked for, and scenes that no frame follows.
 TEST_F(ViewWindow, EndsWhenNothingMoreComes) {
     EXPECT_EQ(view_floor("--size 64x64 --vpls 50 --spp 1 --frames 9", "timeout 60").exit_code, 0);
-    expect_error(view_floor("--size 64x64 --origin 0,0,1 --target 0,0,1 --frames 1", "timeout 60"), 1,
+    expect_error(view_floor("--size 64x64 --origin 0,0,1 --target 0,0,1 --frames 1", "timeout 60"), 2,
                  "camera");
 }
 
