@@ -20,6 +20,9 @@ std::string text_of(Vec3 v) {
 
 void add_camera(std::string& line, const CameraPose& camera) {
     line += " --origin=" + text_of(camera.origin) + " --target=" + text_of(camera.target);
+    if (camera.up) {
+        line += " --up=" + text_of(*camera.up);
+    }
     if (camera.fov_x_degrees) {
         line += " --fov " + text_of(*camera.fov_x_degrees);
     }

@@ -25,11 +25,12 @@ TEST(CommandText, NamesWhatDiffers) {
     settings.sampling.sampler = SamplerKind::instant_radiosity;
     settings.sampling.vpl_count = 2000;
     settings.gather.compensate = false;
-    EXPECT_EQ(command_text(kScene, settings, {.exposure = -1.5f, .tone_curve = ToneCurve::agx}, "a.png"),
-              "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --fov 50 --size 320x200 "
-              "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure=-1.5 "
-              "--tonemap agx -o "
-              "a.png");
+    EXPECT_EQ(
+        command_text(kScene, settings, {.exposure = -1.5f, .tone_curve = ToneCurve::agx}, "a.png"),
+        "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --up=0,0,1 --fov 50 --size 320x200 "
+        "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure=-1.5 "
+        "--tonemap agx -o "
+        "a.png");
 }
 
 TEST(CommandText, ShellsReadOddNamesAsTheyAre) {
