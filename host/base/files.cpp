@@ -36,11 +36,16 @@ std::string reason_not_to_read(const std::filesystem::path& file) {
     namespace fs = std::filesystem;
     std::error_code error;
     switch (fs::status(file, error).type()) {
-        case fs::file_type::regular: return "";
-        case fs::file_type::not_found: return "no such file";
-        case fs::file_type::directory: return "it is a folder, not a file";
-        case fs::file_type::none: return error.message();
-        default: return "it is a pipe or a device, not a file";
+        case fs::file_type::regular:
+            return "";
+        case fs::file_type::not_found:
+            return "no such file";
+        case fs::file_type::directory:
+            return "it is a folder, not a file";
+        case fs::file_type::none:
+            return error.message();
+        default:
+            return "it is a pipe or a device, not a file";
     }
 }
 

@@ -15,8 +15,8 @@ std::vector<BsdfAnswer> BsdfProbe::ask(const BsdfScene& scene, std::span<const B
     Buffer<BsdfAnswer> answers(*device_, queries.size());
     kernel_.launch_items(queries.size(), upload(scene.vertices), upload(scene.triangles),
                          upload(scene.materials), upload(scene.textures), upload(scene.texels),
-                         upload(scene.curves), upload(scene.vertex_colors), upload(scene.second_uvs), info, on_device, answers,
-                         static_cast<uint>(queries.size()));
+                         upload(scene.curves), upload(scene.vertex_colors), upload(scene.second_uvs), info,
+                         on_device, answers, static_cast<uint>(queries.size()));
     return answers.download();
 }
 

@@ -38,8 +38,8 @@ TEST(CommandLine, HelpAndVersion) {
 }
 
 TEST(CommandLine, HelpFitsInAHundredColumns) {
-    for (const char* command : {"", "render", "view", "reference", "compare", "diff", "info", "devices", "tune",
-                                "selftest", "bench", "bench gather", "bench build", "bench trace"}) {
+    for (const char* command : {"", "render", "view", "reference", "compare", "diff", "info", "devices",
+                                "tune", "selftest", "bench", "bench gather", "bench build", "bench trace"}) {
         std::istringstream help(run_program(std::string(command) + " --help").output);
         std::size_t lines = 0;
         for (std::string line; std::getline(help, line); ++lines) {

@@ -75,7 +75,8 @@ double number(const Elements& elements, std::size_t element, std::size_t index) 
     }
 }
 
-/// The maximum number of elements of an accessor that no bytes bound, so that no small file takes much memory.
+/// The maximum number of elements of an accessor that no bytes bound, so that no small file takes much
+/// memory.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 24u;
 
 /// The elements of an accessor without its sparse ones; zero without a buffer view.

@@ -56,8 +56,8 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
         add_default_camera(scene, notes);
     }
     if (!options.overrides.bring_light()) {
-        // A file with a camera is a scene, whose lamps light it. Without one it is a model, of which some parts
-        // may glow.
+        // A file with a camera is a scene, whose lamps light it. Without one it is a model, of which some
+        // parts may glow.
         add_default_light(scene, cameras.empty() ? INFINITY : 0.0f, notes);
     }
     scene.has_open_exposure = true;

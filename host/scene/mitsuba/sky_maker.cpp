@@ -108,11 +108,8 @@ EnvironmentLight make_sky(const Object& emitter, NoteSink& notes) {
         note(notes, emitter.where, "the sun is below the horizon, so the sky is black");
         return light;
     }
-    SkyLight sky{.turbidity = turbidity,
-                 .albedo = albedo,
-                 .sun = sun,
-                 .sky_scale = sky_scale,
-                 .sun_scale = sun_scale};
+    SkyLight sky{
+        .turbidity = turbidity, .albedo = albedo, .sun = sun, .sky_scale = sky_scale, .sun_scale = sun_scale};
     if (sun_scale > 0.0) {
         sky.sun_half_angle = read_sun_half_angle(emitter, notes);
     }
