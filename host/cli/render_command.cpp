@@ -103,10 +103,12 @@ std::optional<ImagePlace> place_of(const GatherSettings& settings, const View& v
 }
 
 /// Logs the device time of each kernel.
-void tell_kernel_times(Device& device) {
-    spdlog::debug("kernels on {}:", device.entry().label());
-    for (const auto& [kernel, total] : device.profiler().totals()) {
-        spdlog::debug("{:<24} {:8.3f} s in {} launches", kernel, total.seconds, total.launches);
+void tell_kernel_times(const std::vector<std::unique_ptr<Device>>& devices) {
+    for (const auto& device : devices) {
+        spdlog::debug("kernels on {}:", device->entry().label());
+        for (const auto& [kernel, total] : device->profiler().totals()) {
+            spdlog::debug("{:<24} {:8.3f} s in {} launches", kernel, total.seconds, total.launches);
+        }
     }
 }
 
@@ -114,6 +116,34 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
     std::vector<Device*> result;
     std::ranges::transform(devices, std::back_inserter(result), &std::unique_ptr<Device>::get);
     return result;
+}
+
+/// Where finished rows go, and when the first of them came.
+struct RowSinks {
+    RenderedPicture picture;
+    TevPicture tev;
+    FirstRows first_rows{};
+
+    void open(const RenderReport& started, const Metadata& metadata, const ScreenLook& look,
+              const std::optional<ImagePlace>& place) {
+        picture.open(started.width, started.height, metadata, look, place);
+        tev.open(started.width, started.height);
+    }
+    void add_rows(std::span<const float> rows, const Stopwatch& since_begin) {
+        first_rows.note(since_begin);
+        picture.add_rows(rows);
+        tev.add_rows(rows);
+    }
+};
+
+/// Says how long an error will take, after the first pass only.
+ForecastSink tell_once(ProgressBar& bar, const RenderSettings& settings) {
+    return [&bar, &settings, told = false](const PassForecast& forecast) mutable {
+        if (!std::exchange(told, true)) {
+            bar.clear();
+            tell_forecast(forecast, *settings.error);
+        }
+    };
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
@@ -126,8 +156,10 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
     const Stopwatch total;
-    RenderedPicture picture(options.picture, options.threads);
-    TevPicture tev(options.tev, std::filesystem::path(options.picture.outputs.front()).filename().string());
+    RowSinks sinks{
+        .picture = RenderedPicture(options.picture, options.threads),
+        .tev = TevPicture(options.tev,
+                          std::filesystem::path(options.picture.outputs.front()).filename().string())};
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
     set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
@@ -148,42 +180,29 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     }
     catch_interrupts();
     ProgressBar bar("gathering", global);
-    FirstRows first_rows;
     Session session(plain(devices), scene, options.session);
     const RenderReport report = render(
         session, settings,
         [&](const RenderReport& started, const View& view, const VplSet&) {
-            picture.open(started.width, started.height,
-                         render_metadata(hash.get(), options.scene, settings, started, view, devices,
-                                         global.command_line),
-                         screen_look(options.picture.screen, scene), place_of(settings.gather, view));
-            tev.open(started.width, started.height);
+            sinks.open(started,
+                       render_metadata(hash.get(), options.scene, settings, started, view, devices,
+                                       global.command_line),
+                       screen_look(options.picture.screen, scene), place_of(settings.gather, view));
         },
-        [&](std::span<const float> rows) {
-            first_rows.note(total);
-            picture.add_rows(rows);
-            tev.add_rows(rows);
-        },
+        [&](std::span<const float> rows) { sinks.add_rows(rows, total); },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
             return !interrupted();
         },
-        [&, told = false](const PassForecast& forecast) mutable {
-            if (!std::exchange(told, true)) {
-                bar.clear();
-                tell_forecast(forecast, *settings.error);
-            }
-        });
+        tell_once(bar, settings));
     bar.clear();
-    picture.commit(total);
+    sinks.picture.commit(total);
     if (global.json) {
         print_json(render_json(options.scene, options.picture.outputs, settings, options.session.bvh_quality,
-                               report, picture, load_seconds, first_rows, devices));
+                               report, sinks.picture, load_seconds, sinks.first_rows, devices));
     }
     if (global.verbose) {
-        for (const auto& device : devices) {
-            tell_kernel_times(*device);
-        }
+        tell_kernel_times(devices);
     }
     tell(options, report, total.seconds());
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
