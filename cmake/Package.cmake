@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages, by `cpack` in the build folder: nearlight (the program), libnearlight (the shared library and the image
-# module) and libnearlight-dev (headers).
+# Debian packages, by `cpack` in the build folder: nearlight (the program), libnearlight (the shared library, and the
+# modules that it and the program load), libnearlight-dev (headers) and, where it is built, nearlight-viewer (the module
+# of `nearlight view`, which needs a desktop's libraries).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nearlight)
 set(CPACK_PACKAGE_VENDOR nearlight)
@@ -36,4 +37,16 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libnearlight (= ${version})")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers of libnearlight
  The headers, the CMake package and the pkg-config file.")
+
+if(NEARLIGHT_VIEWER)
+  list(APPEND CPACK_COMPONENTS_ALL Viewer)
+  set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME nearlight-viewer)
+  set(CPACK_DEBIAN_VIEWER_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_VIEWER_PACKAGE_DEPENDS "nearlight (= ${version}), libnearlight (= ${version})")
+  # The viewer links to the library, which no package has yet when dependencies are looked up.
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/host/library")
+  set(CPACK_COMPONENT_VIEWER_DESCRIPTION "Window of nearlight
+ A module of the program with which one walks about in a scene while it is rendered.")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS nearlight-viewer)
+endif()
 include(CPack)
