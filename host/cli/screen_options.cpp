@@ -32,7 +32,7 @@ void add_screen_options(CLI::App& command, ScreenOptions& options) {
     command
         .add_option(
             "--exposure", options.exposure,
-            "Exposure of PNG pictures, in stops, or auto, which shows surfaces as grey on the average "
+            "Exposure of PNG pictures, in stops, or auto, which looks at the light on the surfaces seen "
             "(default: 0 for Mitsuba's scenes, otherwise auto)")
         ->type_name("EV|auto");
     const auto choose = [&options](const std::string& name) {
