@@ -115,7 +115,7 @@ void Application::take_frame() {
     }
     frame_ = std::move(frame);
     if (state_.has_automatic_exposure) {
-        state_.display.exposure = exposure_of_surfaces(frame_->image);
+        state_.display.exposure = automatic_exposure(frame_->image);
         state_.has_automatic_exposure = frame_->divisor > 1;
     }
     refresh_picture();
@@ -273,7 +273,7 @@ void Application::apply(const Changes& changes) {
         renderer_.pause(state_.is_paused);
     }
     if (changes.automatic_exposure && frame_) {
-        state_.display.exposure = exposure_of_surfaces(frame_->image);
+        state_.display.exposure = automatic_exposure(frame_->image);
     }
     if (changes.display || changes.automatic_exposure) {
         refresh_picture();

@@ -167,22 +167,6 @@ std::span<const ShownLayer> shown_layers() {
     return kLayers;
 }
 
-float exposure_of_surfaces(const Image& image) {
-    const Channels depth = channels_of(image, "depth");
-    const Channels beauty = channels_of(image, "beauty");
-    Image seen{.height = 1, .channels = {"R", "G", "B"}};
-    const std::size_t stride = image.channels.size();
-    for (std::size_t pixel = 0; pixel < image.values.size(); pixel += stride) {
-        const float distance = image.values[pixel + depth.first];
-        if (distance > 0.0f && std::isfinite(distance)) {
-            const float* const color = image.values.data() + pixel + beauty.first;
-            seen.values.insert(seen.values.end(), color, color + 3);
-            ++seen.width;
-        }
-    }
-    return automatic_exposure(seen.width > 0 ? seen : image);
-}
-
 float depth_in_the_middle(const Image& image) {
     const Channels depth = channels_of(image, "depth");
     return depth.count > 0 ? image.at(image.width / 2, image.height / 2, depth.first) : 0.0f;

@@ -39,10 +39,6 @@ struct ScreenPixels {
 /// (black).
 ScreenPixels to_screen(const Image& image, const DisplaySettings& settings);
 
-/// The exposure in stops at which the surfaces of a picture look right, as `render` chooses it; where there
-/// are none, what is behind them.
-float exposure_of_surfaces(const Image& image);
-
 /// The distance in metres of what the middle of the picture shows; 0 if it shows nothing.
 float depth_in_the_middle(const Image& image);
 

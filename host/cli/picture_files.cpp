@@ -101,15 +101,6 @@ std::map<std::string, ExrCompression> compression_names() {
             {"dwaa", ExrCompression::dwaa}};
 }
 
-/// What a surface's light is multiplied by before it is measured, so that what counts is the light that falls
-/// on it: dark things stay dark and white ones white. Nothing is known of it where a surface reflects
-/// nothing.
-float metering_scale(std::span<const float> albedo) {
-    constexpr float kUsualAlbedo = 0.4f;
-    const float reflected = luminance(Vec3{albedo[0], albedo[1], albedo[2]});
-    return reflected > 0.01f ? kUsualAlbedo / std::clamp(reflected, 0.03f, 1.0f) : 1.0f;
-}
-
 std::vector<float> transposed(const Mat4& m) {
     std::vector<float> values;
     for (int column = 0; column < 4; ++column) {
@@ -238,7 +229,7 @@ void PictureFiles::write_waiting() {
     if (!has_waiting_) {
         return;
     }
-    const float exposure = automatic_exposure(metered_.empty() ? waiting_ : metered_);
+    const float exposure = meter_.exposure(waiting_);
     spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
@@ -257,10 +248,9 @@ void PictureFiles::write_rows(std::span<const float> rows) {
             rows.subspan(first + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
         waiting_.insert(waiting_.end(), beauty.begin(), beauty.end());
         if (rows[first + NEARLIGHT_LAYER_ALPHA] > 0.5f) {
-            const float scale = metering_scale(rows.subspan(first + NEARLIGHT_LAYER_ALBEDO, 3));
-            for (const float value : beauty) {
-                metered_.push_back(scale * value);
-            }
+            const std::span<const float> albedo =
+                rows.subspan(first + NEARLIGHT_LAYER_ALBEDO, NEARLIGHT_CHANNELS_RGB);
+            meter_.add_surface({beauty[0], beauty[1], beauty[2]}, {albedo[0], albedo[1], albedo[2]});
         }
     }
     for (File& file : files_) {

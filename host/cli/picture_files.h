@@ -9,6 +9,7 @@
 
 #include "host/cli/command.h"
 #include "host/cli/screen_options.h"
+#include "host/image/exposure_meter.h"
 #include "host/image/image_io.h"
 #include "host/scene/scene.h"
 #include "host/stages/film_layers.h"
@@ -77,8 +78,7 @@ class PictureFiles {
     std::optional<ImagePlace> place_;
     bool has_waiting_ = false;    ///< some files wait for the exposure, which only the whole picture tells
     std::vector<float> waiting_;  ///< RGB, for these files
-    std::vector<float>
-        metered_;  ///< those pixels in which surfaces are seen, which decide about the exposure
+    ExposureMeter meter_;         ///< decides about that exposure
     std::vector<float> selected_;
 };
 

@@ -2,8 +2,11 @@
 #include "nearlight/image.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
+#include "host/image/exposure_meter.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
 #include "nearlight/error.h"
@@ -139,15 +142,26 @@ Vec3 tone_mapped(ToneCurve curve, Vec3 color) {
 }
 
 float automatic_exposure(const Image& image) {
-    std::vector<std::size_t> rgb;
-    for (const char* name : {"R", "G", "B"}) {
-        const auto found = std::find(image.channels.begin(), image.channels.end(), name);
-        if (found == image.channels.end()) {
-            throw Error(ErrorKind::invalid_argument, "the exposure needs an image with channels R, G and B");
-        }
-        rgb.push_back(static_cast<std::size_t>(found - image.channels.begin()));
+    const auto place_of = [&](const char* channel) {
+        return static_cast<std::size_t>(std::ranges::find(image.channels, channel) - image.channels.begin());
+    };
+    const std::array rgb{place_of("R"), place_of("G"), place_of("B")};
+    const std::array albedo{place_of("albedo.R"), place_of("albedo.G"), place_of("albedo.B")};
+    const std::size_t depth = place_of("depth.Z");
+    const std::size_t stride = image.channels.size();
+    if (std::ranges::max(rgb) == stride) {
+        throw Error(ErrorKind::invalid_argument, "the exposure needs an image with channels R, G and B");
     }
-    return core::automatic_exposure(select_channels(image, rgb).values);
+    core::ExposureMeter meter;
+    const bool knows_surfaces = depth < stride && std::ranges::max(albedo) < stride;
+    for (std::size_t i = 0; knows_surfaces && i + stride <= image.values.size(); i += stride) {
+        const float* const pixel = image.values.data() + i;
+        if (pixel[depth] > 0.0f && std::isfinite(pixel[depth])) {
+            meter.add_surface({pixel[rgb[0]], pixel[rgb[1]], pixel[rgb[2]]},
+                              {pixel[albedo[0]], pixel[albedo[1]], pixel[albedo[2]]});
+        }
+    }
+    return meter.exposure(select_channels(image, {rgb.begin(), rgb.end()}).values);
 }
 
 Image read_image(const std::filesystem::path& file) {

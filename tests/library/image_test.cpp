@@ -94,6 +94,22 @@ TEST_F(ImageFiles, PngHasAToneCurveAndCanHaveAnAutomaticExposure) {
     EXPECT_THROW(automatic_exposure(layer(two_pixels(), "depth")), Error);
 }
 
+/// A bright sky behind a dark surface decides nothing, and a dark surface in the same light as a white one
+/// has the same exposure.
+TEST_F(ImageFiles, AutomaticExposureIsThatOfTheLightOnSurfaces) {
+    const auto exposure = [](std::vector<float> values) {
+        return automatic_exposure({.width = static_cast<int>(values.size() / 7),
+                                   .height = 1,
+                                   .channels = {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "depth.Z"},
+                                   .values = std::move(values)});
+    };
+    const float white = exposure({0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 2});
+    EXPECT_NEAR(white, std::log2(0.25f / 0.4f), 1e-4f);
+    EXPECT_NEAR(exposure({0.1f, 0.1f, 0.1f, 0.1f, 0.1f, 0.1f, 2}), white, 1e-4f);
+    EXPECT_NEAR(exposure({0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 2, 50, 50, 50, 0, 0, 0, 0}), white, 1e-4f);
+    EXPECT_NEAR(exposure({0.5f, 0.5f, 0.5f, 0, 0, 0, 0}), std::log2(0.25f / 0.5f), 1e-4f);
+}
+
 TEST_F(ImageFiles, WhatCannotBeWrittenIsAnError) {
     const auto kind = [&](const std::string& name, const Image& image) {
         try {

@@ -43,17 +43,6 @@ TEST(Display, LightPassesExposureAndCurve) {
     EXPECT_EQ(shown(pixel({{"direct.G", 0.5f}}), {.layer = layer("direct")}), (std::array{0, 188, 0, 255}));
 }
 
-/// A bright sky behind a dark surface decides nothing.
-TEST(Display, TheExposureIsThatOfSurfaces) {
-    const Image dark = pixel({{"R", 0.05f}, {"G", 0.05f}, {"B", 0.05f}, {"depth.Z", 2.0f}});
-    const Image sky = pixel({{"R", 50.0f}, {"G", 50.0f}, {"B", 50.0f}});
-    Image both = dark;
-    both.width = 2;
-    both.values.insert(both.values.end(), sky.values.begin(), sky.values.end());
-    EXPECT_FLOAT_EQ(exposure_of_surfaces(both), exposure_of_surfaces(dark));
-    EXPECT_GT(exposure_of_surfaces(both), exposure_of_surfaces(sky));
-}
-
 TEST(Display, AlbedoHasNoExposure) {
     EXPECT_EQ(shown(pixel({{"albedo.B", 0.5f}}), {.layer = layer("albedo"), .exposure = 5.0f}),
               (std::array{0, 0, 188, 255}));
