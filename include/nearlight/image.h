@@ -75,8 +75,8 @@ NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& i
 
 /// The exposure in stops at which a picture with linear R, G and B looks right on a screen: what is seen is
 /// grey on the average, and hardly anything is white. Black pixels do not count. If the picture has the
-/// layers albedo and depth, the light that falls on surfaces counts, so that dark ones stay dark and what is
-/// behind all of them decides nothing. Throws Error: ErrorKind::invalid_argument if R, G or B is missing.
+/// layers albedo and depth, dark surfaces stay rather dark, and what is behind all surfaces decides nothing.
+/// Throws Error: ErrorKind::invalid_argument if R, G or B is missing.
 NEARLIGHT_API float automatic_exposure(const Image& image);
 
 /// Reads EXR, PNG, JPEG and whatever else OpenImageIO knows. Values are those of the file: integers are
