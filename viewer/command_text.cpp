@@ -3,6 +3,8 @@
 
 #include <charconv>
 
+#include "host/base/shell_word.h"
+
 namespace nearlight::viewer {
 namespace {
 
@@ -122,28 +124,12 @@ const char* name_of(ToneCurve curve) {
     return "";
 }
 
-std::string shell_word(const std::string& text) {
-    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) {
-        return text;
-    }
-    std::string word(1, '\'');
-    for (const char c : text) {
-        if (c == '\'') {
-            word.append("'\\'");
-        }
-        word.push_back(c);
-    }
-    word.push_back('\'');
-    return word;
-}
-
 std::string command_text(std::span<const std::string> scene_arguments, const RenderSettings& settings,
                          const WriteOptions& look, const std::string& output) {
     std::string line = "nearlight render";
     for (const std::string& argument : scene_arguments) {
         line.push_back(' ');
-        line += shell_word(argument);
+        line += core::shell_word(argument);
     }
     add_view(line, settings.view);
     add_sampling(line, settings.sampling);
@@ -151,7 +137,7 @@ std::string command_text(std::span<const std::string> scene_arguments, const Ren
     add_option(line, "--seed", settings.seed, 0u);
     // Models have other defaults than Mitsuba's scenes, so the look is always said.
     line += " --exposure=" + text_of(look.exposure) + " --tonemap " + name_of(look.tone_curve);
-    return line + " -o " + shell_word(output);
+    return line + " -o " + core::shell_word(output);
 }
 
 }  // namespace nearlight::viewer

@@ -15,9 +15,6 @@ namespace nearlight::viewer {
 std::string command_text(std::span<const std::string> scene_arguments, const RenderSettings& settings,
                          const WriteOptions& look, const std::string& output);
 
-/// The text as one word of a shell.
-std::string shell_word(const std::string& text);
-
 /// The names of samplers, policies and tone curves, as the options have them.
 const char* name_of(SamplerKind sampler);
 const char* name_of(Policy policy);

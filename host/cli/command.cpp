@@ -2,14 +2,13 @@
 #include "host/cli/command.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <csignal>
 #include <iostream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "host/base/shell_word.h"
 #include "host/base/suggestion.h"
 #include "host/cli/help_formatter.h"
 #include "host/cli/log.h"
@@ -77,27 +76,11 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
     return error.what();
 }
 
-/// A word as a shell would read it.
-std::string quoted_word(const std::string& word) {
-    const bool is_plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
-        return std::isalnum(c) != 0 ||
-               std::string_view("-_=+,./:@%^").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    if (is_plain) {
-        return word;
-    }
-    std::string quoted = "'";
-    for (const char c : word) {
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return quoted + "'";
-}
-
 /// The line with which the program was called.
 std::string command_line_of(int argc, const char* const* argv) {
     std::string line = "nearlight";
     for (int i = 1; i < argc; ++i) {
-        line += " " + quoted_word(argv[i]);
+        line += " " + shell_word(argv[i]);
     }
     return line;
 }

@@ -33,13 +33,5 @@ TEST(CommandText, NamesWhatDiffers) {
         "a.png");
 }
 
-TEST(CommandText, ShellsReadOddNamesAsTheyAre) {
-    EXPECT_EQ(shell_word("plain/name-1.xml"), "plain/name-1.xml");
-    EXPECT_EQ(shell_word("my room.xml"), "'my room.xml'");
-    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-    EXPECT_EQ(shell_word("$HOME"), "'$HOME'");
-    EXPECT_EQ(shell_word(""), "''");
-}
-
 }  // namespace
 }  // namespace nearlight::viewer
