@@ -30,6 +30,18 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
     return value;
 }
 
+/// Adds an option that chooses an entry of a table, whose names and descriptions its help lists.
+template <typename Value, typename Entries, typename Entry>
+void add_described_choice(CLI::App& command, const char* option, Value& value, const Entries& entries,
+                          Value Entry::*entry_value, std::string help) {
+    std::map<std::string, Value> choices;
+    for (const Entry& entry : entries) {
+        help += fmt::format("{}{} ({})", choices.empty() ? "" : ", ", entry.name, entry.description);
+        choices.emplace(entry.name, entry.*entry_value);
+    }
+    add_choice(command, option, value, choices, help)->default_str(to_string(value));
+}
+
 }  // namespace
 
 void add_sample_options(CLI::App& command, GatherSettings& gather) {
@@ -47,24 +59,10 @@ void add_sample_options(CLI::App& command, GatherSettings& gather) {
 
 void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts) {
     SamplingSettings& sampling = settings.sampling;
-    std::map<std::string, SamplerKind> samplers;
-    std::string sampler_help = "Where to put VPLs: ";
-    for (const SamplerEntry& entry : all_samplers()) {
-        samplers.emplace(entry.name, entry.kind);
-        sampler_help +=
-            fmt::format("{}{} ({})", samplers.size() > 1 ? ", " : "", entry.name, entry.description);
-    }
-    add_choice(command, "--sampler", sampling.sampler, samplers, sampler_help)
-        ->default_str(to_string(sampling.sampler));
-    std::map<std::string, Policy> policies;
-    std::string policy_help = "Policy of the sampler close-range: ";
-    for (const PolicyEntry& entry : all_policies()) {
-        policies.emplace(entry.name, entry.policy);
-        policy_help +=
-            fmt::format("{}{} ({})", policies.size() > 1 ? ", " : "", entry.name, entry.description);
-    }
-    add_choice(command, "--policy", sampling.policy, policies, policy_help)
-        ->default_str(to_string(sampling.policy));
+    add_described_choice(command, "--sampler", sampling.sampler, all_samplers(), &SamplerEntry::kind,
+                         "Where to put VPLs: ");
+    add_described_choice(command, "--policy", sampling.policy, all_policies(), &PolicyEntry::policy,
+                         "Policy of the sampler close-range: ");
     command
         .add_option("--vpls", sampling.vpl_count,
                     "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
