@@ -26,6 +26,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
 }
 
 DeviceChoice with_compile_workers(DeviceChoice choice) {
+    set_driver_defaults();
     choice.options.compiler = std::make_shared<ProgramCompiler>(start_compile_workers());
     return choice;
 }

@@ -19,8 +19,8 @@ struct DeviceChoice {
 /// Adds --device, --kernel-dir and --cache-dir.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
-/// The choice with a compiler that has its own processes. They must be started before the command has threads
-/// or loads a driver, so a command calls this first.
+/// The choice with a compiler that has its own processes, for which the environment that drivers read is set.
+/// They must be started before the command has threads or loads a driver, so a command calls this first.
 DeviceChoice with_compile_workers(DeviceChoice choice);
 
 /// Opens all devices of the list that match, with one compiler for all. Throws Error(ErrorKind::no_device) if

@@ -2,9 +2,11 @@
 #include "host/cli/devices_command.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "host/cl/device.h"
 #include "host/cl/devices/device_list.h"
+#include "host/cl/devices/registered_drivers.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
@@ -90,7 +92,8 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
 }
 
 ExitCode run_devices(const DevicesOptions& options, const GlobalOptions& global) {
-    const DeviceList list = list_devices();
+    DeviceList list = list_devices();
+    std::ranges::move(drivers_that_do_not_load(), std::back_inserter(list.problems));
     const std::vector<DeviceEntry> used = choose_devices(list, options.choice);
     if (global.json) {
         print_json(to_json(list, used, options.cache_dir));

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <iterator>
+#include <mutex>
 #include <regex>
 #include <sstream>
 
@@ -202,11 +203,14 @@ std::string to_string(DeviceKind kind) {
 }
 
 void set_driver_defaults() {
-    // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the group
-    // size of a launch. The second compilation makes no faster kernel (bench/log/compile.md), and users would
-    // wait for it.
-    setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
-    ensure_driver_cache();
+    static std::once_flag once;
+    std::call_once(once, [] {
+        // PoCL compiles each kernel for any group size when its binary is asked for, and once more for the
+        // group size of a launch. The second compilation makes no faster kernel (bench/log/compile.md), and
+        // users would wait for it.
+        setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+        ensure_driver_cache();
+    });
 }
 
 // PoCL 4 and later use the second name.
@@ -217,9 +221,7 @@ void limit_driver_threads(int threads) {
 }
 
 DeviceList list_devices() {
-    if (std::getenv("POCL_WORK_GROUP_SPECIALIZATION") == nullptr) {
-        set_driver_defaults();
-    }
+    set_driver_defaults();
     DeviceList list;
     std::vector<cl::Platform> platforms;
     try {
@@ -232,13 +234,14 @@ DeviceList list_devices() {
     for (const cl::Platform& platform : platforms) {
         list_platform(platform, list);
     }
-    std::ranges::move(drivers_that_do_not_load(), std::back_inserter(list.problems));
     return list;
 }
 
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& requested) {
     if (list.devices.empty()) {
-        const std::string why = list.problems.empty() ? "no OpenCL platform" : list.problems.front();
+        std::vector<std::string> reasons = list.problems;
+        std::ranges::move(drivers_that_do_not_load(), std::back_inserter(reasons));
+        const std::string why = reasons.empty() ? "no OpenCL platform" : reasons.front();
         throw Error(ErrorKind::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
     }
     std::string choice = lower(requested);

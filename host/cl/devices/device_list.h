@@ -33,14 +33,15 @@ struct DeviceEntry {
     [[nodiscard]] std::string label() const { return part.empty() ? name : name + " (" + part + ")"; }
 };
 
-/// All devices, and as text the platforms that are broken or have no device, and the drivers that cannot be
-/// loaded, so that the command `devices` can show them.
+/// All devices, and as text the platforms that are broken or have no device, so that the command `devices`
+/// can show them.
 struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;
 };
-/// Sets environment variables that drivers read, unless they are set. list_devices() does so too, but if the
-/// process has several threads, this must be called before they start.
+/// Sets environment variables that drivers read, unless they are set; does nothing when it is called again.
+/// list_devices() calls it too, but if the process has several threads, this must be called before they
+/// start.
 void set_driver_defaults();
 /// Limits the threads of CPU drivers that allow it (PoCL). Must be called before list_devices().
 void limit_driver_threads(int threads);

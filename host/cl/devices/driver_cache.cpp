@@ -24,10 +24,13 @@ fs::path users_cache() {
     return home != nullptr && *home != '\0' ? fs::path(home) / ".cache" : fs::path();
 }
 
-bool can_have_folders(const fs::path& folder) {
+/// Whether the folder can be written, or made if it is not there.
+bool can_have_folder(fs::path folder) {
     std::error_code error;
-    fs::create_directories(folder, error);
-    return !error && fs::is_directory(folder, error) && access(folder.c_str(), W_OK | X_OK) == 0;
+    while (!fs::exists(folder, error) && folder.has_relative_path()) {
+        folder = folder.parent_path();
+    }
+    return fs::is_directory(folder, error) && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
 /// A folder that goes with the process which made it.
@@ -59,13 +62,15 @@ class TemporaryCache {
 
 void ensure_driver_cache() {
     const fs::path cache = users_cache();
-    if (std::getenv("POCL_CACHE_DIR") != nullptr || cache.empty() || can_have_folders(cache)) {
+    if (std::getenv("POCL_CACHE_DIR") != nullptr || cache.empty() ||
+        can_have_folder(fs::absolute(cache) / "pocl")) {
         return;
     }
     static const TemporaryCache temporary;
     if (!temporary.folder().empty()) {
         setenv("POCL_CACHE_DIR", temporary.folder().c_str(), 1);
-        say_warning("'" + cache.string() + "' cannot be written, so that nothing compiled is kept; set " +
+        say_warning("'" + cache.string() +
+                    "' cannot be written, so that PoCL keeps nothing that it compiled; set " +
                     "XDG_CACHE_HOME to another folder");
     }
 }
