@@ -202,6 +202,22 @@ ImageSize parse_size(const std::string& text) {
     return size;
 }
 
+std::optional<float> number_or_auto(const std::string& option, const std::string& text, float min,
+                                    float max) {
+    if (text == "auto") {
+        return std::nullopt;
+    }
+    const char* const end = text.data() + text.size();
+    float value = 0;
+    const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
+    if (error != std::errc() || last != end || !(value >= min && value <= max)) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, min, max, text));
+    }
+    return value;
+}
+
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
     return command
         .add_option_function<std::string>(

@@ -10,11 +10,14 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "host/cli/command_facts.h"
 #include "host/cli/exit_code.h"
+#include "nearlight/error.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {
@@ -61,7 +64,30 @@ ImageSize parse_size(const std::string& text);
 /// Parses a part of a picture such as "320x240+100+50": its size, and its place from the left and from the
 /// top. Throws Error(ErrorKind::invalid_argument).
 PixelWindow parse_window(const std::string& text);
+/// Parses "auto", which gives nothing, or a number in [min, max]. Throws Error(ErrorKind::invalid_argument),
+/// which names the option.
+std::optional<float> number_or_auto(const std::string& option, const std::string& text, float min, float max);
 /// Adds the option --size, without which `size` is unchanged.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
+
+/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
+/// `value` is a Choice or an optional one.
+template <typename Choice, typename Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& value,
+                        const std::map<std::string, Choice>& choices, const std::string& description) {
+    const auto choose = [option, &value, choices](const std::string& text) {
+        const auto found = choices.find(text);
+        if (found == choices.end()) {
+            std::string names;
+            for (const auto& [name, choice] : choices) {
+                names += (names.empty() ? "" : ", ") + name;
+            }
+            throw Error(ErrorKind::invalid_argument,
+                        "unknown " + option + " '" + text + "'; choose one of: " + names);
+        }
+        value = found->second;
+    };
+    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
+}
 
 }  // namespace nearlight::core

@@ -9,27 +9,6 @@
 namespace nearlight::core {
 namespace {
 
-/// Parses "auto", which gives nothing, or a number in [low, high].
-std::optional<float> number_or_auto(const std::string& option, const std::string& text, float low,
-                                    float high) {
-    if (text == "auto") {
-        return std::nullopt;
-    }
-    float value = NAN;
-    std::size_t used = 0;
-    try {
-        value = std::stof(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used != text.size() || !(value >= low) || !(value <= high)) {
-        throw Error(ErrorKind::invalid_argument,
-                    fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, low,
-                                high, text));
-    }
-    return value;
-}
-
 /// Adds an option that chooses an entry of a table, whose names and descriptions its help lists.
 template <typename Value, typename Entries, typename Entry>
 void add_described_choice(CLI::App& command, const char* option, Value& value, const Entries& entries,

@@ -30,23 +30,4 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
 /// range.
 void settle(const MethodTexts& texts, RenderSettings& settings);
 
-/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
-template <typename Choice>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, Choice& value,
-                        const std::map<std::string, Choice>& choices, const std::string& description) {
-    const auto choose = [option, &value, choices](const std::string& text) {
-        std::string names;
-        for (const auto& [name, choice] : choices) {
-            names += (names.empty() ? "" : ", ") + name;
-        }
-        const auto found = choices.find(text);
-        if (found == choices.end()) {
-            throw Error(ErrorKind::invalid_argument,
-                        fmt::format("unknown {} '{}'; choose one of: {}", option, text, names));
-        }
-        value = found->second;
-    };
-    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
-}
-
 }  // namespace nearlight::core

@@ -94,13 +94,6 @@ void check_output(const std::string& file) {
     }
 }
 
-std::map<std::string, ExrCompression> compression_names() {
-    return {{"none", ExrCompression::none},
-            {"zip", ExrCompression::zip},
-            {"piz", ExrCompression::piz},
-            {"dwaa", ExrCompression::dwaa}};
-}
-
 std::vector<float> transposed(const Mat4& m) {
     std::vector<float> values;
     for (int column = 0; column < 4; ++column) {
@@ -139,11 +132,9 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->check(CLI::IsMember({"half", "float"}))
         ->type_name("half|float")
         ->default_str("half");
-    command
-        .add_option("--exr-compression", options.compression,
-                    "Compression of EXR pictures: none, zip, piz (best for noise), or dwaa (lossy)")
-        ->transform(CLI::CheckedTransformer(compression_names()))
-        ->type_name("NAME")
+    add_choice<ExrCompression>(
+        command, "--exr-compression", options.compression, {kExrCompressions.begin(), kExrCompressions.end()},
+        "Compression of EXR pictures: none, zip, piz (best for noise), or dwaa (lossy)")
         ->default_str("zip");
     command.add_flag(
         "--denoise", options.denoise,
@@ -191,9 +182,11 @@ bool PictureFiles::waits_for_exposure(const std::string& file) const {
 /// How an EXR file with these layers is written.
 ImageWriterOptions PictureFiles::exr_options(std::span<const FilmLayer> layers) const {
     ImageWriterOptions options{.metadata = metadata_, .compression = options_.compression, .place = place_};
+    if (options_.is_full_precision) {
+        return options;
+    }
     for (const FilmLayer& layer : layers) {
-        options.half.resize(options.half.size() + layer.channel_count,
-                            layer.storage == Storage::half && !options_.is_full_precision);
+        options.half.resize(options.half.size() + layer.channel_count, layer.storage == Storage::half);
     }
     return options;
 }
@@ -209,6 +202,8 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
             has_waiting_ = true;
+            waiting_.reserve(NEARLIGHT_CHANNELS_RGB * static_cast<std::size_t>(width) *
+                             static_cast<std::size_t>(height));
             continue;
         }
         std::vector<FilmLayer> layers = layers_for(options_, file);
@@ -229,7 +224,7 @@ void PictureFiles::write_waiting() {
     if (!has_waiting_) {
         return;
     }
-    const float exposure = meter_.exposure(waiting_);
+    const float exposure = meter_.exposure();
     spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
@@ -241,17 +236,24 @@ void PictureFiles::write_waiting() {
     }
 }
 
+/// Keeps the beauty of rows for the files that wait for the exposure, and meters them.
+void PictureFiles::keep_for_exposure(std::span<const float> rows) {
+    const std::size_t stride = channel_count(options_);
+    for (std::size_t first = 0; first < rows.size(); first += stride) {
+        const std::span<const float> pixel = rows.subspan(first, stride);
+        const auto color_at = [&](std::size_t channel) {
+            return Vec3{pixel[channel], pixel[channel + 1], pixel[channel + 2]};
+        };
+        const Vec3 beauty = color_at(NEARLIGHT_LAYER_BEAUTY);
+        waiting_.insert(waiting_.end(), {beauty.x, beauty.y, beauty.z});
+        meter_.add(beauty, pixel[NEARLIGHT_LAYER_DEPTH], color_at(NEARLIGHT_LAYER_ALBEDO));
+    }
+}
+
 void PictureFiles::write_rows(std::span<const float> rows) {
     const std::size_t stride = channel_count(options_);
-    for (std::size_t first = 0; has_waiting_ && first < rows.size(); first += stride) {
-        const std::span<const float> beauty =
-            rows.subspan(first + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
-        waiting_.insert(waiting_.end(), beauty.begin(), beauty.end());
-        if (rows[first + NEARLIGHT_LAYER_ALPHA] > 0.5f) {
-            const std::span<const float> albedo =
-                rows.subspan(first + NEARLIGHT_LAYER_ALBEDO, NEARLIGHT_CHANNELS_RGB);
-            meter_.add_surface({beauty[0], beauty[1], beauty[2]}, {albedo[0], albedo[1], albedo[2]});
-        }
+    if (has_waiting_) {
+        keep_for_exposure(rows);
     }
     for (File& file : files_) {
         selected_.clear();

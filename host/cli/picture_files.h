@@ -67,6 +67,7 @@ class PictureFiles {
 
     [[nodiscard]] bool waits_for_exposure(const std::string& file) const;
     [[nodiscard]] ImageWriterOptions exr_options(std::span<const FilmLayer> layers) const;
+    void keep_for_exposure(std::span<const float> rows);
     void write_waiting();
 
     PictureOptions options_;

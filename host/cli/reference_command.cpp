@@ -76,16 +76,6 @@ Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, d
     return metadata;
 }
 
-/// Three values a pixel.
-std::vector<float> beauty_of(const Image& image) {
-    const auto first = static_cast<std::size_t>(image.find_channel("R"));
-    std::vector<float> beauty;
-    for (std::size_t pixel = first; pixel < image.values.size(); pixel += image.channel_count()) {
-        beauty.insert(beauty.end(), image.values.data() + pixel, image.values.data() + pixel + 3);
-    }
-    return beauty;
-}
-
 void write_outputs(const ReferenceOptions& options, const Scene& scene, const Image& image,
                    const Metadata& metadata) {
     const ScreenLook look = screen_look(options.screen, scene);
@@ -94,7 +84,8 @@ void write_outputs(const ReferenceOptions& options, const Scene& scene, const Im
             write_image(output, image, {.metadata = metadata});
             continue;
         }
-        const float exposure = look.exposure ? *look.exposure : automatic_exposure(beauty_of(image));
+        const float exposure =
+            look.exposure ? *look.exposure : automatic_exposure(image.channels, image.values);
         write_image(output, image, screen_writer_options(look, exposure, metadata));
     }
 }

@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/screen_options.h"
 
-#include <charconv>
-#include <cmath>
-
 #include "host/cli/log.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The number that --exposure gives; empty for "auto".
-std::optional<float> parse_exposure(const std::string& text) {
-    if (text == "auto") {
-        return std::nullopt;
-    }
-    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* const end = text.data() + text.size();
-    float stops = 0;
-    const auto [after, error] = std::from_chars(begin, end, stops);
-    if (error != std::errc{} || after != end || !(std::abs(stops) <= 100.0f)) {
-        throw Error(ErrorKind::invalid_argument,
-                    "--exposure must be `auto` or a number of stops from -100 to 100, not '" + text + "'");
-    }
-    return stops;
+/// The stops that --exposure gives; empty for "auto".
+std::optional<float> exposure_of(const std::string& text) {
+    return number_or_auto("--exposure", text, -100.0f, 100.0f);
 }
 
 }  // namespace
@@ -35,25 +21,15 @@ void add_screen_options(CLI::App& command, ScreenOptions& options) {
             "Exposure of PNG pictures, in stops, or auto, which looks at the light on the surfaces seen "
             "(default: 0 for Mitsuba's scenes, otherwise auto)")
         ->type_name("EV|auto");
-    const auto choose = [&options](const std::string& name) {
-        options.curve = tone_curve(name);
-        if (!options.curve) {
-            throw Error(ErrorKind::invalid_argument,
-                        "unknown --tonemap '" + name + "'; choose one of: " + tone_curve_names());
-        }
-    };
-    command
-        .add_option_function<std::string>(
-            "--tonemap", choose,
-            "Tone curve of PNG pictures: neutral (keeps colours), agx (a photograph's), filmic (strong "
-            "contrast) "
-            "or linear (clips); EXR stays linear (default: linear for Mitsuba's scenes, otherwise neutral)")
-        ->type_name("NAME");
+    add_choice<ToneCurve>(
+        command, "--tonemap", options.curve, {kToneCurves.begin(), kToneCurves.end()},
+        "Tone curve of PNG pictures: neutral (keeps colours), agx (a photograph's), filmic (strong contrast) "
+        "or linear (clips); EXR stays linear (default: linear for Mitsuba's scenes, otherwise neutral)");
 }
 
 void check_screen_options(const ScreenOptions& options) {
     if (!options.exposure.empty()) {
-        parse_exposure(options.exposure);
+        exposure_of(options.exposure);
     }
 }
 
@@ -63,7 +39,7 @@ ScreenLook screen_look(const ScreenOptions& options, const Scene& scene) {
         look = {ToneCurve::neutral, std::nullopt};
     }
     if (!options.exposure.empty()) {
-        look.exposure = parse_exposure(options.exposure);
+        look.exposure = exposure_of(options.exposure);
     }
     look.curve = options.curve.value_or(look.curve);
     return look;

@@ -8,6 +8,7 @@
 #include <array>
 #include <iterator>
 
+#include "host/base/files.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -120,24 +121,9 @@ std::vector<std::string> camera_arguments(const SceneOverrides& overrides) {
     return arguments;
 }
 
-nearlight::ToneCurve public_curve(ToneCurve curve) {
-    switch (curve) {
-        case ToneCurve::neutral:
-            return nearlight::ToneCurve::neutral;
-        case ToneCurve::agx:
-            return nearlight::ToneCurve::agx;
-        case ToneCurve::filmic:
-            return nearlight::ToneCurve::filmic;
-        default:
-            return nearlight::ToneCurve::linear;
-    }
-}
-
 void set_look(const ScreenOptions& screen, viewer::ViewerTask& task) {
     check_screen_options(screen);
-    if (screen.curve) {
-        task.curve = public_curve(*screen.curve);
-    }
+    task.curve = screen.curve;
     if (!screen.exposure.empty()) {
         task.exposure = screen_look(screen, {}).exposure;
         task.has_automatic_exposure = !task.exposure;
@@ -221,9 +207,8 @@ void tell(const viewer::ViewerReport& report, const GlobalOptions& global) {
 
 ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
     const viewer::ViewerTask task = task_of(options);
-    if (!std::filesystem::exists(task.scene)) {
-        throw Error(ErrorKind::file,
-                    fmt::format("cannot read '{}': there is no such file", task.scene.string()));
+    if (const std::string reason = reason_not_to_read(task.scene); !reason.empty()) {
+        throw Error(ErrorKind::file, fmt::format("cannot read scene '{}': {}", task.scene.string(), reason));
     }
     const viewer::RunViewer run = load_viewer();
     catch_interrupts();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/base/math.h"
@@ -11,17 +12,32 @@ namespace nearlight::core {
 
 class ExposureMeter {
   public:
-    /// Takes a pixel that shows a surface of the given albedo. What counts is the geometric mean of the light
-    /// that comes from it and of the light that falls on it, so that dark things stay rather dark and white
-    /// ones white; of a surface that reflects nothing diffusely, the light that comes from it counts.
-    void add_surface(Vec3 color, Vec3 albedo);
+    /// Takes a pixel that shows something at a distance of `depth`, whose albedo is given, or the background
+    /// if the depth is 0 or infinite. What counts is the geometric mean of the light that comes from a
+    /// surface and of the light that falls on it, so that dark things stay rather dark and white ones white;
+    /// of a surface that reflects nothing diffusely, the light that comes from it counts. The background
+    /// counts only in a picture of nothing else.
+    void add(Vec3 color, float depth, Vec3 albedo);
 
-    /// The exposure in stops (tone_curve.h). If there was no surface, it is that of `all_rgb`, which has
-    /// three values for each pixel of the picture.
-    [[nodiscard]] float exposure(std::span<const float> all_rgb) const;
+    /// The exposure in stops, from -60 to 60, at which the picture looks right on a screen: what is seen is
+    /// grey on the average, and hardly anything is white. Black pixels do not count, and a picture of nothing
+    /// else has the exposure 0.
+    [[nodiscard]] float exposure() const;
 
   private:
-    std::vector<float> metered_;
+    /// The light of a part of the picture.
+    struct Light {
+        double log2_sum = 0;           ///< of luminances
+        std::vector<float> brightest;  ///< component of each pixel
+
+        void add(Vec3 color);
+    };
+    Light surfaces_;
+    Light background_;
 };
+
+/// The exposure of a picture with interleaved channels R, G and B. Without albedo.R, albedo.G, albedo.B and
+/// depth.Z, it counts as background. Throws Error(ErrorKind::invalid_argument) if R, G or B is missing.
+float automatic_exposure(std::span<const std::string> channels, std::span<const float> values);
 
 }  // namespace nearlight::core

@@ -13,6 +13,7 @@
 
 #include "host/base/atomic_file.h"
 #include "host/base/files.h"
+#include "host/base/half.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
 #include "host/image/image_codec.h"
@@ -149,7 +150,6 @@ const float* ImageWriter::State::within_half(int row_count, const float* values)
     if (task.half.empty()) {
         return values;
     }
-    constexpr float kMaxHalf = 65504.0f;
     const std::size_t pixel_count = static_cast<std::size_t>(row_count) * static_cast<std::size_t>(width);
     limited.assign(values, values + pixel_count * channel_count);
     for (std::size_t i = 0; i < limited.size(); ++i) {

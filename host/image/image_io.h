@@ -2,12 +2,14 @@
 // Reading and writing image files, through OpenImageIO except for plain PPM and PGM.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -35,6 +37,10 @@ Metadata read_metadata(const std::filesystem::path& file);
 /// How EXR files are compressed. All but `dwaa` are lossless; it changes colours by little, in a third of the
 /// space.
 enum class ExrCompression { none, zip, piz, dwaa };
+/// The names of all compressions, which are OpenImageIO's too.
+inline constexpr std::array kExrCompressions{
+    std::pair{"none", ExrCompression::none}, std::pair{"zip", ExrCompression::zip},
+    std::pair{"piz", ExrCompression::piz}, std::pair{"dwaa", ExrCompression::dwaa}};
 
 /// The place of a picture within a larger one, of which it is a part.
 struct ImagePlace {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <variant>
 
+#include "host/base/names.h"
 #include "host/image/image_codec.h"
 #include "nearlight/error.h"
 
@@ -89,20 +90,6 @@ void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadat
     }
 }
 
-const char* name_of(ExrCompression compression) {
-    switch (compression) {
-        case ExrCompression::none:
-            return "none";
-        case ExrCompression::zip:
-            return "zip";
-        case ExrCompression::piz:
-            return "piz";
-        case ExrCompression::dwaa:
-            return "dwaa";
-    }
-    return "zip";
-}
-
 OIIO::ImageSpec exr_spec(const EncodingTask& task) {
     OIIO::ImageSpec spec(task.width, task.height, static_cast<int>(task.channels.size()),
                          OIIO::TypeDesc::FLOAT);
@@ -118,7 +105,7 @@ OIIO::ImageSpec exr_spec(const EncodingTask& task) {
     }
     const auto alpha = std::find(task.channels.begin(), task.channels.end(), "A");
     spec.alpha_channel = alpha != task.channels.end() ? static_cast<int>(alpha - task.channels.begin()) : -1;
-    spec.attribute("compression", name_of(task.compression));
+    spec.attribute("compression", name_in(kExrCompressions, task.compression));
     // Rec. 709 primaries with the white point D65: x and y of red, green, blue and white.
     constexpr std::array kChromaticities{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kChromaticities.size()),

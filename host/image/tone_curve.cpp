@@ -4,19 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+
+#include "host/base/names.h"
 
 namespace nearlight::core {
 namespace {
-
-struct NamedCurve {
-    ToneCurve curve;
-    const char* name;
-};
-constexpr std::array<NamedCurve, 4> kCurves{{{ToneCurve::neutral, "neutral"},
-                                             {ToneCurve::agx, "agx"},
-                                             {ToneCurve::filmic, "filmic"},
-                                             {ToneCurve::linear, "linear"}}};
 
 /// https://github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral describes the formula.
 Vec3 neutral(Vec3 color) {
@@ -95,20 +87,7 @@ Vec3 clamped(Vec3 color) {
 }  // namespace
 
 std::string to_string(ToneCurve curve) {
-    return std::ranges::find(kCurves, curve, &NamedCurve::curve)->name;
-}
-
-std::optional<ToneCurve> tone_curve(const std::string& name) {
-    const auto found = std::ranges::find(kCurves, name, &NamedCurve::name);
-    return found == kCurves.end() ? std::nullopt : std::optional(found->curve);
-}
-
-std::string tone_curve_names() {
-    std::string names;
-    for (const NamedCurve& curve : kCurves) {
-        names += (names.empty() ? "" : ", ") + std::string(curve.name);
-    }
-    return names;
+    return name_in(kToneCurves, curve);
 }
 
 Vec3 apply_tone_curve(ToneCurve curve, Vec3 color) {
@@ -125,32 +104,6 @@ Vec3 apply_tone_curve(ToneCurve curve, Vec3 color) {
         default:
             return clamped({filmic(color.x), filmic(color.y), filmic(color.z)});
     }
-}
-
-float automatic_exposure(std::span<const float> rgb) {
-    constexpr float kGrey = 0.25f;       // the mean brightness that is wanted
-    constexpr double kAlmostAll = 0.97;  // this share of the picture is to stay below kWhite
-    constexpr float kWhite = 3.0f;
-    std::vector<float> brightest;
-    double sum = 0;
-    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-        const Vec3 color{rgb[i], rgb[i + 1], rgb[i + 2]};
-        const float y = luminance(color);
-        if (is_finite(color) && y > 0.0f) {
-            sum += std::log2(static_cast<double>(y));
-            brightest.push_back(max_component(color));
-        }
-    }
-    if (brightest.empty()) {
-        return 0.0f;
-    }
-    const double mean = sum / static_cast<double>(brightest.size());
-    const auto last = static_cast<std::size_t>(kAlmostAll * static_cast<double>(brightest.size() - 1));
-    std::nth_element(brightest.begin(), brightest.begin() + static_cast<std::ptrdiff_t>(last),
-                     brightest.end());
-    const double for_grey = std::log2(static_cast<double>(kGrey)) - mean;
-    const double for_white = std::log2(static_cast<double>(kWhite / brightest[last]));
-    return static_cast<float>(std::clamp(std::min(for_grey, for_white), -60.0, 60.0));
 }
 
 }  // namespace nearlight::core

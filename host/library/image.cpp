@@ -2,8 +2,6 @@
 #include "nearlight/image.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "host/image/exposure_meter.h"
@@ -16,19 +14,6 @@ namespace {
 
 std::string_view channel_part(std::string_view channel) {
     return channel.substr(channel.rfind('.') + 1);
-}
-
-core::ToneCurve core_curve(ToneCurve curve) {
-    switch (curve) {
-        case ToneCurve::neutral:
-            return core::ToneCurve::neutral;
-        case ToneCurve::agx:
-            return core::ToneCurve::agx;
-        case ToneCurve::filmic:
-            return core::ToneCurve::filmic;
-        default:
-            return core::ToneCurve::linear;
-    }
 }
 
 std::size_t value_count(const Image& image) {
@@ -129,39 +114,19 @@ void write_image(const std::filesystem::path& file, const Image& image, const Wr
                         std::to_string(image.values.size()) +
                         " values, which is not its width times its height times its channels");
     }
-    core::ImageWriter writer(
-        file, image.width, image.height, image.channels,
-        {.metadata = {}, .exposure = options.exposure, .curve = core_curve(options.tone_curve)});
+    core::ImageWriter writer(file, image.width, image.height, image.channels,
+                             {.metadata = {}, .exposure = options.exposure, .curve = options.tone_curve});
     writer.write_rows(image.values);
     writer.commit();
 }
 
 Vec3 tone_mapped(ToneCurve curve, Vec3 color) {
-    const core::Vec3 mapped = core::apply_tone_curve(core_curve(curve), {color.x, color.y, color.z});
+    const core::Vec3 mapped = core::apply_tone_curve(curve, {color.x, color.y, color.z});
     return {mapped.x, mapped.y, mapped.z};
 }
 
 float automatic_exposure(const Image& image) {
-    const auto place_of = [&](const char* channel) {
-        return static_cast<std::size_t>(std::ranges::find(image.channels, channel) - image.channels.begin());
-    };
-    const std::array rgb{place_of("R"), place_of("G"), place_of("B")};
-    const std::array albedo{place_of("albedo.R"), place_of("albedo.G"), place_of("albedo.B")};
-    const std::size_t depth = place_of("depth.Z");
-    const std::size_t stride = image.channels.size();
-    if (std::ranges::max(rgb) == stride) {
-        throw Error(ErrorKind::invalid_argument, "the exposure needs an image with channels R, G and B");
-    }
-    core::ExposureMeter meter;
-    const bool knows_surfaces = depth < stride && std::ranges::max(albedo) < stride;
-    for (std::size_t i = 0; knows_surfaces && i + stride <= image.values.size(); i += stride) {
-        const float* const pixel = image.values.data() + i;
-        if (pixel[depth] > 0.0f && std::isfinite(pixel[depth])) {
-            meter.add_surface({pixel[rgb[0]], pixel[rgb[1]], pixel[rgb[2]]},
-                              {pixel[albedo[0]], pixel[albedo[1]], pixel[albedo[2]]});
-        }
-    }
-    return meter.exposure(select_channels(image, {rgb.begin(), rgb.end()}).values);
+    return core::automatic_exposure(image.channels, image.values);
 }
 
 Image read_image(const std::filesystem::path& file) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nearlight/export.h"
+#include "nearlight/tone_curve.h"
 #include "nearlight/vec3.h"
 
 namespace nearlight {
@@ -32,14 +33,6 @@ struct Image {
                    channels.size() +
                channel;
     }
-};
-
-/// From linear light to what a screen shows.
-enum class ToneCurve {
-    linear,   ///< as it is; what is above 1 is clipped
-    neutral,  ///< colours as they are up to 0.76, softly limited above (Khronos PBR Neutral)
-    agx,      ///< a photograph's contrast, where bright colours fade to white
-    filmic,   ///< strong contrast of film
 };
 
 /// The linear colour that a screen should show, before the sRGB curve: in [0, 1] but for ToneCurve::linear.

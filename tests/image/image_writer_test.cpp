@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -29,6 +30,18 @@ TEST(ImageIo, RowsInAnyPortions) {
         write_image(folder / (std::string("whole-") + name), image);
         expect_same(read_image(folder / (std::string("whole-") + name)), read_image(folder / name));
     }
+}
+
+TEST(ImageIo, APartOfAPictureHasItsPlace) {
+    const TemporaryFolder folder;
+    write_image(folder / "part.exr", noise(9, 23, kLayers),
+                {.place = ImagePlace{.x = 5, .y = 7, .whole_width = 40, .whole_height = 30}});
+    const auto input = OIIO::ImageInput::open((folder / "part.exr").string());
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    EXPECT_EQ(std::vector({spec.x, spec.y, spec.width, spec.height}), std::vector({5, 7, 9, 23}));
+    EXPECT_EQ(std::vector({spec.full_x, spec.full_y, spec.full_width, spec.full_height}),
+              std::vector({0, 0, 40, 30}));
 }
 
 TEST(ImageIo, MissingRowsAreZero) {

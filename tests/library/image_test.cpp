@@ -94,23 +94,6 @@ TEST_F(ImageFiles, PngHasAToneCurveAndCanHaveAnAutomaticExposure) {
     EXPECT_THROW(automatic_exposure(layer(two_pixels(), "depth")), Error);
 }
 
-/// A bright sky behind a surface decides nothing, and a surface that is eight times darker than another in
-/// the same light stays darker, but by the root of that only.
-TEST_F(ImageFiles, AutomaticExposureIsThatOfSurfaces) {
-    const auto exposure = [](std::vector<float> values) {
-        return automatic_exposure({.width = static_cast<int>(values.size() / 7),
-                                   .height = 1,
-                                   .channels = {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "depth.Z"},
-                                   .values = std::move(values)});
-    };
-    const float white = exposure({0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 2});
-    EXPECT_NEAR(white, std::log2(0.25f / 0.8f) + 0.5f * std::log2(0.8f / 0.4f), 1e-4f);
-    EXPECT_NEAR(exposure({0.1f, 0.1f, 0.1f, 0.1f, 0.1f, 0.1f, 2}), white + 1.5f, 1e-4f);
-    EXPECT_NEAR(exposure({0.1f, 0.1f, 0.1f, 0, 0, 0, 2}), std::log2(0.25f / 0.1f), 1e-4f);
-    EXPECT_NEAR(exposure({0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 0.8f, 2, 50, 50, 50, 0, 0, 0, 0}), white, 1e-4f);
-    EXPECT_NEAR(exposure({0.5f, 0.5f, 0.5f, 0, 0, 0, 0}), std::log2(0.25f / 0.5f), 1e-4f);
-}
-
 TEST_F(ImageFiles, WhatCannotBeWrittenIsAnError) {
     const auto kind = [&](const std::string& name, const Image& image) {
         try {
