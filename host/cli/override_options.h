@@ -10,8 +10,8 @@
 namespace nearlight::core {
 
 /// Adds --camera, --origin, --target, --up, --fov, --environment, --environment-rotation,
-/// --environment-scale,
-/// --sun and --light-scale. What is not a list of numbers throws Error(ErrorKind::invalid_argument).
+/// --environment-scale, --sun and --light-scale. What is not a list of numbers throws
+/// Error(ErrorKind::invalid_argument).
 void add_override_options(CLI::App& command, SceneOptions& options);
 
 /// The arguments that say the same about light, and which of its cameras the scene is seen with.

@@ -2,7 +2,6 @@
 #include "host/cli/render_command.h"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <iterator>
 #include <map>
@@ -45,8 +44,8 @@ struct RenderOptions {
 const std::map<std::string, GatherKernel> kGatherKernels{
     {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
-/// Maximum number of pixels. With 2^30 pixels and all layers a file has up to 64 GiB; a larger size is
-/// probably a typing error.
+/// Maximum number of pixels. With 2^30 pixels and all layers a file has up to 64 GiB, or 96 GiB with
+/// --exr-precision float; a larger size is probably a typing error.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 
 RenderSettings settled(const RenderOptions& options) {
@@ -161,7 +160,6 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         .tev = TevPicture(options.tev,
                           std::filesystem::path(options.picture.outputs.front()).filename().string())};
     // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
-    set_driver_defaults();
     auto opening = std::async(std::launch::async, [&] {
         auto opened = open_devices(choice, list_devices());
         begin_compiling(plain(opened), options.session, settings.sampling);

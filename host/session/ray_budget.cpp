@@ -22,13 +22,13 @@ constexpr double kPixelCost = 40;
 constexpr double kLightSampleCost = 0.75;
 constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
 constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in the dark count less
-/// No part of a receiver's relative error counts as more. A single ray that met a lamp's reflection would
-/// otherwise decide for the whole picture.
+/// Bounds of the parts of a receiver's relative squared error, before the weights below. A single ray that
+/// met a lamp's reflection would otherwise decide for the whole picture.
 constexpr double kMaxErrorOfVpls = 0.2;
+constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;  ///< and of one light sample
 /// The squared error of one draw of a cut, relative to the light of all VPLs: it is about 1 where half of
 /// what is drawn is occluded (bench/log/cuts.md).
 constexpr double kErrorOfDraw = 1.0;
-constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;
 /// The error of rays ÷ what two rays at each of a thousand receivers show of it, which miss the rare bright
 /// paths that carry most (bench/log/limit.md).
 constexpr double kHiddenErrorOfRays = 8;
@@ -92,8 +92,8 @@ double variance_of(const std::array<Packets, 2>& pair, std::size_t i) {
     return 0.5 * dot(change, change);
 }
 
-/// The parts of a receiver's squared error, each relative to the square of its light and as far as it counts:
-/// of one ray, of one light sample, and of all VPLs.
+/// The parts of a receiver's squared error, each relative to the square of its light, bounded, and weighted
+/// by kHiddenErrorOfRays or kWeightOfSharedError: of one ray, of one light sample, and of all VPLs.
 struct ErrorParts {
     double of_ray = 0;
     double of_light_sample = 0;

@@ -20,9 +20,8 @@
 //              far apart the passes lie (host/session/pass_average.h).
 //   files      says which EXR files get the layer: `always`, unless --layers names others, or `asked`, if
 //              --layers names it.
-//   storage    says what numbers EXR files have unless --exr-precision asks for more: `half`, 16-bit floats
-//   of
-//              11 significant bits, or `full`, 32-bit floats.
+//   storage    says what numbers EXR files have unless --exr-precision asks for more: `half`, which are
+//              16-bit floats of 11 significant bits, or `full`, which are 32-bit floats.
 // The order of the rows is the order of the channels in a picture and in its files.
 #ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
 #define NEARLIGHT_SHARED_FILM_LAYERS_H
