@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/scene/material_model.h"
+#include "kernels/shared/film_layers.h"
 
 namespace nearlight::core {
 namespace {
@@ -51,7 +52,7 @@ TEST(SceneSummary, MemoryOfAllParts) {
     EXPECT_EQ(memory["host"]["geometry"], 4 * 32 + 2 * 16);
     EXPECT_EQ(memory["host"]["trees"], 2 * 52 + 64);
     EXPECT_EQ(memory["host"]["textures"], 400);
-    EXPECT_EQ(memory["host"]["picture"], 100 * 50 * 24 * 4);
+    EXPECT_EQ(memory["host"]["picture"], 100 * 50 * NEARLIGHT_LAYER_CHANNELS * 4);
     for (const auto& place : memory) {
         std::uint64_t sum = 0;
         for (const auto& [name, bytes] : place.items()) {
