@@ -134,5 +134,8 @@ float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian
 /// machines.
 std::uint64_t scene_hash(const Scene& scene);
+/// A hash of what shapes the light, whoever looks: of all that scene_hash() takes but the camera and the
+/// limits of depth and samples.
+std::uint64_t lighting_hash(const Scene& scene);
 
 }  // namespace nearlight::core

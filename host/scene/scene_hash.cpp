@@ -77,10 +77,7 @@ void add_camera(Hasher& hasher, const SceneCamera& camera) {
     }
 }
 
-}  // namespace
-
-std::uint64_t scene_hash(const Scene& scene) {
-    Hasher hasher;
+void add_surfaces_and_lights(Hasher& hasher, const Scene& scene) {
     hasher.add_array(scene.vertices);
     hasher.add_array(scene.vertex_colors);
     hasher.add_array(scene.triangles);
@@ -88,15 +85,34 @@ std::uint64_t scene_hash(const Scene& scene) {
     hasher.add_array(scene.transmission_curves);
     add_textures(hasher, scene);
     add_lights(hasher, scene);
-    add_camera(hasher, scene.camera);
-    hasher.add(scene.max_depth);
-    hasher.add(scene.samples_per_pixel);
+}
+
+/// Adds what only some scenes have, so that the hashes of others do not depend on it.
+void add_extras(Hasher& hasher, const Scene& scene) {
     if (!scene.second_uvs.empty()) {
         hasher.add_array(scene.second_uvs);
     }
     if (scene.clear_glass) {
         hasher.add(true);
     }
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const Scene& scene) {
+    Hasher hasher;
+    add_surfaces_and_lights(hasher, scene);
+    add_camera(hasher, scene.camera);
+    hasher.add(scene.max_depth);
+    hasher.add(scene.samples_per_pixel);
+    add_extras(hasher, scene);
+    return hasher.hash64();
+}
+
+std::uint64_t lighting_hash(const Scene& scene) {
+    Hasher hasher;
+    add_surfaces_and_lights(hasher, scene);
+    add_extras(hasher, scene);
     return hasher.hash64();
 }
 

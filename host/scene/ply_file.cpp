@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/ply_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include "nearlight/error.h"
+
+namespace nearlight::core {
+namespace {
+
+PlyScalar parse_scalar(const std::filesystem::path& file, std::string_view name) {
+    constexpr std::pair<std::string_view, PlyScalar> kNames[] = {
+        {"char", PlyScalar::i8},    {"int8", PlyScalar::i8},     {"uchar", PlyScalar::u8},
+        {"uint8", PlyScalar::u8},   {"short", PlyScalar::i16},   {"int16", PlyScalar::i16},
+        {"ushort", PlyScalar::u16}, {"uint16", PlyScalar::u16},  {"int", PlyScalar::i32},
+        {"int32", PlyScalar::i32},  {"uint", PlyScalar::u32},    {"uint32", PlyScalar::u32},
+        {"float", PlyScalar::f32},  {"float32", PlyScalar::f32}, {"double", PlyScalar::f64},
+        {"float64", PlyScalar::f64}};
+    for (const auto& [known, type] : kNames) {
+        if (known == name) {
+            return type;
+        }
+    }
+    fail_ply(file, "PLY header has the unknown type '" + std::string(name) + "'");
+}
+
+void parse_header_line(const std::filesystem::path& file, const std::string& line, PlyHeader& header) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "format") {
+        std::string format;
+        words >> format;
+        header.format =
+            format == "ascii"                  ? PlyFormat::ascii
+            : format == "binary_little_endian" ? PlyFormat::little
+            : format == "binary_big_endian"
+                ? PlyFormat::big
+                : (fail_ply(file, "PLY header has the unknown format '" + format + "'"), PlyFormat::ascii);
+    } else if (keyword == "element") {
+        PlyElement element;
+        if (!(words >> element.name >> element.count)) {
+            fail_ply(file, "PLY header has a broken line: " + line);
+        }
+        header.elements.push_back(element);
+    } else if (keyword == "property") {
+        PlyProperty property;
+        std::string type;
+        words >> type;
+        if (type == "list") {
+            std::string count_type;
+            words >> count_type >> type;
+            property.is_list = true;
+            property.count_type = parse_scalar(file, count_type);
+        }
+        property.type = parse_scalar(file, type);
+        if (!(words >> property.name) || header.elements.empty()) {
+            fail_ply(file, "PLY header has a broken line: " + line);
+        }
+        header.elements.back().properties.push_back(property);
+    } else if (keyword == "comment") {
+        std::string comment;
+        std::getline(words >> std::ws, comment);
+        header.comments.push_back(comment);
+    }
+}
+
+}  // namespace
+
+void fail_ply(const std::filesystem::path& file, const std::string& what) {
+    throw Error(ErrorKind::file, file.string() + ": " + what);
+}
+
+PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text) {
+    if (!text.starts_with("ply")) {
+        fail_ply(file, "not a PLY file");
+    }
+    PlyHeader header;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = text.find('\n', begin);
+        if (end == std::string_view::npos) {
+            break;
+        }
+        std::string line(text.substr(begin, end - begin));
+        if (!line.empty() && line.back() == '\r') {
+            line.pop_back();
+        }
+        begin = end + 1;
+        if (line == "end_header") {
+            header.size = begin;
+            return header;
+        }
+        parse_header_line(file, line, header);
+    }
+    fail_ply(file, "PLY header is truncated");
+}
+
+template <typename T>
+T PlyReader::read_binary() {
+    if (data_.size() < sizeof(T)) {
+        fail_ply(file_, "PLY file is truncated");
+    }
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), data_.data(), sizeof(T));
+    data_.remove_prefix(sizeof(T));
+    if ((format_ == PlyFormat::big) != (std::endian::native == std::endian::big)) {
+        std::reverse(bytes.begin(), bytes.end());
+    }
+    return std::bit_cast<T>(bytes);
+}
+
+double PlyReader::read_word() {
+    data_.remove_prefix(std::min(data_.find_first_not_of(" \t\r\n"), data_.size()));
+    if (data_.empty()) {
+        fail_ply(file_, "PLY file is truncated");
+    }
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(data_.data(), data_.data() + data_.size(), value);
+    if (error != std::errc()) {
+        fail_ply(file_, "PLY file has '" + std::string(data_.substr(0, data_.find_first_of(" \t\r\n"))) +
+                            "' where a number should be");
+    }
+    data_.remove_prefix(static_cast<std::size_t>(end - data_.data()));
+    return value;
+}
+
+double PlyReader::read(PlyScalar type) {
+    if (format_ == PlyFormat::ascii) {
+        return read_word();
+    }
+    switch (type) {
+        case PlyScalar::i8:
+            return read_binary<std::int8_t>();
+        case PlyScalar::u8:
+            return read_binary<std::uint8_t>();
+        case PlyScalar::i16:
+            return read_binary<std::int16_t>();
+        case PlyScalar::u16:
+            return read_binary<std::uint16_t>();
+        case PlyScalar::i32:
+            return read_binary<std::int32_t>();
+        case PlyScalar::u32:
+            return read_binary<std::uint32_t>();
+        case PlyScalar::f32:
+            return static_cast<double>(read_binary<float>());
+        case PlyScalar::f64:
+            return read_binary<double>();
+    }
+    return 0.0;
+}
+
+void PlyReader::skip(const PlyProperty& property) {
+    const double count = property.is_list ? read(property.count_type) : 1.0;
+    for (double i = 0; i < count; ++i) {
+        read(property.type);
+    }
+}
+
+void PlyReader::check_size_of(const PlyElement& element) const {
+    // Each row takes at least one byte.
+    if (!element.properties.empty() && element.count > data_.size()) {
+        fail_ply(file_, "PLY file is truncated");
+    }
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structure of Stanford PLY files: a header that describes tables, and their numbers, in ASCII or in
+// binary of either byte order.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nearlight::core {
+
+enum class PlyScalar { i8, u8, i16, u16, i32, u32, f32, f64 };
+enum class PlyFormat { ascii, little, big };
+
+/// A column of a table.
+struct PlyProperty {
+    std::string name;
+    PlyScalar type = PlyScalar::f32;
+    bool is_list = false;
+    PlyScalar count_type = PlyScalar::u8;  ///< of a list's length
+};
+
+/// A table.
+struct PlyElement {
+    std::string name;
+    std::size_t count = 0;  ///< rows
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<std::string> comments;  ///< without the keyword
+    std::vector<PlyElement> elements;
+    std::size_t size = 0;  ///< bytes
+};
+
+/// Throws Error(ErrorKind::file), which names the file.
+[[noreturn]] void fail_ply(const std::filesystem::path& file, const std::string& what);
+
+/// Reads the header at the beginning of the text of a file. Throws Error(ErrorKind::file).
+PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text);
+
+/// Reads one number after the other, whatever the format. It keeps references to the file's name and text,
+/// and throws Error(ErrorKind::file) where a number should be and is not.
+class PlyReader {
+  public:
+    /// `data` is what follows the header.
+    PlyReader(const std::filesystem::path& file, std::string_view data, PlyFormat format)
+        : file_(file), data_(data), format_(format) {}
+
+    double read(PlyScalar type);
+    /// Passes over a number or a list.
+    void skip(const PlyProperty& property);
+    /// Throws Error(ErrorKind::file) if the rest of the file is too short for a table, so that nobody takes
+    /// memory for what a broken header promises.
+    void check_size_of(const PlyElement& element) const;
+
+  private:
+    template <typename T>
+    T read_binary();
+    double read_word();
+
+    const std::filesystem::path& file_;
+    std::string_view data_;
+    PlyFormat format_;
+};
+
+}  // namespace nearlight::core
