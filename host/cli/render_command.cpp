@@ -21,6 +21,7 @@
 #include "host/cli/rendered_picture.h"
 #include "host/cli/scene_options.h"
 #include "host/cli/tev_picture.h"
+#include "host/cli/vpl_options.h"
 #include "host/session/passes.h"
 #include "host/session/picture_window.h"
 #include "host/session/render.h"
@@ -37,6 +38,7 @@ struct RenderOptions {
     ImageSize size;
     MethodTexts method;
     PassOptions passes;
+    VplFiles vpl_files;
     std::string tev;
     int threads = 0;  ///< 0: one per core
 };
@@ -54,6 +56,7 @@ RenderSettings settled(const RenderOptions& options) {
     settings.error = options.passes.error;
     settings.pass_samples = options.passes.pass_samples;
     settle(options.method, settings);
+    settle(options.vpl_files, settings);
     if (options.size.width > 0) {
         settings.view.width = options.size.width;
         settings.view.height = options.size.height;
@@ -71,7 +74,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
                                 kMaxPixels >> 20));
     }
     window_of(static_cast<uint>(width), static_cast<uint>(height), settings.gather.window);
-    if (settings.sampling.vpl_count == 0) {
+    if (settings.sampling.vpl_count == 0 && settings.sampling.file.empty()) {
         spdlog::warn("with --vpls 0 the picture has no indirect light");
     }
 }
@@ -181,7 +184,8 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     Session session(plain(devices), scene, options.session);
     const RenderReport report = render(
         session, settings,
-        [&](const RenderReport& started, const View& view, const VplSet&) {
+        [&](const RenderReport& started, const View& view, const VplSet& vpls) {
+            save(options.vpl_files, session, view, vpls);
             sinks.open(started,
                        render_metadata(hash.get(), options.scene, settings, started, view, devices,
                                        global.command_line),
@@ -266,6 +270,7 @@ void add_render_command(CommandLine& line) {
     add_pass_options(command, options->passes);
     add_tev_option(command, options->tev);
     add_sampler_options(command, options->settings, options->method);
+    add_vpl_options(command, options->vpl_files);
     add_method_options(command, options->settings, options->method);
     add_session_options(command, options->session);
     add_device_options(command, options->device);

@@ -35,6 +35,15 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
     return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
 }
 
+/// The sampler, or what stands for it.
+std::string sampler_name(const SamplingSettings& sampling) {
+    return sampling.file.empty() ? to_string(sampling.sampler) : "file";
+}
+
+bool has_policy(const SamplingSettings& sampling) {
+    return sampling.file.empty() && sampling.sampler == SamplerKind::close_range;
+}
+
 }  // namespace
 
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
@@ -43,9 +52,12 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
                          const std::string& command_line) {
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
-    metadata["nearlight:sampler"] = to_string(settings.sampling.sampler);
+    metadata["nearlight:sampler"] = sampler_name(settings.sampling);
     metadata["nearlight:policy"] =
-        settings.sampling.sampler == SamplerKind::close_range ? to_string(settings.sampling.policy) : "none";
+        has_policy(settings.sampling) ? to_string(settings.sampling.policy) : "none";
+    if (!settings.sampling.file.empty()) {
+        metadata["nearlight:vplFile"] = settings.sampling.file.string();
+    }
     metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
     metadata["nearlight:vplsAsked"] = static_cast<int>(settings.sampling.vpl_count);
     metadata["nearlight:cuts"] = settings.sampling.cuts ? "on" : "off";
@@ -92,10 +104,12 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["scene"] = scene.file.string();
     json["width"] = report.width;
     json["height"] = report.height;
-    json["sampler"] = to_string(settings.sampling.sampler);
-    json["policy"] = settings.sampling.sampler == SamplerKind::close_range
-                         ? nlohmann::ordered_json(to_string(settings.sampling.policy))
-                         : nullptr;
+    json["sampler"] = sampler_name(settings.sampling);
+    json["policy"] =
+        has_policy(settings.sampling) ? nlohmann::ordered_json(to_string(settings.sampling.policy)) : nullptr;
+    json["vpl_file"] = settings.sampling.file.empty()
+                           ? nlohmann::ordered_json()
+                           : nlohmann::ordered_json(settings.sampling.file.string());
     json["samples_per_pixel"] = settings.gather.samples_per_pixel;
     json["strata"] = settings.gather.strata_or_auto();
     json["preview"] = settings.gather.interleave > 1;

@@ -138,6 +138,11 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, std::
         .view = view.state_, .set = state_->session.sample(view.state_->view, settings, seed)}));
 }
 
+void Session::save_vpls(const VplSet& vpls, const std::filesystem::path& file) {
+    refuse_stranger(vpls.state_->view->owner == state_, "a set of VPLs");
+    state_->session.save_vpls(vpls.state_->view->view, vpls.state_->set, file);
+}
+
 Picture Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings,
                         std::uint32_t seed, const Progress& progress) {
     const PixelWindow window = core::window_of(view.state_->view, settings);

@@ -16,6 +16,10 @@ uint part_of(uint number, uint part, uint whole) {
 
 }  // namespace
 
+bool may_have_passes(const RenderSettings& settings) {
+    return settings.seconds || settings.error || settings.pass_samples.size() > 1 || settings.passes > 1u;
+}
+
 uint pass_seed(uint seed, uint pass) {
     // This is SplitMix64 [Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014].
     std::uint64_t z = ((std::uint64_t{seed} << 32u) | pass) + 0x9e3779b97f4a7c15ull;

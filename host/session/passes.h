@@ -7,6 +7,9 @@
 
 namespace nearlight::core {
 
+/// Whether a picture has several passes, or ends by time or error.
+bool may_have_passes(const RenderSettings& settings);
+
 /// The seed of a pass of a picture with the seed `seed`. Pass 0 has `seed` itself; the others mix it with
 /// `pass`, so that pictures of neighbouring seeds share no pass.
 uint pass_seed(uint seed, uint pass);

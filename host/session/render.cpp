@@ -24,6 +24,17 @@ RenderReport begin_report(Session& session) {
     return report;
 }
 
+/// The mean of passes with the same VPLs would converge to a picture with their noise.
+void refuse_passes_of_a_file(const RenderSettings& settings) {
+    if (!settings.sampling.file.empty() && may_have_passes(settings)) {
+        throw Error(ErrorKind::invalid_argument,
+                    "VPLs from a file would be the same in every pass: a picture of them has one pass, with "
+                    "no limit of "
+                    "time or error",
+                    "file");
+    }
+}
+
 void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
                  const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
     const Prepared pass = prepare(session, settings, report);
@@ -35,6 +46,7 @@ void render_once(Session& session, const RenderSettings& settings, const RenderS
 
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast) {
+    refuse_passes_of_a_file(settings);
     RenderReport report = begin_report(session);
     const Stopwatch total;
     Hasher hasher;
@@ -43,7 +55,7 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
         sink(rows);
     };
     const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
-    if (settings.seconds || settings.error || settings.pass_samples.size() > 1 || settings.passes > 1u) {
+    if (may_have_passes(settings)) {
         render_passes(session, settings, start, hash_and_send, gathering, forecast, report);
     } else {
         const uint samples =

@@ -14,6 +14,7 @@
 #include "host/session/light_shares.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
+#include "host/session/vpl_file.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -126,7 +127,31 @@ View Session::look(const ViewSettings& settings, uint seed) {
     });
 }
 
+VplSet Session::read_vpls(const View& view, const std::filesystem::path& file) {
+    const VplFile stored = read_vpl_file(file);
+    check_vpls(stored, scene_, view.max_depth, file);
+    return pool_.on_leader([&](PoolDevice& leader) {
+        VplSet set = vpl_set_of(leader.device(), stored);
+        if (!view.clamp_radius_is_open && set.ray_budget) {
+            set.ray_budget->clamp_radius = view.clamp_radius;
+        }
+        if (pool_.size() > 1) {
+            set.vpls.keep_on_host();
+        }
+        return set;
+    });
+}
+
+void Session::save_vpls(const View& view, const VplSet& vpls, const std::filesystem::path& file) {
+    write_vpl_file(file, pool_.on_leader([&](PoolDevice&) {
+        return vpl_file_of(vpls, {.scene = lighting_hash(scene_), .max_depth = view.max_depth});
+    }));
+}
+
 VplSet Session::sample(const View& view, const SamplingSettings& settings, uint seed) {
+    if (!settings.file.empty()) {
+        return read_vpls(view, settings.file);
+    }
     return pool_.on_leader([&](PoolDevice& leader) {
         // If the leader has failed since, its pilot view is gone; the same seed makes the same view again.
         std::optional<PilotView> again;
@@ -254,7 +279,7 @@ void begin_compiling(std::span<Device* const> devices, const SessionOptions& opt
     };
     begin_bands(*devices.front());
     SamplerStages stages(*devices.front(), {.kernel = options.gather_kernel});
-    if (sampler.begin_compiling != nullptr) {
+    if (sampler.begin_compiling != nullptr && settings.file.empty()) {
         sampler.begin_compiling(stages, settings.policy);
     }
     for (Device* device : devices.subspan(1)) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <utility>
@@ -53,8 +54,12 @@ class Session {
     /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
     View look(const ViewSettings& settings, uint seed);
 
-    /// Makes VPLs for the view, on the leading device.
+    /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name.
     VplSet sample(const View& view, const SamplingSettings& settings, uint seed);
+
+    /// Writes VPLs that were made for the view to a file, from which sample() can take them. Throws as
+    /// write_vpl_file() and vpl_file_of() do.
+    void save_vpls(const View& view, const VplSet& vpls, const std::filesystem::path& file);
 
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
     /// the caller's thread.
@@ -85,6 +90,8 @@ class Session {
     [[nodiscard]] const DeviceScene& device_scene() const { return pool_.leader().scene; }
 
   private:
+    VplSet read_vpls(const View& view, const std::filesystem::path& file);
+
     const Scene& scene_;
     DevicePool pool_;
     SessionSeconds seconds_;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -135,8 +136,14 @@ class NEARLIGHT_API Session {
     /// Decides what the settings leave open, by a pilot view of about 1000 receivers.
     View look(const ViewSettings& settings = {}, std::uint32_t seed = 0);
 
-    /// Places about settings.vpl_count VPLs for the view.
+    /// Places about settings.vpl_count VPLs for the view, or takes those of settings.file. Throws Error:
+    /// ErrorKind::file if that file is broken, or if its VPLs were made for another scene or maximum depth.
     VplSet sample(const View& view, const SamplingSettings& settings = {}, std::uint32_t seed = 0);
+
+    /// Writes a set to a PLY file (docs/vpl-files.md), from which sample() takes it again in any later
+    /// session of the same scene. Throws Error: ErrorKind::file if the file cannot be written;
+    /// ErrorKind::invalid_argument for a set of SamplerKind::local, which belongs to its view.
+    void save_vpls(const VplSet& vpls, const std::filesystem::path& file);
 
     /// Renders the view with these VPLs, which may have been made for another view of the session. The image
     /// takes about 90 bytes per pixel, a float for each channel.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -83,6 +84,9 @@ struct SamplingSettings {
     /// Without cuts, or if it is less than `vpl_count`, or if that is 0, the set has `vpl_count`.
     std::optional<std::uint32_t> set_count{};
     std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
+    /// If it is not empty, the VPLs are those of this PLY file (docs/vpl-files.md), and the members above
+    /// count for nothing. A picture of them has a single pass.
+    std::filesystem::path file{};
 
     /// The target number of VPLs in the set.
     [[nodiscard]] std::uint32_t set_count_or_auto() const {
