@@ -65,6 +65,11 @@ void add_sampling(std::string& line, const SamplingSettings& sampling) {
         line += std::string(" --policy ") + name_of(sampling.policy);
     }
     add_option(line, "--vpls", sampling.vpl_count, otherwise.vpl_count);
+    // The sampler `local` ignores cuts, but their options would be an error.
+    if (sampling.cuts && sampling.sampler != SamplerKind::local) {
+        line += " --cuts on";
+        add_option(line, "--vpl-set", sampling.set_count);
+    }
     add_option(line, "--close-fraction", sampling.close_fraction);
 }
 
@@ -76,6 +81,7 @@ void add_gather(std::string& line, const GatherSettings& gather) {
     if (!gather.compensate) {
         line += " --compensate off";
     }
+    add_option(line, "--roulette", gather.roulette, otherwise.roulette);
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ nearlight::LoadOptions public_options(const SceneOptions& scene) {
                                 .camera = scene.camera,
                                 .origin = public_point(overrides.origin),
                                 .target = public_point(overrides.target),
+                                .up = public_point(overrides.up),
                                 .field_of_view = overrides.fov_degrees,
                                 .environment = overrides.environment,
                                 .environment_rotation = overrides.environment_rotation,

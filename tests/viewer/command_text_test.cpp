@@ -24,13 +24,30 @@ TEST(CommandText, NamesWhatDiffers) {
     settings.view.clamp_radius = 0.1f;
     settings.sampling.sampler = SamplerKind::instant_radiosity;
     settings.sampling.vpl_count = 2000;
+    settings.sampling.cuts = true;
+    settings.sampling.set_count = 50'000;
     settings.gather.compensate = false;
     EXPECT_EQ(
         command_text(kScene, settings, {.exposure = -1.5f, .tone_curve = ToneCurve::agx}, "a.png"),
         "nearlight render scene.xml --origin=1,2.5,-3 --target=0,0,0 --up=0,0,1 --fov 50 --size 320x200 "
-        "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --compensate off --exposure=-1.5 "
-        "--tonemap agx -o "
-        "a.png");
+        "--clamp-radius 0.1 --sampler instant-radiosity --vpls 2000 --cuts on --vpl-set 50000 --compensate "
+        "off --exposure=-1.5 --tonemap agx -o a.png");
+}
+
+/// Roulette and cuts exclude each other, as on the command line.
+TEST(CommandText, NamesTheRoulette) {
+    RenderSettings settings;
+    settings.gather.roulette = 0.5f;
+    EXPECT_EQ(command_text(kScene, settings, {}, "a.exr"),
+              "nearlight render scene.xml --roulette 0.5 --exposure=0 --tonemap linear -o a.exr");
+}
+
+/// `nearlight render` refuses cuts with this sampler, which the panel can choose.
+TEST(CommandText, TheSamplerLocalHasNoCuts) {
+    RenderSettings settings;
+    settings.sampling = {.sampler = SamplerKind::local, .cuts = true, .set_count = 50'000};
+    EXPECT_EQ(command_text(kScene, settings, {}, "a.exr"),
+              "nearlight render scene.xml --sampler local --exposure=0 --tonemap linear -o a.exr");
 }
 
 }  // namespace

@@ -77,6 +77,19 @@ TEST_F(ViewWindow, ShowsThePicture) {
     EXPECT_LT(window.at(window.width - 3, 3, 2), 0.2f);
 }
 
+/// From above, with x upwards, what is farther up in the picture has a greater x, and so more red.
+TEST_F(ViewWindow, TakesWhatPointsUpwards) {
+    const ProgramResult result = view_floor(
+        "--size 256x256 --vpls 50 --spp 1 --origin 0,0,3 --target 0,0,0 --up 1,0,0 --layer P --frames 1 "
+        "--screenshot " +
+        quoted(screenshot()));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const Image window = read_image(screenshot());
+    const int middle = window.width - 128;
+    EXPECT_GT(window.at(middle, window.height / 2 - 50, 0), 0.7f);
+    EXPECT_LT(window.at(middle, window.height / 2 + 50, 0), 0.3f);
+}
+
 /// There may be fewer samples than frames that are asked for, and scenes that no frame follows.
 TEST_F(ViewWindow, EndsWhenNothingMoreComes) {
     EXPECT_EQ(view_floor("--size 64x64 --vpls 50 --spp 1 --frames 9", "timeout 60").exit_code, 0);
