@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 
 #include "nearlight/nearlight.h"
+#include "tests/support/face_device_fixture.h"
 
 namespace nearlight {
 namespace {
@@ -51,7 +51,7 @@ TEST(LibraryScene, MissingFilesAreErrors) {
 }
 
 /// One session serves all cases, because each session compiles kernels.
-class LibrarySession : public testing::Test {
+class LibrarySession : public test::FaceDeviceTest {
   protected:
     static void SetUpTestSuite() {
         if (!list_devices().empty()) {
@@ -59,14 +59,6 @@ class LibrarySession : public testing::Test {
         }
     }
     static void TearDownTestSuite() { session_.reset(); }
-    void SetUp() override {
-        if (!session_ && std::getenv("NEARLIGHT_REQUIRE_DEVICE") != nullptr) {
-            FAIL() << "no OpenCL device";
-        }
-        if (!session_) {
-            GTEST_SKIP() << "no OpenCL device";
-        }
-    }
     static Session& session() { return *session_; }
 
   private:

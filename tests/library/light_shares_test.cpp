@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "nearlight/nearlight.h"
+#include "tests/support/face_device_fixture.h"
 
 namespace nearlight {
 namespace {
@@ -34,17 +34,8 @@ float sum_of(Vec3 v) {
     return v.x + v.y + v.z;
 }
 
-class SingleLightShares : public testing::Test {
+class SingleLightShares : public test::FaceDeviceTest {
   protected:
-    void SetUp() override {
-        if (!list_devices().empty()) {
-            return;
-        }
-        if (std::getenv("NEARLIGHT_REQUIRE_DEVICE") != nullptr) {
-            FAIL() << "no OpenCL device";
-        }
-        GTEST_SKIP() << "no OpenCL device";
-    }
     static Scene load(const std::string& emitter) {
         const auto file = std::filesystem::path(testing::TempDir()) /
                           ("nearlight_light_shares_" + std::to_string(getpid()) + ".xml");

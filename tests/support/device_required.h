@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <string_view>
 
 #include "host/cl/devices/device_list.h"
+#include "tests/support/requirement.h"
 
 namespace nearlight::core::test {
 
@@ -16,12 +15,6 @@ inline bool has_device() {
     const DeviceList list = list_devices();
     return std::any_of(list.devices.begin(), list.devices.end(),
                        [](const DeviceEntry& entry) { return entry.unusable_because.empty(); });
-}
-
-/// Whether a missing device is a failure: NEARLIGHT_REQUIRE_DEVICE=1, which CI sets.
-inline bool device_is_required() {
-    const char* const required = std::getenv("NEARLIGHT_REQUIRE_DEVICE");
-    return required != nullptr && std::string_view(required) == "1";
 }
 
 }  // namespace nearlight::core::test
