@@ -43,7 +43,7 @@ EnvironmentSampler::EnvironmentSampler(const Scene& scene) : table_(build_enviro
 
 Vec3 EnvironmentSampler::sample(float row, Point2 place) const {
     const Environment& parameters = table_.parameters;
-    Pixel pixel;
+    MapPixel pixel;
     pixel.row = pick_entry(row_cdf_, row);
     const std::span columns =
         std::span(column_cdf_).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
@@ -73,18 +73,13 @@ Vec3 EnvironmentSampler::to_local(Vec3 direction) const {
             m[6] * direction.x + m[7] * direction.y + m[8] * direction.z};
 }
 
-EnvironmentSampler::Pixel EnvironmentSampler::pixel_towards(Vec3 direction) const {
-    const Environment& parameters = table_.parameters;
-    const Vec3 local = to_local(direction);
-    float azimuth = std::atan2(local.x, -local.z) / (2.0f * kPi);
-    azimuth -= std::floor(azimuth);
-    const float inclination = std::acos(std::clamp(local.y, -1.0f, 1.0f)) / kPi;
-    return {std::min(static_cast<uint>(azimuth * static_cast<float>(parameters.width)), parameters.width - 1),
-            std::min(static_cast<uint>(inclination * static_cast<float>(parameters.height)),
-                     parameters.height - 1)};
+MapShape EnvironmentSampler::shape() const {
+    return {.width = table_.parameters.width,
+            .height = table_.parameters.height,
+            .is_interpolated = table_.parameters.interpolated != 0};
 }
 
-double EnvironmentSampler::pixel_density(Pixel pixel) const {
+double EnvironmentSampler::pixel_density(MapPixel pixel) const {
     const Environment& parameters = table_.parameters;
     const std::span columns =
         std::span(column_cdf_).subspan(pixel.row * std::size_t{parameters.width}, parameters.width);
@@ -95,40 +90,15 @@ double EnvironmentSampler::pixel_density(Pixel pixel) const {
     return probability * parameters.width / (2.0 * pi * zone);
 }
 
-Vec3 EnvironmentSampler::pixel_radiance(Pixel pixel) const {
-    const float* rgba = &table_.pixels[4 * (pixel.row * std::size_t{table_.parameters.width} + pixel.column)];
-    return {rgba[0], rgba[1], rgba[2]};
-}
-
-// Columns have their centres at (i + 0.5)/width, and rows lie at i/(height − 1), as in Mitsuba's `envmap`.
-Vec3 EnvironmentSampler::interpolated_radiance(Vec3 direction) const {
-    const auto width = static_cast<double>(table_.parameters.width);
-    const auto height = static_cast<double>(table_.parameters.height);
-    const Vec3 local = to_local(direction);
-    const double turn = std::atan2(double{local.x}, -double{local.z}) / (2.0 * std::numbers::pi);
-    const double x = (turn - std::floor(turn)) * width - 0.5;
-    const double y = std::acos(std::clamp(double{local.y}, -1.0, 1.0)) / std::numbers::pi * (height - 1.0);
-    const double left = std::floor(x);
-    const double top = std::min(std::floor(y), std::max(height - 2.0, 0.0));
-    Vec3 sum{0, 0, 0};
-    for (const double column : {left, left + 1.0}) {
-        for (const double row : {top, std::min(top + 1.0, height - 1.0)}) {
-            const double weight_x = column == left ? 1.0 - (x - left) : x - left;
-            const double weight_y = row == top ? 1.0 - (y - top) : y - top;
-            const double wrapped = column < 0.0 ? width - 1.0 : (column >= width ? 0.0 : column);
-            sum += pixel_radiance({static_cast<uint>(wrapped), static_cast<uint>(row)}) *
-                   static_cast<float>(weight_x * weight_y);
-        }
-    }
-    return sum;
-}
-
 Vec3 EnvironmentSampler::map_radiance(Vec3 direction) const {
     if (!exists()) {
         return {0, 0, 0};
     }
-    return table_.parameters.interpolated != 0 ? interpolated_radiance(direction)
-                                               : pixel_radiance(pixel_towards(direction));
+    return core::map_radiance(shape(), to_local(direction), [this](MapPixel pixel) {
+        const float* const rgba =
+            &table_.pixels[4 * (pixel.row * std::size_t{table_.parameters.width} + pixel.column)];
+        return Vec3{rgba[0], rgba[1], rgba[2]};
+    });
 }
 
 Vec3 EnvironmentSampler::radiance(Vec3 direction) const {
@@ -153,7 +123,7 @@ Vec3 EnvironmentSampler::sample_sun(Point2 place) const {
 }
 
 double EnvironmentSampler::density(Vec3 direction) const {
-    return exists() ? pixel_density(pixel_towards(direction)) : 0.0;
+    return exists() ? pixel_density(pixel_towards(shape(), to_local(direction))) : 0.0;
 }
 
 }  // namespace nearlight::core

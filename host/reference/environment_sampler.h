@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/reference/sampling.h"
+#include "host/scene/environment_map.h"
 #include "host/scene/environment_table.h"
 
 namespace nearlight::core {
@@ -32,16 +33,10 @@ class EnvironmentSampler {
     [[nodiscard]] Vec3 sample(float row, Point2 place) const;
 
   private:
-    struct Pixel {
-        uint column = 0;
-        uint row = 0;
-    };
     [[nodiscard]] Vec3 to_local(Vec3 direction) const;
     [[nodiscard]] Vec3 map_radiance(Vec3 direction) const;
-    [[nodiscard]] Vec3 interpolated_radiance(Vec3 direction) const;
-    [[nodiscard]] Pixel pixel_towards(Vec3 direction) const;
-    [[nodiscard]] double pixel_density(Pixel pixel) const;
-    [[nodiscard]] Vec3 pixel_radiance(Pixel pixel) const;
+    [[nodiscard]] MapShape shape() const;
+    [[nodiscard]] double pixel_density(MapPixel pixel) const;
 
     EnvironmentTable table_;
     // Cumulative distributions of the rows of pixels, and of the pixels of each row: other ones than kernels

@@ -8,6 +8,7 @@
 
 #include "host/base/random.h"
 #include "host/scene/emitters.h"
+#include "host/scene/environment_map.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/texture.h"
 #include "host/stages/ray_caster.h"
@@ -111,7 +112,7 @@ class ShareMaker {
         return shares_.size() - 1;
     }
 
-    /// Light from infinitely far away: `radiance` is what a surface across the direction receives.
+    /// Light from infinitely far away: `across` is what a surface across the direction receives.
     void add_distant(std::size_t share, Vec3 direction, Vec3 across) {
         const float cosine = dot(point_.normal, direction);
         if (cosine > 0.0f) {
@@ -179,7 +180,14 @@ class ShareMaker {
 
     void add_environment() {
         const std::size_t share = begin_share(LightKind::environment, {0, 0, 0});
-        const Mat4 to_local = inverse(scene_.environment.to_world);
+        const EnvironmentLight& map = scene_.environment;
+        const MapShape shape{.width = static_cast<uint>(map.width),
+                             .height = static_cast<uint>(map.height),
+                             .is_interpolated = map.is_interpolated};
+        const auto radiance_of = [&](MapPixel pixel) {
+            return map.radiance[pixel.row * std::size_t{shape.width} + pixel.column];
+        };
+        const Mat4 to_local = inverse(map.to_world);
         const auto [right, up] = orthonormal_basis(point_.normal);
         for (std::size_t i = 0; i < kEnvironmentSamples; ++i) {
             const float square = random_.uniform();
@@ -187,25 +195,12 @@ class ShareMaker {
             const Vec3 direction = normalize(right * (std::sqrt(square) * std::cos(angle)) +
                                              up * (std::sqrt(square) * std::sin(angle)) +
                                              point_.normal * std::sqrt(std::max(1.0f - square, 0.0f)));
+            const Vec3 local = normalize(transform_vector(to_local, direction));
             probes_.push_back({.ray = {start_, 0.0f, direction, kInfinity},
                                .share = share,
-                               .irradiance = map_radiance(normalize(transform_vector(to_local, direction))) *
+                               .irradiance = map_radiance(shape, local, radiance_of) *
                                              (kPi / static_cast<float>(kEnvironmentSamples))});
         }
-    }
-
-    /// The map's pixel in a direction of its own frame.
-    [[nodiscard]] Vec3 map_radiance(Vec3 local) const {
-        const EnvironmentLight& map = scene_.environment;
-        const float across = std::atan2(local.x, -local.z) / (2.0f * kPi);
-        const float down = std::acos(std::clamp(local.y, -1.0f, 1.0f)) / kPi;
-        const auto pixel = [](float part, int count) {
-            return std::clamp(static_cast<int>(part * static_cast<float>(count)), 0, count - 1);
-        };
-        const int column = pixel(across - std::floor(across), map.width);
-        const int row = pixel(down, map.height);
-        return map.radiance[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.width) +
-                            static_cast<std::size_t>(column)];
     }
 
     void add_area_lights(std::span<const Emitter* const> lights) {

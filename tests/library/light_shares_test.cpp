@@ -93,6 +93,10 @@ INSTANTIATE_TEST_SUITE_P(
                      <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
                      <rgb name="intensity" value="5, 5, 5"/><float name="cutoff_angle" value="30"/></emitter>)",
                   LightKind::spot},
+        std::pair{R"(<emitter type="projector"><transform name="to_world">
+                     <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
+                     <rgb name="irradiance" value="2, 2, 2"/><float name="fov" value="60"/></emitter>)",
+                  LightKind::projector},
         std::pair{R"(<emitter type="directional"><vector name="direction" x="-0.3" y="0" z="-1"/>
                      <rgb name="irradiance" value="2, 2, 2"/></emitter>)",
                   LightKind::directional},
@@ -106,6 +110,64 @@ INSTANTIATE_TEST_SUITE_P(
             LightKind::area},
         std::pair{R"(<emitter type="constant"><rgb name="radiance" value="0.5, 0.5, 0.5"/></emitter>)",
                   LightKind::environment}));
+
+/// A map whose four quarters of the horizon are red, green, blue and white, and whose first row is brighter.
+Image quarters() {
+    Image map{.width = 8, .height = 4, .channels = {"R", "G", "B"}};
+    const std::vector<Vec3> colors{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    for (int row = 0; row < map.height; ++row) {
+        for (int column = 0; column < map.width; ++column) {
+            const float light = row == 0 ? 1.0f : 0.3f;
+            const Vec3 color = colors[static_cast<std::size_t>(column) / 2];
+            map.values.insert(map.values.end(), {light * color.x, light * color.y, light * color.z});
+        }
+    }
+    return map;
+}
+
+/// Compares what comes from far away with what light samples bring, for each colour and on each side.
+void expect_shares_of_all_sides(const Scene& scene, const std::vector<LightKind>& kinds) {
+    Session session(Devices::choose(), scene);
+    const VplSet none = session.sample(session.look({.ray_budget_pilot = false}), {.vpl_count = 0});
+    const std::vector<Vec3> normals{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+    const std::vector<Vec3> points(normals.size(), Vec3{0, 1, 1.5f});
+    const std::vector<Vec3> expected =
+        session.irradiance(points, normals, none, {.direct_samples = 4096, .paths = 0});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        SCOPED_TRACE("side " + std::to_string(i));
+        Vec3 sum{};
+        std::vector<LightKind> found;
+        for (const LightShare& share : session.light_shares(points[i], normals[i], none)) {
+            found.push_back(share.kind);
+            sum = {sum.x + share.irradiance.x, sum.y + share.irradiance.y, sum.z + share.irradiance.z};
+        }
+        EXPECT_EQ(found, kinds);
+        const float tolerance = 0.04f * sum_of(expected[i]) + 1e-3f;
+        EXPECT_GT(sum_of(expected[i]), 10 * tolerance);
+        EXPECT_NEAR(sum.x, expected[i].x, tolerance);
+        EXPECT_NEAR(sum.y, expected[i].y, tolerance);
+        EXPECT_NEAR(sum.z, expected[i].z, tolerance);
+    }
+}
+
+/// The map is so small that interpolation between its rows counts, and turned so that it lies askew.
+TEST_F(SingleLightShares, MapsAreTurnedAndInterpolatedAsForPictures) {
+    const auto map = std::filesystem::path(testing::TempDir()) /
+                     ("nearlight_quarters_" + std::to_string(getpid()) + ".exr");
+    write_image(map, quarters());
+    const Scene scene = load(R"(<emitter type="envmap"><string name="filename" value=")" + map.string() +
+                             R"("/><transform name="to_world"><rotate x="1" angle="90"/>
+                             <rotate z="1" angle="25"/></transform></emitter>)");
+    std::filesystem::remove(map);
+    expect_shares_of_all_sides(scene, {LightKind::environment});
+}
+
+TEST_F(SingleLightShares, TheSunAndItsSkyAreTwoLights) {
+    expect_shares_of_all_sides(
+        load(R"(<emitter type="sunsky"><vector name="sun_direction" x="0.5" y="0.3" z="0.6"/>
+                                       <float name="sun_aperture" value="8"/></emitter>)"),
+        {LightKind::sun, LightKind::environment});
+}
 
 /// A rectangle is two triangles, and one light.
 TEST_F(SingleLightShares, TrianglesThatShareVerticesAreOneLight) {
