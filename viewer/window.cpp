@@ -6,9 +6,9 @@
 #include <backends/imgui_impl_opengl3.h>
 
 #include <algorithm>
-#include <cstdint>
 
 #include "nearlight/error.h"
+#include "viewer/imgui_versions.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -132,7 +132,7 @@ void Window::set_picture(const ScreenPixels& pixels, bool is_smooth) {
 }
 
 ImTextureID Window::texture() const {
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_));
+    return imgui_texture(texture_);
 }
 
 void Window::set_clipboard(const std::string& text) {
