@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "viewer/channels.h"
+
 namespace nearlight::viewer {
 namespace {
 
@@ -53,39 +55,18 @@ const SrgbTable& srgb() {
     return table;
 }
 
-/// Where a layer's channels are in a picture.
-struct Channels {
-    std::size_t first = 0;
-    std::size_t count = 0;
-};
-
-Channels channels_of(const Image& image, std::string_view layer) {
-    Channels found;
-    for (std::size_t i = 0; i < image.channels.size(); ++i) {
-        const std::string& channel = image.channels[i];
-        const bool is_beauty = channel == "R" || channel == "G" || channel == "B";
-        const std::string_view owner =
-            is_beauty ? "beauty" : std::string_view(channel).substr(0, channel.find('.'));
-        if (owner == layer) {
-            found.first = found.count == 0 ? i : found.first;
-            ++found.count;
-        }
-    }
-    return found;
-}
-
 struct Extent {
-    float low = std::numeric_limits<float>::infinity();
-    float high = -std::numeric_limits<float>::infinity();
-    [[nodiscard]] float part(float value) const { return high > low ? (value - low) / (high - low) : 0.0f; }
+    float min = std::numeric_limits<float>::infinity();
+    float max = -std::numeric_limits<float>::infinity();
+    [[nodiscard]] float part(float value) const { return max > min ? (value - min) / (max - min) : 0.0f; }
 };
 
 Extent extent_of(const Image& image, std::size_t channel) {
     Extent extent;
     for (std::size_t i = channel; i < image.values.size(); i += image.channels.size()) {
         if (std::isfinite(image.values[i]) && image.values[i] != 0.0f) {
-            extent.low = std::min(extent.low, image.values[i]);
-            extent.high = std::max(extent.high, image.values[i]);
+            extent.min = std::min(extent.min, image.values[i]);
+            extent.max = std::max(extent.max, image.values[i]);
         }
     }
     return extent;

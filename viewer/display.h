@@ -16,7 +16,8 @@ struct ShownLayer {
     const char* name;  ///< as in files; "beauty" is R, G and B
     const char* what;  ///< for a tooltip
 };
-/// The layers in the order of the menu. The first is the beauty.
+/// The layers in the order of the menu: those that files get unless others are asked for. The first is the
+/// beauty.
 std::span<const ShownLayer> shown_layers();
 
 struct DisplaySettings {

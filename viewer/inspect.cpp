@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <string_view>
 
+#include "viewer/channels.h"
 #include "viewer/frame.h"
 #include "viewer/vectors.h"
 
@@ -13,13 +15,10 @@ constexpr IrradianceSettings kManySamples{.direct_samples = 1024, .paths = 1024}
 constexpr IrradianceSettings kNoPaths{.direct_samples = 1024, .paths = 0};
 
 /// The value of a layer of three channels at a pixel; zero if the picture lacks the layer.
-Vec3 vector_at(const Image& image, const std::string& first_channel, int x, int y) {
-    const auto found = std::ranges::find(image.channels, first_channel);
-    if (found == image.channels.end() || image.channels.end() - found < 3) {
-        return {0, 0, 0};
-    }
-    const auto channel = static_cast<std::size_t>(found - image.channels.begin());
-    return {image.at(x, y, channel), image.at(x, y, channel + 1), image.at(x, y, channel + 2)};
+Vec3 vector_at(const Image& image, std::string_view layer, int x, int y) {
+    const auto [first, count] = channels_of(image, layer);
+    return count == 3 ? Vec3{image.at(x, y, first), image.at(x, y, first + 1), image.at(x, y, first + 2)}
+                      : Vec3{};
 }
 
 Vec3 irradiance_at(Session& session, const Inspection& at, const VplSet& vpls,
@@ -37,12 +36,12 @@ Vec3 above_zero(Vec3 v) {
 
 Inspection inspect(Session& session, const Frame& frame, int x, int y) {
     Inspection result{.x = x, .y = y};
-    const Vec3 normal = vector_at(frame.image, "N.X", x, y);
+    const Vec3 normal = vector_at(frame.image, "N", x, y);
     if (!(length(normal) > 0.5f) || !frame.vpls || !frame.view) {
         return result;
     }
     result.hits_surface = true;
-    result.position = vector_at(frame.image, "P.X", x, y);
+    result.position = vector_at(frame.image, "P", x, y);
     result.normal = normalize(normal);
     result.shares = session.light_shares(result.position, result.normal, *frame.vpls);
     for (const LightShare& share : result.shares) {

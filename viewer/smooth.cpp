@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
+#include "viewer/channels.h"
 #include "viewer/vectors.h"
 
 namespace nearlight::viewer {
@@ -24,10 +24,6 @@ struct Texel {
     Vec3 normal{};
     float depth = 0.0f;  ///< 0: left as it is
 };
-
-std::size_t channel_of(const Image& image, std::string_view name) {
-    return static_cast<std::size_t>(std::ranges::find(image.channels, name) - image.channels.begin());
-}
 
 Vec3 load(const float* channels) {
     return {channels[0], channels[1], channels[2]};
@@ -75,11 +71,11 @@ void average(std::vector<Texel>& texels, int width, int height, int side, bool a
 /// Where the layers are in a picture.
 struct Places {
     explicit Places(const Image& image)
-        : beauty(channel_of(image, "R")),
-          indirect(channel_of(image, "indirect.R")),
-          albedo(channel_of(image, "albedo.R")),
-          normal(channel_of(image, "N.X")),
-          depth(channel_of(image, "depth.Z")) {}
+        : beauty(channels_of(image, "beauty").first),
+          indirect(channels_of(image, "indirect").first),
+          albedo(channels_of(image, "albedo").first),
+          normal(channels_of(image, "N").first),
+          depth(channels_of(image, "depth").first) {}
     std::size_t beauty, indirect, albedo, normal, depth;
 };
 

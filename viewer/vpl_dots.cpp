@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/channels.h"
 #include "viewer/vectors.h"
 
 namespace nearlight::viewer {
@@ -28,10 +29,8 @@ std::vector<VplDot> vpl_dots(const Frame& frame) {
     for (const VirtualPointLight& light : *frame.lights) {
         strongest = std::max(strongest, luminance(light.power));
     }
-    const auto depth = std::ranges::find(frame.image.channels, "depth.Z");
-    const auto depth_channel = static_cast<std::size_t>(depth - frame.image.channels.begin());
-    for (std::size_t i = 0; i < frame.lights->size(); ++i) {
-        const VirtualPointLight& light = (*frame.lights)[i];
+    const Channels depth = channels_of(frame.image, "depth");
+    for (const VirtualPointLight& light : *frame.lights) {
         const std::optional<PicturePlace> place = frame.view->place_of(light.position);
         if (!place || !(place->x >= 0.0 && place->x < frame.image.width && place->y >= 0.0 &&
                         place->y < frame.image.height)) {
@@ -40,10 +39,8 @@ std::vector<VplDot> vpl_dots(const Frame& frame) {
         dots.push_back(
             {.x = static_cast<float>(place->x / frame.image.width),
              .y = static_cast<float>(place->y / frame.image.height),
-             .index = i,
              .is_close = light.close,
-             .is_hidden =
-                 depth != frame.image.channels.end() && is_before(frame.image, depth_channel, *place),
+             .is_hidden = depth.count > 0 && is_before(frame.image, depth.first, *place),
              .brightness = strongest > 0.0f ? std::cbrt(luminance(light.power) / strongest) : 0.0f});
     }
     return dots;

@@ -12,7 +12,6 @@ namespace nearlight::viewer {
 struct VplDot {
     float x = 0.0f;           ///< part of the picture's width, from the left, 0 to 1
     float y = 0.0f;           ///< part of the picture's height, from the top
-    std::size_t index = 0;    ///< in Frame::lights
     bool is_close = false;    ///< it lies in the close range
     bool is_hidden = false;   ///< a surface is before it
     float brightness = 0.0f;  ///< its power as a part of the strongest, by a root, so that weak ones show
