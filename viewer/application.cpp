@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "nearlight/error.h"
+#include "viewer/channels.h"
 #include "viewer/command_text.h"
+#include "viewer/imgui_versions.h"
 #include "viewer/screenshot.h"
 #include "viewer/vectors.h"
 
@@ -26,18 +29,21 @@ constexpr ImU32 kCloseColor = IM_COL32(255, 150, 30, 230);
 constexpr ImU32 kDistantColor = IM_COL32(70, 160, 255, 230);
 constexpr ImU32 kHiddenAlpha = 0x50FFFFFF;
 
-int direction(int letter_plus, int letter_minus) {
-    return (ImGui::IsKeyDown(letter_plus) ? 1 : 0) - (ImGui::IsKeyDown(letter_minus) ? 1 : 0);
+int direction(char letter_plus, char letter_minus) {
+    return (ImGui::IsKeyDown(imgui_key(letter_plus)) ? 1 : 0) -
+           (ImGui::IsKeyDown(imgui_key(letter_minus)) ? 1 : 0);
 }
 
-/// The number after "X," in "X,Y".
-std::pair<int, int> pixel_of(const std::string& text) {
-    std::pair<int, int> pixel{-1, -1};
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%d,%d%c", &pixel.first, &pixel.second, &end) != 2) {
-        throw Error(ErrorKind::invalid_argument, "'" + text + "' is no pixel; give X,Y");
+/// Throws if the pixel that is to be inspected lies outside of the picture.
+void check_inspected(const std::optional<Pixel>& pixel, int width, int height) {
+    if (pixel && (pixel->x < 0 || pixel->x >= width || pixel->y < 0 || pixel->y >= height)) {
+        const auto text = [](int a, const char* between, int b) {
+            return std::to_string(a) + between + std::to_string(b);
+        };
+        throw Error(ErrorKind::invalid_argument, "there is no pixel " + text(pixel->x, ",", pixel->y) +
+                                                     " to inspect in a picture of " +
+                                                     text(width, "x", height) + " pixels");
     }
-    return pixel;
 }
 
 }  // namespace
@@ -45,7 +51,8 @@ std::pair<int, int> pixel_of(const std::string& text) {
 Application::Application(const ViewerTask& task, Window& window)
     : task_(task),
       window_(window),
-      tev_(task.tev.empty() ? std::nullopt : std::optional<TevLink>(task.tev)),
+      tev_(task.tev.empty() ? nullptr
+                            : std::make_unique<TevSender>(task.tev, task.scene.filename().string())),
       renderer_(
           Devices::choose(task.device, task.device_options),
           [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] { Window::wake(); }) {
@@ -106,6 +113,7 @@ void Application::take_scene() {
     state_.walking_speed = walking_speed(bounds);
     state_.settings.view.width = task_.settings.view.width.value_or(scene->width());
     state_.settings.view.height = task_.settings.view.height.value_or(scene->height());
+    check_inspected(task_.inspect, *state_.settings.view.width, *state_.settings.view.height);
 }
 
 void Application::take_frame() {
@@ -115,32 +123,27 @@ void Application::take_frame() {
     }
     frame_ = std::move(frame);
     if (state_.has_automatic_exposure) {
-        state_.display.exposure = automatic_exposure(frame_->image);
+        state_.display.exposure = automatic_exposure(frame_->shown());
         state_.has_automatic_exposure = frame_->divisor > 1;
     }
     refresh_picture();
-    if (!frame_->is_quick || frame_->divisor == 1) {
-        dots_ = vpl_dots(*frame_);
+    dots_.reset();
+    // Small pictures would replace whole ones in tev by pictures of another size.
+    if (tev_ && frame_->divisor == 1) {
+        tev_->send(frame_);
     }
-    send_to_tev();
 }
 
-/// Sends whole pictures, because small ones would replace them by pictures of another size.
-void Application::send_to_tev() {
-    if (!tev_ || frame_->divisor > 1) {
-        return;
-    }
-    try {
-        tev_->show(task_.scene.filename().string(), frame_->image);
-    } catch (const Error& error) {
-        state_.message = error.what();
+void Application::watch_tev() {
+    if (tev_ && !tev_->error().empty()) {
+        state_.message = tev_->error();
         tev_.reset();
     }
 }
 
 void Application::refresh_picture() {
     if (frame_) {
-        window_.set_picture(to_screen(frame_->image, state_.display), frame_->divisor > 1);
+        window_.set_picture(to_screen(frame_->shown(), state_.display), frame_->divisor > 1);
     }
 }
 
@@ -221,9 +224,12 @@ void Application::inspect_at(float x, float y) {
     }
 }
 
-void Application::draw_dots(const Place& place) const {
+void Application::draw_dots(const Place& place) {
+    if (!dots_) {
+        dots_ = vpl_dots(*frame_);
+    }
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    for (const VplDot& dot : dots_) {
+    for (const VplDot& dot : *dots_) {
         if (dot.is_hidden && !state_.shows_hidden_vpls) {
             continue;
         }
@@ -247,16 +253,22 @@ void Application::draw_picture() {
         draw_dots(place);
     }
     if (const auto inspection = renderer_.inspection()) {
-        draw_inspection_panel(*inspection);
-        if (inspection->hits_surface && frame_->view) {
-            if (const auto seen = frame_->view->place_of(inspection->position)) {
-                list.AddCircle({place.x + static_cast<float>(seen->x) /
-                                              static_cast<float>(frame_->image.width) * place.width,
-                                place.y + static_cast<float>(seen->y) /
-                                              static_cast<float>(frame_->image.height) * place.height},
-                               7.0f, IM_COL32(255, 60, 200, 255), 16, 2.0f);
-            }
-        }
+        draw_inspection(*inspection, place);
+    }
+}
+
+/// Draws the panel, and a ring around the place in the picture that it is about.
+void Application::draw_inspection(const Inspection& inspection, const Place& place) const {
+    draw_inspection_panel(inspection);
+    if (!inspection.hits_surface || !frame_->view) {
+        return;
+    }
+    if (const auto seen = frame_->view->place_of(inspection.position)) {
+        const float scale_x = place.width / static_cast<float>(frame_->image.width);
+        const float scale_y = place.height / static_cast<float>(frame_->image.height);
+        ImGui::GetBackgroundDrawList()->AddCircle({place.x + static_cast<float>(seen->x) * scale_x,
+                                                   place.y + static_cast<float>(seen->y) * scale_y},
+                                                  7.0f, IM_COL32(255, 60, 200, 255), 16, 2.0f);
     }
 }
 
@@ -273,7 +285,7 @@ void Application::apply(const Changes& changes) {
         renderer_.pause(state_.is_paused);
     }
     if (changes.automatic_exposure && frame_) {
-        state_.display.exposure = automatic_exposure(frame_->image);
+        state_.display.exposure = automatic_exposure(frame_->shown());
     }
     if (changes.display || changes.automatic_exposure) {
         refresh_picture();
@@ -295,9 +307,9 @@ void Application::save() {
     }
     const std::string name = state_.save_name.data();
     try {
-        write_image(name, frame_->image, look());
+        write_image(name, with_file_layers(frame_->image), look());
         write_text(name + ".txt", command() + "\n");
-        state_.message = "wrote " + name + (frame_->is_smoothed ? " (smoothed, of few samples)" : "") +
+        state_.message = "wrote " + name + (frame_->smoothed ? " (not smoothed, of few samples)" : "") +
                          " and " + name + ".txt with its command line";
     } catch (const Error& error) {
         state_.message = error.what();
@@ -311,16 +323,13 @@ void Application::end_if_wanted() {
     if (const std::string error = renderer_.error(); !error.empty()) {
         throw Error(ErrorKind::failure, error);
     }
-    const bool has_enough = frame_ && !frame_->is_quick && frame_->samples >= task_.frames;
-    if (!has_enough && !(frame_ && renderer_.is_done())) {
+    if (!frame_ || (frame_->samples < task_.frames && !renderer_.is_done())) {
         return;
     }
-    if (!task_.inspect.empty() && !std::exchange(has_asked_, true)) {
-        const auto [x, y] = pixel_of(task_.inspect);
-        renderer_.inspect(frame_, std::clamp(x, 0, frame_->image.width - 1),
-                          std::clamp(y, 0, frame_->image.height - 1));
+    if (task_.inspect && !std::exchange(has_asked_, true)) {
+        renderer_.inspect(frame_, task_.inspect->x, task_.inspect->y);
     }
-    if (task_.inspect.empty() || renderer_.inspection()) {
+    if (!task_.inspect || renderer_.inspection()) {
         --drawings_left_;
         has_ended_ = drawings_left_ <= 0;
         Window::wake();
@@ -333,6 +342,7 @@ void Application::draw() {
     window_.begin_drawing();
     take_input();
     take_frame();
+    watch_tev();
     draw_picture();
     apply(draw_settings_panel(state_, {.frame = frame_.get(),
                                        .has_scene = has_scene_,

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "nearlight/tev.h"
 #include "viewer/controls.h"
 #include "viewer/panels.h"
 #include "viewer/renderer.h"
 #include "viewer/state.h"
+#include "viewer/tev_sender.h"
 #include "viewer/viewer.h"
 #include "viewer/vpl_dots.h"
 #include "viewer/window.h"
@@ -44,9 +44,10 @@ class Application {
     void take_frame();
     void take_input();
     void turn_about_the_middle();
-    void send_to_tev();
+    void watch_tev();
     void draw_picture();
-    void draw_dots(const Place& place) const;
+    void draw_dots(const Place& place);
+    void draw_inspection(const Inspection& inspection, const Place& place) const;
     void apply(const Changes& changes);
     void save();
     void inspect_at(float x, float y);
@@ -60,7 +61,7 @@ class Application {
 
     const ViewerTask& task_;
     Window& window_;
-    std::optional<TevLink> tev_;
+    std::unique_ptr<TevSender> tev_;  ///< null: nothing is sent
     ViewerState state_;
     bool has_scene_ = false;
     bool is_walking_ = false;
@@ -68,8 +69,8 @@ class Application {
     bool has_asked_ = false;  ///< for the inspection that the task wants
     int drawings_left_ = 2;   ///< until the screenshot, so that panels have found their sizes
     std::shared_ptr<const Frame> frame_;
-    std::vector<VplDot> dots_;
-    Renderer renderer_;  ///< declared last, because it calls the window until it ends
+    std::optional<std::vector<VplDot>> dots_;  ///< of the frame; empty until they are shown
+    Renderer renderer_;                        ///< declared last, because it calls the window until it ends
 };
 
 /// The size of the window's picture while the scene's is unknown.

@@ -13,18 +13,23 @@ namespace nearlight::viewer {
 
 /// A picture that can be shown.
 struct Frame {
-    Image image{};               ///< with the channels of picture_channels()
+    Image image{};  ///< with the channels of picture_channels()
+    /// The image with its indirect light averaged over neighbouring pixels, while it has few samples and more
+    /// are to come. For the eye only: files and other programs get the image itself.
+    std::optional<Image> smoothed{};
     std::optional<View> view{};  ///< what it shows, at its own size
     /// The VPLs of its latest pass, on the device and on the host.
     std::optional<VplSet> vpls{};
     std::shared_ptr<const std::vector<VirtualPointLight>> lights{};
-    std::uint64_t state = 0;            ///< number of the request that it shows
-    int divisor = 1;                    ///< above 1, it is a small picture, made during a motion
-    bool is_quick = true;               ///< it is a small picture or the first one, which passes will replace
-    bool is_smoothed = false;           ///< its light is averaged over neighbouring pixels
-    std::uint32_t samples = 0;          ///< per pixel, in all passes
-    double seconds = 0.0;               ///< that its latest step took
-    double seconds_since_change = 0.0;  ///< from the latest request to this frame
+    std::uint64_t state = 0;  ///< number of the request that it shows
+    int divisor = 1;          ///< above 1, it is a small picture, made during a motion
+    /// Per pixel, in all passes; 0 for small pictures and for the first one, which the first pass replaces.
+    std::uint32_t samples = 0;
+    double seconds = 0.0;          ///< that its latest step took
+    double seconds_to_full = 0.0;  ///< from the request to its first picture of full size; 0 before that
+
+    /// What a window shows.
+    [[nodiscard]] const Image& shown() const { return smoothed ? *smoothed : image; }
 };
 
 /// What lights the surface that a pixel shows. Light is irradiance in W/m².

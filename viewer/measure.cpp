@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "nearlight/error.h"
@@ -45,7 +48,8 @@ struct Move {
     double processor_seconds = 0.0;
 };
 
-/// A hand that moves the camera, and what it sees.
+/// A hand that moves the camera, and what it sees. What waits for a picture returns nothing if the program is
+/// interrupted.
 class Hand {
   public:
     explicit Hand(const ViewerTask& task)
@@ -53,39 +57,52 @@ class Hand {
           settings_(task.settings),
           renderer_(
               Devices::choose(task.device, task.device_options),
-              [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] {}) {
-        wait_for([](const Frame& frame) { return frame.divisor == 1; });
+              [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] {}) {}
+
+    /// Waits for the first picture and takes its camera. Returns false if the program is interrupted.
+    bool take_camera() {
+        if (!comes([](const Frame& frame) { return frame.divisor == 1; })) {
+            return false;
+        }
         const Scene scene = *renderer_.scene();
         camera_ = free_camera(scene.camera(), scene.bounds());
+        return true;
     }
 
     /// Moves the camera all the time, and returns how many small pictures came in a second.
-    double frames_per_second_in_motion() {
+    std::optional<double> frames_per_second_in_motion() {
         // The first seconds choose the size of the small pictures.
-        move_about(1.0);
-        const int count = move_about(kMotionSeconds);
-        return count / kMotionSeconds;
+        if (!move_about(1.0)) {
+            return std::nullopt;
+        }
+        const std::optional<int> count = move_about(kMotionSeconds);
+        return count ? std::optional(*count / kMotionSeconds) : std::nullopt;
     }
 
     /// A single move until there is a picture of full size.
-    Move single_move() {
+    std::optional<Move> single_move() {
         // Right after a first picture VPLs are made, which cannot be stopped; most moves come later.
         const std::uint32_t enough = std::min(kRestingSamples, settings_.gather.samples_per_pixel);
-        wait_for([&](const Frame& frame) { return !frame.is_quick && frame.samples >= enough; });
+        if (!comes([&](const Frame& frame) { return frame.samples >= enough; })) {
+            return std::nullopt;
+        }
         const std::uint64_t before = frame_->state;
         const double processor = processor_seconds();
         turn(10 * kTurnPerInput);
-        wait_for([&](const Frame& frame) { return frame.divisor == 1 && frame.state > before; });
-        return {.seconds = frame_->seconds_since_change,
-                .processor_seconds = processor_seconds() - processor};
+        if (!comes([&](const Frame& frame) { return frame.divisor == 1 && frame.state > before; })) {
+            return std::nullopt;
+        }
+        return Move{.seconds = frame_->seconds_to_full, .processor_seconds = processor_seconds() - processor};
     }
 
     /// The seconds of each of the passes that follow.
-    std::vector<double> pass_seconds() {
+    std::optional<std::vector<double>> pass_seconds() {
         std::vector<double> seconds;
-        while (seconds.size() < kPasses && !renderer_.is_done()) {
-            const std::uint32_t samples = frame_->is_quick ? 0 : frame_->samples;
-            wait_for([&](const Frame& frame) { return !frame.is_quick && frame.samples > samples; });
+        while (seconds.size() < kPasses && frame_->samples < settings_.gather.samples_per_pixel) {
+            const std::uint32_t samples = frame_->samples;
+            if (!comes([&](const Frame& frame) { return frame.samples > samples; })) {
+                return std::nullopt;
+            }
             seconds.push_back(frame_->seconds);
         }
         return seconds;
@@ -100,10 +117,16 @@ class Hand {
         renderer_.show(settings_, Change::camera);
     }
 
-    int move_about(double seconds) {
+    [[nodiscard]] bool is_interrupted() const { return task_.is_interrupted && task_.is_interrupted(); }
+
+    /// Returns how many pictures came.
+    std::optional<int> move_about(double seconds) {
         const Clock::time_point begin = Clock::now();
         int frames = 0;
         while (std::chrono::duration<double>(Clock::now() - begin).count() < seconds) {
+            if (is_interrupted()) {
+                return std::nullopt;
+            }
             turn(kTurnPerInput);
             std::this_thread::sleep_for(kInputPeriod);
             frames += take_frame() ? 1 : 0;
@@ -111,26 +134,29 @@ class Hand {
         return frames;
     }
 
-    /// Whether there is a new frame.
+    /// Whether there is a new frame. Throws what the renderer could not do.
     bool take_frame() {
         renderer_.rethrow_failure();
+        if (const std::string error = renderer_.error(); !error.empty()) {
+            throw Error(ErrorKind::failure, error);
+        }
         std::shared_ptr<const Frame> frame = renderer_.frame();
         const bool is_new = frame && frame != frame_;
         frame_ = std::move(frame);
         return is_new;
     }
 
+    /// Waits until the latest frame is as wanted, which it may be already. Returns false if the program is
+    /// interrupted.
     template <typename Condition>
-    void wait_for(const Condition& is_enough) {
-        while (!(take_frame() && is_enough(*frame_))) {
-            if (task_.is_interrupted && task_.is_interrupted()) {
-                throw Error(ErrorKind::failure, "the measurement was interrupted");
-            }
-            if (const std::string error = renderer_.error(); !error.empty()) {
-                throw Error(ErrorKind::failure, error);
+    bool comes(const Condition& is_wanted) {
+        for (take_frame(); !(frame_ && is_wanted(*frame_)); take_frame()) {
+            if (is_interrupted()) {
+                return false;
             }
             std::this_thread::sleep_for(kPollPeriod);
         }
+        return true;
     }
 
     const ViewerTask& task_;
@@ -144,20 +170,30 @@ class Hand {
 
 ViewerReport measure(const ViewerTask& task) {
     Hand hand(task);
-    ViewerReport report;
-    report.moving_frames_per_second = hand.frames_per_second_in_motion();
-    report.moving_divisor = hand.frame().divisor;
+    const std::optional<double> in_motion =
+        hand.take_camera() ? hand.frames_per_second_in_motion() : std::nullopt;
+    if (!in_motion) {
+        return {};
+    }
+    ViewerReport report{.moving_frames_per_second = *in_motion, .moving_divisor = hand.frame().divisor};
     std::vector<double> moves;
     std::vector<double> processor;
     for (int i = 0; i < kSingleMoves; ++i) {
-        const Move move = hand.single_move();
-        moves.push_back(move.seconds);
-        processor.push_back(move.processor_seconds);
+        const std::optional<Move> move = hand.single_move();
+        if (!move) {
+            return {};
+        }
+        moves.push_back(move->seconds);
+        processor.push_back(move->processor_seconds);
+    }
+    const std::optional<std::vector<double>> passes = hand.pass_seconds();
+    if (!passes) {
+        return {};
     }
     report.first_full_seconds = median(moves);
     report.slowest_full_seconds = *std::ranges::max_element(moves);
     report.first_full_processor_seconds = median(processor);
-    report.pass_seconds = median(hand.pass_seconds());
+    report.pass_seconds = median(*passes);
     report.width = hand.frame().image.width;
     report.height = hand.frame().image.height;
     return report;

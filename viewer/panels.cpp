@@ -7,6 +7,7 @@
 #include <array>
 
 #include "viewer/command_text.h"
+#include "viewer/pass_settings.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -23,9 +24,9 @@ void tooltip(const char* text) {
     }
 }
 
-bool slider(const char* label, std::uint32_t& value, int low, int high, const char* help) {
+bool slider(const char* label, std::uint32_t& value, int min, int max, const char* help) {
     int number = static_cast<int>(value);
-    const bool is_changed = ImGui::SliderInt(label, &number, low, high, "%d",
+    const bool is_changed = ImGui::SliderInt(label, &number, min, max, "%d",
                                              ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     tooltip(help);
     if (is_changed) {
@@ -35,20 +36,20 @@ bool slider(const char* label, std::uint32_t& value, int low, int high, const ch
 }
 
 /// A slider that can be left to the program. `current` is what the program has chosen.
-bool optional_slider(const char* label, std::optional<float>& value, float current, float low, float high,
+bool optional_slider(const char* label, std::optional<float>& value, float current, float min, float max,
                      const char* help) {
     ImGui::PushID(label);
     bool is_auto = !value;
     bool is_changed = ImGui::Checkbox("auto", &is_auto);
     if (is_changed) {
-        value = is_auto ? std::nullopt : std::optional(std::clamp(current, low, high));
+        value = is_auto ? std::nullopt : std::optional(std::clamp(current, min, max));
     }
     ImGui::SameLine();
     float number = value.value_or(current);
     ImGui::SetNextItemWidth(120.0f);
     const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp | (low > 0.0f ? ImGuiSliderFlags_Logarithmic : 0);
-    if (ImGui::SliderFloat(label, &number, low, high, value ? "%.3f" : "(%.3f)", flags)) {
+        ImGuiSliderFlags_AlwaysClamp | (min > 0.0f ? ImGuiSliderFlags_Logarithmic : 0);
+    if (ImGui::SliderFloat(label, &number, min, max, value ? "%.3f" : "(%.3f)", flags)) {
         value = number;
         is_changed = true;
     }
@@ -87,10 +88,10 @@ void draw_progress(const ViewerState& state, const PanelFacts& facts) {
     }
     const Frame& frame = *facts.frame;
     ImGui::Text("%dx%d%s, %u of %u samples%s", frame.image.width, frame.image.height,
-                frame.divisor > 1   ? " (moving)"
-                : frame.is_smoothed ? " (smoothed)"
-                                    : "",
-                frame.is_quick ? 0 : frame.samples, state.settings.gather.samples_per_pixel,
+                frame.divisor > 1 ? " (moving)"
+                : frame.smoothed  ? " (smoothed)"
+                                  : "",
+                frame.samples, state.settings.gather.samples_per_pixel,
                 facts.is_done     ? ", done"
                 : state.is_paused ? ", paused"
                                   : "");
@@ -113,7 +114,7 @@ void draw_light_settings(ViewerState& state, const PanelFacts& facts, Changes& c
         slider("VPLs", settings.sampling.vpl_count, 1, 100'000, "VPLs that a pixel asks about in all");
     changes.samples |= slider("samples", settings.gather.samples_per_pixel, 1, 4096,
                               "samples of a pixel, which are as many passes");
-    std::uint32_t direct = settings.gather.direct_samples_per_pixel.value_or(32);
+    std::uint32_t direct = settings.gather.direct_samples_per_pixel.value_or(kDefaultDirectSamples);
     if (slider("light samples", direct, 1, 4096, "shadow rays of a pixel towards lamps and the sky")) {
         settings.gather.direct_samples_per_pixel = direct;
         changes.sampling = true;

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/pass_mean.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace nearlight::viewer {
 
-bool is_light(const std::string& channel) {
-    const std::string layer = channel.substr(0, channel.find('.'));
-    return channel == "R" || channel == "G" || channel == "B" || layer == "direct" || layer == "indirect";
+bool is_averaged(std::string_view channel) {
+    static constexpr std::array<std::string_view, 4> kLayers{"beauty", "direct", "indirect", "A"};
+    return std::ranges::find(kLayers, layer_of(channel)) != kLayers.end();
 }
 
-void PassMean::add(const Image& pass, unsigned samples) {
-    if (samples_ == 0) {
+void PassMean::add(const Image& pass) {
+    ++passes_;
+    if (passes_ == 1) {
         mean_ = pass;
-        samples_ = samples;
         return;
     }
-    samples_ += samples;
-    const float weight = static_cast<float>(samples) / static_cast<float>(samples_);
-    std::vector<std::size_t> light;
+    const float weight = 1.0f / static_cast<float>(passes_);
+    std::vector<std::size_t> averaged;
     for (std::size_t channel = 0; channel < pass.channels.size(); ++channel) {
-        if (is_light(pass.channels[channel])) {
-            light.push_back(channel);
+        if (is_averaged(pass.channels[channel])) {
+            averaged.push_back(channel);
         }
     }
     const std::size_t stride = pass.channels.size();
     for (std::size_t pixel = 0; pixel < pass.values.size(); pixel += stride) {
-        for (const std::size_t channel : light) {
+        for (const std::size_t channel : averaged) {
             float& mean = mean_.values[pixel + channel];
             mean += weight * (pass.values[pixel + channel] - mean);
         }

@@ -2,29 +2,31 @@
 // The mean of the passes of one picture.
 #pragma once
 
+#include <string_view>
+
 #include "nearlight/image.h"
 
 namespace nearlight::viewer {
 
-/// Averages light, by the samples that passes have, and keeps what the first pass says of the surfaces.
+/// Averages light and coverage, and keeps what the first pass says of the surfaces. The layer `variance` has
+/// no meaning here.
 class PassMean {
   public:
     /// Forgets all passes.
-    void clear() { samples_ = 0; }
-    /// Adds a pass of `samples` samples per pixel. The first pass after clear() decides size and channels,
-    /// which all others must have too.
-    void add(const Image& pass, unsigned samples);
+    void clear() { passes_ = 0; }
+    /// Adds a pass. The first one after clear() decides size and channels, which all others must have too.
+    void add(const Image& pass);
     /// The mean of all passes. There must be one.
     [[nodiscard]] const Image& image() const { return mean_; }
-    /// Samples per pixel in all passes together.
-    [[nodiscard]] unsigned samples() const { return samples_; }
+    [[nodiscard]] unsigned passes() const { return passes_; }
 
   private:
     Image mean_;
-    unsigned samples_ = 0;
+    unsigned passes_ = 0;
 };
 
-/// Whether a channel is light, as those of `beauty`, `direct` and `indirect` are.
-bool is_light(const std::string& channel);
+/// Whether the mean of passes is the mean of this channel, as of those of `beauty`, `direct`, `indirect` and
+/// `A`.
+bool is_averaged(std::string_view channel);
 
 }  // namespace nearlight::viewer

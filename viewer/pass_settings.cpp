@@ -26,10 +26,9 @@ GatherSettings pass_gather(const RenderSettings& whole, StepKind kind) {
     settings.samples_per_pixel = 1;
     settings.interleave = kInterleave;
     if (kind == StepKind::refining) {
-        constexpr std::uint32_t kDefaultDirect = 32;
         settings.strata = std::max(passes, kMinStrata);
         settings.direct_samples_per_pixel =
-            share_of(settings.direct_samples_per_pixel.value_or(kDefaultDirect), passes);
+            share_of(settings.direct_samples_per_pixel.value_or(kDefaultDirectSamples), passes);
         settings.rays_per_pixel = share_of(settings.rays_per_pixel, passes);
     } else {
         settings.strata = std::max(whole.sampling.vpl_count / kQuickVpls, kMinStrata);

@@ -9,6 +9,9 @@ namespace nearlight::viewer {
 
 /// Pixels of a square of this side ask different VPLs.
 inline constexpr int kInterleave = 4;
+/// The light samples of a finished pixel, unless the settings say how many: the pilot that chooses them for
+/// `nearlight render` would take too long for each change of the camera.
+inline constexpr std::uint32_t kDefaultDirectSamples = 32;
 
 /// The settings of the gather of one step. `whole` is what a finished picture has: its passes have one sample
 /// per pixel each and share rays and light samples, so that `samples_per_pixel` passes cost and bring what a

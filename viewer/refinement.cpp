@@ -13,12 +13,10 @@ constexpr double kMinReducedSeconds = 0.035;
 
 }  // namespace
 
-void Refinement::restart_at_full_size() {
-    ++state_;
-    reduced_state_ = state_;
-}
-
 std::optional<Step> Refinement::next() const {
+    if (failed_state_ == state_) {
+        return std::nullopt;
+    }
     if (full_state_ == state_) {
         if (passes_ >= max_passes_) {
             return std::nullopt;

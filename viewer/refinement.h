@@ -3,6 +3,7 @@
 // noise. This knows no window, no clock and no session.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -29,8 +30,6 @@ class Refinement {
 
     /// Camera or settings have changed: the picture begins anew.
     void restart() { ++state_; }
-    /// Begins anew without a small picture first, as for a setting that changes no more than the noise.
-    void restart_at_full_size();
     /// A new limit, above or below what is done. The picture does not begin anew.
     void set_max_passes(std::uint32_t max_passes) { max_passes_ = max_passes; }
 
@@ -41,11 +40,8 @@ class Refinement {
     [[nodiscard]] bool is_outdated(const Step& step) const;
     /// A step that next() gave has ended, after so many seconds. `completed` is false if it was stopped.
     void finish(const Step& step, bool completed, double seconds);
-
-    [[nodiscard]] std::uint64_t state() const { return state_; }
-    [[nodiscard]] std::uint32_t passes() const { return passes_; }
-    /// The divisor of the next small picture: chosen so that about six are made in a second.
-    [[nodiscard]] int divisor() const { return divisor_; }
+    /// A step that next() gave cannot be made: there is nothing more to do until something changes.
+    void give_up(const Step& step) { failed_state_ = std::max(failed_state_, step.state); }
 
   private:
     void adapt_divisor(double seconds);
@@ -54,8 +50,9 @@ class Refinement {
     std::uint64_t state_ = 1;
     std::uint64_t reduced_state_ = 0;  ///< the latest state that a small picture shows
     std::uint64_t full_state_ = 0;     ///< the state that `passes_` counts for
+    std::uint64_t failed_state_ = 0;   ///< the latest state that cannot be shown
     std::uint32_t passes_ = 0;
-    int divisor_ = 2;
+    int divisor_ = 2;  ///< of the next small picture: chosen so that about six are made in a second
 };
 
 }  // namespace nearlight::viewer

@@ -14,8 +14,8 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
     return std::chrono::duration<double>(to - from).count();
 }
 
-/// Pictures with fewer samples per pixel are smoothed, because their pixels ask so few VPLs that a pattern
-/// is seen.
+/// Pictures with fewer samples per pixel are shown smoothed, because their pixels ask so few VPLs that a
+/// pattern is seen.
 constexpr std::uint32_t kUnsmoothedSamples = 8;
 
 /// Passes of a picture: the first quick one, and one for each sample of a pixel.
@@ -52,7 +52,7 @@ void Renderer::show(const RenderSettings& settings, Change change) {
         changed_at_ = Clock::now();
         refinement_.set_max_passes(passes_of(settings));
         refinement_.restart();
-        needs_vpls_ = needs_vpls_ || change == Change::sampling;
+        sampling_change_ += change == Change::sampling ? 1 : 0;
     }
     changed_.notify_all();
 }
@@ -62,6 +62,11 @@ void Renderer::set_samples(std::uint32_t samples_per_pixel) {
         const std::lock_guard lock(mutex_);
         settings_.gather.samples_per_pixel = samples_per_pixel;
         refinement_.set_max_passes(passes_of(settings_));
+        if (frame_ && frame_->smoothed && !refinement_.next()) {
+            Frame finished = *frame_;
+            finished.smoothed.reset();
+            frame_ = std::make_shared<const Frame>(std::move(finished));
+        }
     }
     changed_.notify_all();
 }
@@ -145,14 +150,11 @@ std::optional<Renderer::Job> Renderer::next_job() {
     if (to_inspect_) {
         return Job{.inspected = std::exchange(to_inspect_, std::nullopt)};
     }
-    return Job{.step = *step,
-               .settings = settings_,
-               .needs_vpls = std::exchange(needs_vpls_, false),
-               .changed_at = changed_at_};
+    return Job{
+        .step = *step, .settings = settings_, .sampling_change = sampling_change_, .changed_at = changed_at_};
 }
 
 void Renderer::do_job(Session& session, const Job& job) {
-    const Clock::time_point begin = Clock::now();
     std::string error;
     try {
         if (job.inspected) {
@@ -165,11 +167,11 @@ void Renderer::do_job(Session& session, const Job& job) {
         render(session, job);
     } catch (const std::exception& exception) {
         error = exception.what();
-        // The picture stays as it is until something changes.
-        finish({.step = {.kind = StepKind::refining, .pass = ~0u - 1, .state = job.step.state}}, true,
-               seconds_between(begin, Clock::now()));
     }
     const std::lock_guard lock(mutex_);
+    if (!error.empty()) {
+        refinement_.give_up(job.step);
+    }
     error_ = std::move(error);
 }
 
@@ -179,9 +181,17 @@ void Renderer::render(Session& session, const Job& job) {
     std::optional<Image> pass = gather(session, job, frame);
     frame.seconds = seconds_between(begin, Clock::now());
     if (pass) {
-        publish(job, std::move(frame), std::move(*pass));
+        add_pass(job, frame, std::move(*pass));
     }
-    finish(job, pass.has_value(), seconds_between(begin, Clock::now()));
+    // The frame and what is next change together, so that nobody waits for a frame that has come.
+    const std::lock_guard lock(mutex_);
+    refinement_.finish(job.step, pass.has_value(), seconds_between(begin, Clock::now()));
+    if (pass) {
+        if (!refinement_.next()) {
+            frame.smoothed.reset();
+        }
+        frame_ = std::make_shared<const Frame>(std::move(frame));
+    }
 }
 
 /// Renders the step's pass. Returns nothing if it was stopped.
@@ -191,8 +201,10 @@ std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& f
     const std::uint32_t seed = pass_seed(settings.seed, job.step);
     frame.view =
         session.look(pass_view(settings.view, scene.width(), scene.height(), job.step.divisor), seed);
-    if (!vpls_ || job.needs_vpls || makes_vpls(job.step)) {
+    if (!vpls_ || vpls_change_ != job.sampling_change || makes_vpls(job.step)) {
         vpls_ = session.sample(*frame.view, settings.sampling, seed);
+        vpls_change_ = job.sampling_change;
+        lights_.reset();
     }
     frame.vpls = vpls_;
     Picture picture = session.gather(*frame.view, *vpls_, pass_gather(settings, job.step.kind), seed,
@@ -203,38 +215,33 @@ std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& f
     return std::move(picture.image);
 }
 
-void Renderer::publish(const Job& job, Frame frame, Image&& pass) {
-    frame.is_quick = job.step.kind != StepKind::refining;
-    if (frame.is_quick) {
-        frame.image = std::move(pass);
-        frame.samples = 1;
-    } else {
+/// Puts the pass, or the mean with those before, into the frame.
+void Renderer::add_pass(const Job& job, Frame& frame, Image&& pass) {
+    if (job.step.kind == StepKind::refining) {
         if (job.step.pass == 1) {
             mean_.clear();
         }
-        mean_.add(pass, 1);
+        mean_.add(pass);
         frame.image = mean_.image();
-        frame.samples = mean_.samples();
+        frame.samples = mean_.passes();
+    } else {
+        frame.image = std::move(pass);
     }
-    frame.is_smoothed = frame.samples < kUnsmoothedSamples;
-    if (frame.is_smoothed) {
-        smooth_interleaved(frame.image, kInterleave);
+    if (frame.samples < kUnsmoothedSamples) {
+        frame.smoothed = frame.image;
+        smooth_interleaved(*frame.smoothed, kInterleave);
     }
-    if (job.step.kind != StepKind::reduced) {
-        frame.lights = std::make_shared<const std::vector<VirtualPointLight>>(frame.vpls->lights());
+    if (job.step.kind == StepKind::reduced) {
+        return;
     }
-    frame.seconds_since_change = seconds_between(job.changed_at, Clock::now());
-    auto shared = std::make_shared<const Frame>(std::move(frame));
-    const std::lock_guard lock(mutex_);
-    frame_ = std::move(shared);
-}
-
-void Renderer::finish(const Job& job, bool completed, double seconds) {
-    const std::lock_guard lock(mutex_);
-    if (!completed && job.needs_vpls && !vpls_) {
-        needs_vpls_ = true;
+    if (!lights_) {
+        lights_ = std::make_shared<const std::vector<VirtualPointLight>>(vpls_->lights());
     }
-    refinement_.finish(job.step, completed, seconds);
+    frame.lights = lights_;
+    if (job.step.kind == StepKind::full) {
+        seconds_to_full_ = seconds_between(job.changed_at, Clock::now());
+    }
+    frame.seconds_to_full = seconds_to_full_;
 }
 
 bool Renderer::is_wanted(const Step& step) const {

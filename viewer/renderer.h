@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "nearlight/session.h"
 #include "viewer/frame.h"
@@ -73,7 +74,7 @@ class Renderer {
     struct Job {
         Step step{};
         RenderSettings settings{};
-        bool needs_vpls = false;
+        std::uint64_t sampling_change = 0;
         Clock::time_point changed_at{};
         std::optional<InspectionJob> inspected{};
     };
@@ -83,8 +84,7 @@ class Renderer {
     void do_job(Session& session, const Job& job);
     void render(Session& session, const Job& job);
     std::optional<Image> gather(Session& session, const Job& job, Frame& frame);
-    void publish(const Job& job, Frame frame, Image&& pass);
-    void finish(const Job& job, bool completed, double seconds);
+    void add_pass(const Job& job, Frame& frame, Image&& pass);
     [[nodiscard]] bool is_wanted(const Step& step) const;
 
     mutable std::mutex mutex_;
@@ -95,7 +95,7 @@ class Renderer {
     Refinement refinement_;
     bool is_paused_ = false;
     bool is_stopping_ = false;
-    bool needs_vpls_ = true;
+    std::uint64_t sampling_change_ = 0;  ///< counts the changes of what VPLs depend on
     std::optional<InspectionJob> to_inspect_;
     std::optional<Scene> scene_;
     std::shared_ptr<const Frame> frame_;
@@ -104,10 +104,13 @@ class Renderer {
     std::string error_;
 
     const std::function<void()> on_news_;
-    // Only the renderer's thread uses the next two.
+    // Only the renderer's thread uses the following members.
     std::optional<VplSet> vpls_;
+    std::uint64_t vpls_change_ = 0;  ///< the change of sampling that the VPLs were made for
+    std::shared_ptr<const std::vector<VirtualPointLight>> lights_;  ///< the VPLs; null until asked for
     PassMean mean_;
-    std::jthread thread_;  ///< declared last, because it uses the others
+    double seconds_to_full_ = 0.0;  ///< of the latest first picture
+    std::jthread thread_;           ///< declared last, because it uses the others
 };
 
 }  // namespace nearlight::viewer

@@ -17,6 +17,12 @@
 
 namespace nearlight::viewer {
 
+/// A place in the finished picture.
+struct Pixel {
+    int x = 0;  ///< from the left
+    int y = 0;  ///< from the top
+};
+
 struct ViewerTask {
     std::filesystem::path scene;
     LoadOptions load{};
@@ -35,15 +41,15 @@ struct ViewerTask {
     // For tests, screenshots and measurements.
     std::uint32_t frames = 0;  ///< ends after so many passes of full size; 0: when the window closes
     std::filesystem::path screenshot{};  ///< gets the window's content before the end; empty: none
-    std::string inspect{};               ///< "X,Y": inspects this pixel before the screenshot
+    std::optional<Pixel> inspect{};      ///< inspects this pixel before the screenshot
     bool shows_vpls = false;
-    std::size_t layer = 0;
+    std::size_t layer = 0;  ///< among those that files get unless others are asked for
     /// Moves the camera about without a window, and says how soon pictures come.
     bool measures = false;
     std::function<bool()> is_interrupted{};  ///< whether to end
 };
 
-/// What a measurement found.
+/// What a measurement found; nothing of value if it was interrupted.
 struct ViewerReport {
     double moving_frames_per_second = 0.0;
     int moving_divisor = 1;             ///< of the picture's size during the motion

@@ -41,7 +41,7 @@ struct ViewOptions {
     std::string layer = "beauty";
     uint frames = 0;
     std::string screenshot;
-    std::string inspect;
+    std::vector<int> inspect;  ///< empty, or X and Y
     bool shows_vpls = false;
     bool measures = false;
     std::string tev;
@@ -131,13 +131,19 @@ void set_look(const ScreenOptions& screen, viewer::ViewerTask& task) {
     }
 }
 
+/// The place among the layers that files get unless others are asked for.
 std::size_t layer_index(const std::string& name) {
     std::string names;
+    std::size_t index = 0;
     for (const FilmLayer& layer : kFilmLayers) {
-        if (layer.name == name && layer.files == FileRule::always) {
-            return static_cast<std::size_t>(&layer - kFilmLayers.data());
+        if (layer.files != FileRule::always) {
+            continue;
         }
-        names += layer.files == FileRule::always ? (names.empty() ? "" : ", ") + std::string(layer.name) : "";
+        if (layer.name == name) {
+            return index;
+        }
+        names += (index > 0 ? ", " : "") + std::string(layer.name);
+        ++index;
     }
     throw Error(ErrorKind::invalid_argument,
                 fmt::format("unknown layer '{}'; choose one of: {}", name, names));
@@ -176,7 +182,9 @@ viewer::ViewerTask task_of(const ViewOptions& options) {
     task.tev = options.tev;
     task.frames = options.frames;
     task.screenshot = options.screenshot;
-    task.inspect = options.inspect;
+    if (!options.inspect.empty()) {
+        task.inspect = viewer::Pixel{.x = options.inspect[0], .y = options.inspect[1]};
+    }
     task.shows_vpls = options.shows_vpls;
     task.layer = layer_index(options.layer);
     task.measures = options.measures;
@@ -214,10 +222,13 @@ ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
     const viewer::RunViewer run = load_viewer();
     catch_interrupts();
     const viewer::ViewerReport report = run(task);
+    if (interrupted()) {
+        return ExitCode::interrupted;
+    }
     if (options.measures) {
         tell(report, global);
     }
-    return interrupted() ? ExitCode::interrupted : ExitCode::done;
+    return ExitCode::done;
 }
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
@@ -225,17 +236,23 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
         ->type_name("NAME")
         ->capture_default_str();
     command.add_flag("--show-vpls", options.shows_vpls, "Draw VPLs over the picture from the start");
+    CLI::Option* const frames =
+        command
+            .add_option(
+                "--frames", options.frames,
+                "End by itself when the picture has so many samples per pixel, for tests and screenshots "
+                "(default: when the window is closed)")
+            ->check(CLI::Range(1u, 65536u))
+            ->type_name("N");
     command.add_option("--inspect", options.inspect, "With --frames: ask what lights this pixel")
+        ->needs(frames)
+        ->delimiter(',')
+        ->expected(2)
+        ->check(CLI::Range(0, 65535))
         ->type_name("X,Y");
     command
-        .add_option(
-            "--frames", options.frames,
-            "End by itself when the picture has so many samples per pixel, for tests and screenshots; "
-            "0: when the window is closed")
-        ->type_name("N")
-        ->capture_default_str();
-    command
         .add_option("--screenshot", options.screenshot, "With --frames: write the window to this PNG file")
+        ->needs(frames)
         ->type_name("FILE");
     command.add_flag("--measure", options.measures,
                      "Open no window, but move the camera about and say how soon pictures come");

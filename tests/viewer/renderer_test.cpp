@@ -6,10 +6,14 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <semaphore>
 #include <thread>
+#include <utility>
 
 #include "nearlight/error.h"
+#include "tests/support/face_device_fixture.h"
 #include "viewer/vectors.h"
 #include "viewer/vpl_dots.h"
 
@@ -24,6 +28,20 @@ Scene load_floor() {
     return Scene::load(kFloor);
 }
 
+/// Writes and loads the floor with a wall at x = −1 that reflects one half too.
+Scene load_corner() {
+    std::ifstream floor(kFloor);
+    std::string text(std::istreambuf_iterator<char>(floor), {});
+    text.insert(text.rfind("</scene>"), R"(<shape type="rectangle">
+        <transform name="to_world"><rotate y="1" angle="90"/><translate x="-1"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.5, 0.5"/></bsdf></shape>)");
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "nearlight_corner.xml";
+    std::ofstream(file) << text;
+    Scene scene = Scene::load(file);
+    std::filesystem::remove(file);
+    return scene;
+}
+
 RenderSettings few_samples() {
     RenderSettings settings;
     settings.sampling.vpl_count = 200;
@@ -31,18 +49,8 @@ RenderSettings few_samples() {
     return settings;
 }
 
-class RendererTest : public testing::Test {
+class RendererTest : public test::FaceDeviceTest {
   protected:
-    void SetUp() override {
-        if (!list_devices().empty()) {
-            return;
-        }
-        if (std::getenv("NEARLIGHT_REQUIRE_DEVICE") != nullptr) {
-            FAIL() << "no OpenCL device";
-        }
-        GTEST_SKIP() << "no OpenCL device";
-    }
-
     template <typename Condition>
     static bool comes_true(const Condition& condition) {
         const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -63,7 +71,8 @@ TEST_F(RendererTest, RefinesAndRestsAndBeginsAnew) {
     const auto first = renderer.frame();
     EXPECT_EQ(first->image.width, 64);
     EXPECT_EQ(first->samples, 4u);
-    EXPECT_FALSE(first->is_quick);
+    EXPECT_FALSE(first->smoothed) << "nothing more will take the pattern out";
+    EXPECT_GT(first->seconds_to_full, 0.0);
     EXPECT_GE(news, 3);
     // The camera sees the floor's middle, whose radiance is ρ·E/π.
     EXPECT_NEAR(first->image.at(32, 32, 0), 0.5f / 3.14159f, 0.02f);
@@ -76,20 +85,150 @@ TEST_F(RendererTest, RefinesAndRestsAndBeginsAnew) {
     EXPECT_EQ(renderer.error(), "");
 }
 
+/// A renderer of the corner whose thread rests after each step until it may go on.
+class SteppedRenderer {
+  public:
+    SteppedRenderer() : renderer_(Devices::choose(), load_corner, few_samples(), [this] { rest(); }) {}
+    ~SteppedRenderer() {
+        is_free_ = true;
+        going_on_.release();
+    }
+    SteppedRenderer(const SteppedRenderer&) = delete;
+    SteppedRenderer& operator=(const SteppedRenderer&) = delete;
+
+    Renderer* operator->() { return &renderer_; }
+    /// Lets the thread end its next step. The first one loads the scene. Returns the latest frame.
+    std::shared_ptr<const Frame> step() {
+        if (std::exchange(has_begun_, true)) {
+            going_on_.release();
+        }
+        EXPECT_TRUE(resting_.try_acquire_for(kPatience));
+        return renderer_.frame();
+    }
+
+  private:
+    void rest() {
+        if (!is_free_) {
+            resting_.release();
+            going_on_.acquire();
+        }
+    }
+    bool has_begun_ = false;
+    std::atomic<bool> is_free_ = false;
+    std::counting_semaphore<> resting_{0};
+    std::counting_semaphore<> going_on_{0};
+    Renderer renderer_;  ///< declared last, because its thread uses the others
+};
+
+/// Pictures of few samples are smoothed for the eye, as long as more are to come.
+TEST_F(RendererTest, OnlyUnfinishedPicturesAreSmoothed) {
+    SteppedRenderer renderer;
+    EXPECT_FALSE(renderer.step()) << "the scene";
+    for (int i = 0; i < 5; ++i) {
+        SCOPED_TRACE("a small picture, a first one and three passes: " + std::to_string(i));
+        const auto frame = renderer.step();
+        ASSERT_TRUE(frame && frame->smoothed);
+        EXPECT_NE(frame->smoothed->values, frame->image.values);
+        EXPECT_EQ(&frame->shown(), &*frame->smoothed);
+        EXPECT_FALSE(renderer->is_done());
+    }
+    const auto last = renderer.step();
+    EXPECT_TRUE(renderer->is_done());
+    EXPECT_FALSE(last->smoothed);
+    EXPECT_EQ(&last->shown(), &last->image);
+}
+
+/// Who asks for less than there is already sees the picture that is finished by that.
+TEST_F(RendererTest, FewerSamplesFinishThePicture) {
+    SteppedRenderer renderer;
+    auto before = renderer.step();
+    while (!before || before->samples < 2) {
+        before = renderer.step();
+    }
+    EXPECT_TRUE(before->smoothed);
+    renderer->set_samples(2);
+    EXPECT_TRUE(renderer->is_done());
+    EXPECT_FALSE(renderer->frame()->smoothed);
+    EXPECT_EQ(renderer->frame()->image.values, before->image.values);
+    EXPECT_EQ(renderer->frame()->samples, 2u);
+}
+
+/// VPLs are not downloaded again for each of the passes that they serve.
+TEST_F(RendererTest, PassesOfOneSetShareItsLights) {
+    SteppedRenderer renderer;
+    renderer.step();
+    EXPECT_FALSE(renderer.step()->lights) << "small pictures show no dots";
+    const auto full = renderer.step();
+    const auto first = renderer.step();
+    const auto second = renderer.step();
+    EXPECT_NE(full->lights, first->lights) << "the first pass makes VPLs";
+    EXPECT_EQ(first->lights, second->lights);
+    EXPECT_EQ(first->lights->size(), first->vpls->size());
+}
+
+/// VPLs that could not be made when they were asked for are made with the next picture.
+TEST_F(RendererTest, AFailureDoesNotForgetThatVplsAreOld) {
+    SteppedRenderer renderer;
+    while (!renderer->is_done()) {
+        renderer.step();
+    }
+    RenderSettings more = few_samples();
+    more.sampling.vpl_count = 1000;
+    RenderSettings bad = more;
+    bad.view.camera = CameraPose{.origin = {0, 0, 1}, .target = {0, 0, 1}};
+    renderer->show(bad, Change::sampling);
+    const std::size_t before = renderer.step()->vpls->size();
+    EXPECT_FALSE(renderer->error().empty());
+    renderer->show(more, Change::camera);
+    const auto small = renderer.step();
+    EXPECT_GT(small->divisor, 1);
+    EXPECT_GT(small->vpls->size(), 3 * before);
+}
+
+/// The irradiance that the wall reflects to (x, 0, 0) for a light of 1 W/sr, by a sum over the wall.
+float from_wall(float x) {
+    constexpr int kSteps = 400;
+    constexpr double kStep = 1.0 / kSteps;
+    double sum = 0.0;
+    const double across = 1.0 + static_cast<double>(x);
+    for (double y = -1.0 + 0.5 * kStep; y < 1.0; y += kStep) {
+        for (double z = 0.5 * kStep; z < 1.0; z += kStep) {
+            const double lit = std::pow(1.0 + y * y + (1.0 - z) * (1.0 - z), -1.5);
+            const double square = across * across + y * y + z * z;
+            sum += lit * across * z / (square * square);
+        }
+    }
+    return static_cast<float>(0.5 * sum * kStep * kStep / std::numbers::pi);
+}
+
+/// The floor before the wall, which VPLs on the wall light within a clamp radius.
 TEST_F(RendererTest, AnInspectionAddsUp) {
-    Renderer renderer(Devices::choose(), load_floor, few_samples(), [] {});
+    RenderSettings settings = few_samples();
+    settings.sampling.vpl_count = 4000;
+    settings.view.max_depth = 3;
+    settings.view.clamp_radius = 0.7f;
+    settings.view.width = settings.view.height = 65;
+    constexpr float kX = -0.6f;
+    settings.view.camera = CameraPose{.origin = {kX, 0, 3}, .target = {kX, 0, 0}, .up = Vec3{0, 1, 0}};
+    Renderer renderer(Devices::choose(), load_corner, settings, [] {});
     ASSERT_TRUE(comes_true([&] { return renderer.is_done(); }));
     renderer.inspect(renderer.frame(), 32, 32);
     ASSERT_TRUE(comes_true([&] { return renderer.inspection() != nullptr; }));
     const auto inspection = renderer.inspection();
     ASSERT_TRUE(inspection->hits_surface);
-    EXPECT_NEAR(inspection->direct.x, 1.0f, 0.02f);
-    // A flat floor does not light itself.
-    EXPECT_NEAR(inspection->from_vpls.x, 0.0f, 1e-3f);
-    EXPECT_NEAR(inspection->remainder.x, 0.0f, 0.02f);
+    EXPECT_NEAR(inspection->position.x, kX, 0.03f);
+    const float x = inspection->position.x;
+    const float y = inspection->position.y;
+    EXPECT_NEAR(inspection->direct.x, std::pow(1.0f + x * x + y * y, -1.5f), 0.01f);
     ASSERT_FALSE(inspection->shares.empty());
     EXPECT_EQ(inspection->shares.back().kind, LightKind::point);
-    EXPECT_NEAR(inspection->shares.back().irradiance.x, inspection->direct.x, 0.02f);
+    EXPECT_NEAR(inspection->shares.back().irradiance.x, inspection->direct.x, 0.01f);
+
+    const float expected = from_wall(x);
+    EXPECT_NEAR(inspection->from_vpls.x + inspection->remainder.x, expected, 0.05f * expected);
+    EXPECT_GT(inspection->from_vpls.x, 0.1f * expected);
+    EXPECT_GT(inspection->remainder.x, 0.1f * expected);
+    EXPECT_NEAR(inspection->clamped.x, inspection->remainder.x, 0.1f * expected);
 }
 
 TEST_F(RendererTest, DotsLieInThePicture) {

@@ -39,12 +39,48 @@ TEST(ViewCommand, MistakesAreToldBeforeAWindowOpens) {
     expect_error(run_program("view " + kFloor + " --size 65536x65536", kWithoutDisplay), 6, "million");
 }
 
+/// Each of them would otherwise do nothing, or only after the picture is finished.
+TEST(ViewCommand, PixelsAndScreenshotsAreCheckedBeforeAWindowOpens) {
+    const auto errors_of = [](const std::string& options) {
+        const ProgramResult result = run_program("view " + kFloor + " " + options, kWithoutDisplay);
+        EXPECT_EQ(result.exit_code, 2) << options;
+        return result.errors;
+    };
+    EXPECT_NE(errors_of("--screenshot window.png").find("--screenshot requires --frames"), std::string::npos);
+    EXPECT_NE(errors_of("--inspect 1,2").find("--inspect requires --frames"), std::string::npos);
+    for (const char* const pixel : {"1", "1,2,3", "1,-2", "1,2x", "1,", "x,y", "1.5,2"}) {
+        EXPECT_NE(errors_of(std::string("--frames 1 --inspect=") + pixel).find("--inspect"),
+                  std::string::npos)
+            << pixel;
+    }
+}
+
 TEST(ViewCommand, MeasuresWithoutADisplay) {
     NEARLIGHT_NEEDS_DEVICE();
     const ProgramResult result =
         run_program("view " + kFloor + " --size 64x48 --vpls 50 --spp 2 --measure --json", kWithoutDisplay);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_NE(result.output.find("\"first_full_seconds\""), std::string::npos) << result.output;
+}
+
+/// A picture may be finished before the hand looks for it: with a single sample nothing more comes then.
+TEST(ViewCommand, MeasuresPicturesOfOneSample) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result =
+        run_program("view " + kFloor + " --size 16x12 --vpls 5 --spp 1 --measure --json",
+                    kWithoutDisplay + " timeout 120");
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+}
+
+/// The measurement moves the camera for several seconds.
+TEST(ViewCommand, CtrlCEndsAMeasurement) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult result =
+        run_program("view " + kFloor + " --size 512x512 --spp 4096 --measure",
+                    kWithoutDisplay + " timeout --foreground --preserve-status --signal=INT 3");
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    EXPECT_EQ(result.output, "");
 }
 
 class ViewWindow : public testing::Test {
@@ -97,6 +133,13 @@ TEST_F(ViewWindow, EndsWhenNothingMoreComes) {
                  "camera");
 }
 
+TEST_F(ViewWindow, PixelsOutsideOfThePictureAreErrors) {
+    for (const char* const pixel : {"64,0", "0,48"}) {
+        expect_error(view_floor(std::string("--size 64x48 --frames 1 --inspect ") + pixel, "timeout 60"), 2,
+                     std::string("no pixel ") + pixel + " to inspect in a picture of 64x48");
+    }
+}
+
 TEST_F(ViewWindow, CtrlCClosesItInTheMiddle) {
     const ProgramResult result =
         view_floor("--size 512x512 --spp 4096", "timeout --foreground --preserve-status --signal=INT 6");
@@ -104,15 +147,25 @@ TEST_F(ViewWindow, CtrlCClosesItInTheMiddle) {
     EXPECT_EQ(result.errors, "");
 }
 
-/// A display that goes away, as a remote one does, ends the program without a crash.
+/// A display that goes away, as a remote one does, ends the program without a crash. Other load may delay the
+/// window, which must be there before: then a display lives twice as long.
 TEST_F(ViewWindow, ALostDisplayEndsIt) {
-    std::thread ending([&] {
-        std::this_thread::sleep_for(std::chrono::seconds(6));
-        display_.end();
-    });
-    const ProgramResult result = view_floor("--size 512x512 --spp 4096", "timeout 60");
-    ending.join();
+    ProgramResult result;
+    for (std::chrono::seconds life{6}; life < std::chrono::seconds(100); life *= 2) {
+        VirtualDisplay display;
+        std::thread ending([&] {
+            std::this_thread::sleep_for(life);
+            display.end();
+        });
+        result =
+            run_program("view " + kFloor + " --size 512x512 --spp 4096", display.prefix() + " timeout 120");
+        ending.join();
+        if (result.errors.find("cannot open a window") == std::string::npos) {
+            break;
+        }
+    }
     EXPECT_EQ(result.exit_code, 1) << result.errors;
+    EXPECT_EQ(result.errors.find("cannot open a window"), std::string::npos) << result.errors;
 }
 
 }  // namespace
