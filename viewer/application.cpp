@@ -323,7 +323,7 @@ void Application::end_if_wanted() {
     if (const std::string error = renderer_.error(); !error.empty()) {
         throw Error(ErrorKind::failure, error);
     }
-    if (!frame_ || (frame_->samples < task_.frames && !renderer_.is_done())) {
+    if (!frame_ || frame_->samples == 0 || (frame_->samples < task_.frames && !renderer_.is_done())) {
         return;
     }
     if (task_.inspect && !std::exchange(has_asked_, true)) {
