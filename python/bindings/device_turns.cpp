@@ -33,16 +33,15 @@ void DeviceTurns::begin() {
 }
 
 void DeviceTurns::end() {
+    // While these end, other threads may leave more. The turn ends in the same moment in which none is left,
+    // because nobody else would end what is left after that.
     std::vector<std::shared_ptr<void>> leftovers;
-    {
+    do {
+        leftovers.clear();
         const std::scoped_lock lock(guard_);
         leftovers.swap(leftovers_);
-    }
-    leftovers.clear();
-    {
-        const std::scoped_lock lock(guard_);
-        is_taken_ = false;
-    }
+        is_taken_ = !leftovers.empty();
+    } while (!leftovers.empty());
     is_free_.notify_one();
 }
 
