@@ -88,9 +88,6 @@ LoadOptions load_options(const SceneOptions& options) {
 
 Scene load_scene(const SceneOptions& options) {
     Scene scene = load_scene(options.file, load_options(options));
-    for (const Note& note : scene.notes) {
-        spdlog::warn("{}", to_string(note));
-    }
     if (options.filter) {
         scene.camera.filter = default_filter(*options.filter);
     }

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "host/base/message.h"
 #include "host/library/states.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene_loader.h"
@@ -45,9 +44,6 @@ Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 Scene Scene::load(const std::filesystem::path& file, const LoadOptions& options) {
     core::Scene scene = core::load_scene(file, core_options(options));
     scene.clear_glass = options.clear_glass;
-    for (const core::Note& note : scene.notes) {
-        core::say_warning(core::to_string(note));
-    }
     return Scene(std::make_shared<const State>(State{std::move(scene)}));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/note_sink.h"
 
+#include "host/base/message.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -15,7 +16,7 @@ void NoteSink::approximation(const std::filesystem::path& file, int line, const 
 
 void NoteSink::remark(const std::filesystem::path& file, int line, const std::string& text) {
     if (said_.insert(text).second) {
-        notes_.push_back({file, line, text});
+        say_warning(to_string(notes_.emplace_back(Note{file, line, text})));
     }
 }
 

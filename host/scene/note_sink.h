@@ -11,7 +11,8 @@
 
 namespace nearlight::core {
 
-/// Collects notes. Each text is kept once, with the place where it first came up.
+/// Collects notes, and says them as warnings at once, so that they are known even if loading fails later.
+/// Each text is kept once, with the place where it first came up.
 class NoteSink {
   public:
     NoteSink(std::vector<Note>& notes, bool strict) : notes_(notes), strict_(strict) {}

@@ -40,13 +40,12 @@ bool has_light(const Scene& scene) {
 }
 
 // Adds remarks for scenes that are odd, although their black picture is correct.
-void remark_emptiness(Scene& scene) {
+void remark_emptiness(const Scene& scene, NoteSink& notes) {
     if (scene.triangles.empty()) {
-        scene.notes.push_back({scene.source, 0, "the scene has no triangles"});
+        notes.remark(scene.source, 0, "the scene has no triangles");
     }
     if (!has_light(scene)) {
-        scene.notes.push_back(
-            {scene.source, 0, "nothing in the scene emits light; the picture will be black"});
+        notes.remark(scene.source, 0, "nothing in the scene emits light; the picture will be black");
     }
 }
 
@@ -71,7 +70,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     apply_overrides(scene, options.overrides, notes);
     finish_vertex_colors(scene, notes);
     keep_within_limits(scene, notes);
-    remark_emptiness(scene);
+    remark_emptiness(scene, notes);
     return scene;
 }
 
