@@ -55,9 +55,7 @@ void collect_messages() {
 void deliver_messages() {
     for (const auto& [level, text] : message_list().take()) {
         const py::object log = py::module_::import("logging").attr("getLogger")("nearlight").attr("log");
-        const auto decoded =
-            py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text.data(), std::ssize(text), "replace"));
-        log(level_of(level), "%s", decoded);
+        log(level_of(level), "%s", decoded(text));
     }
 }
 

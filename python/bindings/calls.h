@@ -22,25 +22,31 @@ void collect_messages();
 /// tells its progress.
 void deliver_messages();
 
-/// Runs library code without the GIL, then hands its messages on, whether it failed or not.
+/// Runs library code, then hands its messages on, whether it failed or not.
 template <typename Work>
-auto without_gil(Work&& work) {
+auto with_messages(Work&& work) {
     using Result = std::invoke_result_t<Work>;
     std::optional<Result> result;
     std::exception_ptr failure;
-    {
-        const py::gil_scoped_release released;
-        try {
-            result.emplace(work());
-        } catch (...) {
-            failure = std::current_exception();
-        }
+    try {
+        result.emplace(work());
+    } catch (...) {
+        failure = std::current_exception();
     }
     deliver_messages();
     if (failure) {
         std::rethrow_exception(failure);
     }
     return std::move(*result);
+}
+
+/// The same without the GIL.
+template <typename Work>
+auto without_gil(Work&& work) {
+    return with_messages([&] {
+        const py::gil_scoped_release released;
+        return work();
+    });
 }
 
 /// The same, in a turn on devices.

@@ -13,14 +13,26 @@ bool is_text(py::handle value) {
     return PyUnicode_Check(value.ptr()) != 0 || PyBytes_Check(value.ptr()) != 0;
 }
 
-py::list members_of(py::handle type) {
-    return py::list(type.attr("__members__"));
-}
-
 }  // namespace
 
 std::string shown(py::handle object) {
-    return py::repr(object).cast<std::string>();
+    return encoded(py::repr(object));
+}
+
+py::str decoded(std::string_view text) {
+    return py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(text.data(), std::ssize(text), "replace"));
+}
+
+std::string encoded(py::handle text) {
+    const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(text.ptr()));
+    if (!bytes) {
+        throw py::error_already_set();
+    }
+    return bytes.cast<std::string>();
+}
+
+py::object to_python(const std::string& text) {
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(text.data(), std::ssize(text)));
 }
 
 void fail_type(const char* name, const std::string& wanted, py::handle value) {
@@ -82,23 +94,24 @@ std::filesystem::path to_path(py::handle value) {
     return {py::reinterpret_steal<py::bytes>(bytes).cast<std::string>()};
 }
 
-py::object to_member(const char* name, py::handle type, py::handle value) {
-    if (py::isinstance(value, type)) {
-        return py::reinterpret_borrow<py::object>(value);
-    }
-    std::string names;
-    for (const py::handle member : members_of(type)) {
-        names += (names.empty() ? "" : ", ") + member.cast<std::string>();
-    }
-    if (PyUnicode_Check(value.ptr()) == 0) {
+py::object enumeration(const char* type) {
+    return py::module_::import("nearlight._core").attr(type);
+}
+
+std::size_t to_member(const char* name, const char* type, py::handle value) {
+    const py::object chosen = enumeration(type);
+    const py::list members(chosen.attr("__members__"));
+    const bool is_member = py::isinstance(value, chosen);
+    const std::string names = encoded(py::str(", ").attr("join")(members));
+    if (!is_member && PyUnicode_Check(value.ptr()) == 0) {
         fail_type(name, "one of " + names, value);
     }
-    const py::object members = type.attr("__members__");
-    if (!members.contains(value)) {
+    const py::object wanted = is_member ? value.attr("name") : py::reinterpret_borrow<py::object>(value);
+    if (!members.contains(wanted)) {
         throw Error(ErrorKind::invalid_argument,
                     std::string("unknown ") + name + " " + shown(value) + "; choose one of: " + names, name);
     }
-    return members[value];
+    return members.attr("index")(wanted).cast<std::size_t>();
 }
 
 std::vector<std::uint32_t> Convert<std::vector<std::uint32_t>>::from(const char* name, py::handle value) {
@@ -114,12 +127,19 @@ std::vector<std::uint32_t> Convert<std::vector<std::uint32_t>>::from(const char*
 
 std::map<std::string, std::string> Convert<std::map<std::string, std::string>>::from(const char* name,
                                                                                      py::handle value) {
-    if (!py::isinstance<py::dict>(value)) {
-        fail_type(name, "a dict of names and values", value);
+    const py::object mapping = py::module_::import("collections.abc").attr("Mapping");
+    if (!py::isinstance(value, mapping)) {
+        fail_type(name, "a mapping of names to str or numbers", value);
     }
     std::map<std::string, std::string> result;
-    for (const auto& [key, text] : value.cast<py::dict>()) {
-        result[py::str(key).cast<std::string>()] = py::str(text).cast<std::string>();
+    for (const py::handle item : value.attr("items")()) {
+        const auto [key, content] = item.cast<std::pair<py::object, py::object>>();
+        const bool is_number = PyFloat_Check(content.ptr()) != 0 || PyIndex_Check(content.ptr()) != 0;
+        if (!py::isinstance<py::str>(key) || is_boolean(content) ||
+            (!py::isinstance<py::str>(content) && !is_number)) {
+            fail_type(name, "a mapping of names to str or numbers", value);
+        }
+        result[encoded(key)] = encoded(py::str(content));
     }
     return result;
 }
@@ -128,7 +148,7 @@ std::string Convert<std::string>::from(const char* name, py::handle value) {
     if (!py::isinstance<py::str>(value)) {
         fail_type(name, "a str", value);
     }
-    return value.cast<std::string>();
+    return encoded(value);
 }
 
 }  // namespace nearlight::python

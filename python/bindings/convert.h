@@ -11,16 +11,22 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nearlight/nearlight.h"
+#include "python/bindings/enumerations.h"
 
 namespace nearlight::python {
 
 namespace py = pybind11;
 
-/// shown() of an object, for messages.
+/// repr() of an object, for messages.
 std::string shown(py::handle object);
+/// Text for people. What is no UTF-8, such as the name of a file, is replaced by question marks.
+py::str decoded(std::string_view text);
+/// The bytes of a str, which may be the name of a file that is no UTF-8 (os.fsencode()).
+std::string encoded(py::handle text);
 /// Throws Python's TypeError: "NAME must be WANTED, not VALUE".
 /// (In all these functions `name` is a string literal, because Error::setting() refers to it.)
 [[noreturn]] void fail_type(const char* name, const std::string& wanted, py::handle value);
@@ -33,8 +39,11 @@ double to_double(const char* name, py::handle value);
 Vec3 to_vector(const char* name, py::handle value);
 /// Takes str, bytes or os.PathLike, as Python's own functions do.
 std::filesystem::path to_path(py::handle value);
-/// Takes a member of the enumeration `type` or the name of one.
-py::object to_member(const char* name, py::handle type, py::handle value);
+/// Takes a member of the module's enumeration `type` or the name of one; returns its place.
+std::size_t to_member(const char* name, const char* type, py::handle value);
+
+/// The class of the module with that name.
+py::object enumeration(const char* type);
 
 /// Converts a value of a setting; one specialisation a type.
 template <typename T>
@@ -48,7 +57,7 @@ struct Convert {
         } else if constexpr (std::floating_point<T>) {
             return static_cast<T>(to_double(name, value));
         } else if constexpr (std::is_enum_v<T>) {
-            return to_member(name, py::type::of(py::cast(T{})), value).template cast<T>();
+            return static_cast<T>(to_member(name, MembersOf<T>::name, value));
         } else {
             if (!py::isinstance<T>(value)) {
                 fail_type(name, "a " + py::type::of<T>().attr("__name__").template cast<std::string>(),
@@ -97,7 +106,11 @@ inline std::uint32_t to_seed(py::handle value) {
 /// A value of a setting for Python.
 template <typename T>
 py::object to_python(const T& value) {
-    return py::cast(value);
+    if constexpr (std::is_enum_v<T>) {
+        return enumeration(MembersOf<T>::name)(name_of(value));
+    } else {
+        return py::cast(value);
+    }
 }
 inline py::object to_python(Vec3 value) {
     return py::make_tuple(value.x, value.y, value.z);
@@ -114,15 +127,17 @@ inline py::object to_python(const std::vector<std::uint32_t>& values) {
     return list;
 }
 
+/// The str that encoded() makes this text of (os.fsdecode()).
+py::object to_python(const std::string& text);
+inline py::object to_python(const std::filesystem::path& path) {
+    return to_python(path.string());
+}
 inline py::object to_python(const std::map<std::string, std::string>& values) {
     py::dict dict;
     for (const auto& [name, value] : values) {
-        dict[py::str(name)] = value;
+        dict[to_python(name)] = to_python(value);
     }
     return dict;
-}
-inline py::object to_python(const std::filesystem::path& path) {
-    return py::str(path.string());
 }
 
 }  // namespace nearlight::python

@@ -45,9 +45,7 @@ void add_device_info(py::module_& module) {
 }  // namespace
 
 SharedDevices choose_devices(const std::string& choice, const DeviceOptions& options) {
-    SharedDevices devices{Devices::choose(choice, options)};
-    deliver_messages();
-    return devices;
+    return {with_messages([&] { return Devices::choose(choice, options); })};
 }
 
 void add_devices(py::module_& module) {
@@ -71,12 +69,7 @@ void add_devices(py::module_& module) {
         .def("__len__", [](const SharedDevices& self) { return self.devices.infos().size(); })
         .def("__repr__", [](const SharedDevices& self) { return text_of(self.devices); });
     module.def(
-        "list_devices",
-        [] {
-            std::vector<DeviceInfo> infos = list_devices();
-            deliver_messages();
-            return infos;
-        },
+        "list_devices", [] { return with_messages(&nearlight::list_devices); },
         "list_devices()\n--\n\nAll devices of all drivers, unusable ones included.");
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/cli/exit_code.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/convert.h"
 
 namespace nearlight::python {
 namespace {
@@ -30,12 +31,9 @@ void raise(const Error& error) {
     const py::module_ errors = py::module_::import("nearlight._errors");
     const py::object type =
         errors.attr(error.kind() == ErrorKind::invalid_argument ? "InvalidArgument" : "Error");
-    // Messages may name files whose names are not UTF-8.
-    const std::string text = error.what();
-    const auto message =
-        py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text.data(), std::ssize(text), "replace"));
-    const py::object instance = type(message, kind_name(error.kind()), std::string(error.setting()),
-                                     static_cast<int>(core::exit_code(error.kind())));
+    const py::object instance =
+        type(decoded(error.what()), kind_name(error.kind()), std::string(error.setting()),
+             static_cast<int>(core::exit_code(error.kind())));
     PyErr_SetObject(type.ptr(), instance.ptr());
 }
 

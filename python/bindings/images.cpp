@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/settings.h"
@@ -76,18 +77,13 @@ std::vector<std::string> default_channels(py::ssize_t count) {
 
 /// A copy of an array of numbers, in any order and of any real type.
 SharedImage image_of(const py::object& values, const std::optional<std::vector<std::string>>& channels) {
-    const py::array given = py::array::ensure(values);
-    if (!given || std::string("fiu").find(given.dtype().kind()) == std::string::npos) {
-        PyErr_Clear();
-        fail_type("values", "an array of real numbers", given ? py::object(given.dtype()) : values);
-    }
-    if (given.ndim() != 2 && given.ndim() != 3) {
+    const FloatArray floats = to_floats("values", values);
+    if (floats.ndim() != 2 && floats.ndim() != 3) {
         throw Error(ErrorKind::invalid_argument,
-                    "values have the shape " + shown(given.attr("shape")) +
+                    "values have the shape " + shown(floats.attr("shape")) +
                         "; it must be (height, width) or (height, width, channels)",
                     "values");
     }
-    const auto floats = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
     const py::ssize_t count = floats.ndim() == 3 ? floats.shape(2) : 1;
     auto image = std::make_shared<Image>();
     image->width = static_cast<int>(floats.shape(1));
@@ -95,7 +91,7 @@ SharedImage image_of(const py::object& values, const std::optional<std::vector<s
     image->channels = channels ? *channels : default_channels(count);
     if (std::ssize(image->channels) != count || floats.size() == 0) {
         throw Error(ErrorKind::invalid_argument,
-                    "values of the shape " + shown(given.attr("shape")) + " do not fit " +
+                    "values of the shape " + shown(floats.attr("shape")) + " do not fit " +
                         std::to_string(image->channels.size()) + " channels",
                     "channels");
     }

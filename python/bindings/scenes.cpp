@@ -18,10 +18,7 @@ std::string text_of(const SceneNote& note) {
 }
 
 py::object path_object(const std::filesystem::path& path) {
-    const std::string bytes = path.string();
-    const auto text =
-        py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(bytes.data(), std::ssize(bytes)));
-    return py::module_::import("pathlib").attr("Path")(text);
+    return py::module_::import("pathlib").attr("Path")(to_python(path));
 }
 
 Scene load(const py::object& file, const py::object& options, const py::kwargs& fields) {
@@ -37,12 +34,15 @@ void add_scenes(py::module_& module) {
                           "What was approximated when a scene was loaded, or is odd about its file.")
         .def_property_readonly("file", [](const SceneNote& note) { return path_object(note.file); })
         .def_readonly("line", &SceneNote::line, "counted from 1; 0 if the line is not known")
-        .def_readonly("text", &SceneNote::text)
-        .def("__str__", [](const SceneNote& note) { return text_of(note); })
-        .def("__repr__", [](const SceneNote& note) { return "<nearlight.SceneNote " + text_of(note) + ">"; });
+        .def_property_readonly("text", [](const SceneNote& note) { return decoded(note.text); })
+        .def("__str__", [](const SceneNote& note) { return decoded(text_of(note)); })
+        .def("__repr__",
+             [](const SceneNote& note) { return decoded("<nearlight.SceneNote " + text_of(note) + ">"); });
 
     py::class_<Scene>(module, "Scene", "A scene, which does not change. load() reads one.")
-        .def_property_readonly("name", &Scene::name, "the name of the scene's folder, or of its file")
+        .def_property_readonly(
+            "name", [](const Scene& scene) { return decoded(scene.name()); },
+            "the name of the scene's folder, or of its file")
         .def_property_readonly(
             "source", [](const Scene& scene) { return path_object(scene.source()); },
             "the file that load() was given")
@@ -61,7 +61,7 @@ void add_scenes(py::module_& module) {
         .def_property_readonly("notes", &Scene::notes, "a list of SceneNote")
         .def("hash", &Scene::hash, py::call_guard<py::gil_scoped_release>(),
              "hash(self)\n--\n\nA number that equal scenes share, on any machine.")
-        .def("__repr__", [](const Scene& scene) { return text_of(scene); });
+        .def("__repr__", [](const Scene& scene) { return decoded(text_of(scene)); });
 
     module.def("load", &load, py::arg("file"), py::arg("options") = py::none(),
                "load(file, options=None, **fields)\n--\n\n"

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/settings.h"
@@ -41,33 +42,20 @@ py::dtype light_type() {
 }
 
 /// Vectors from an array of numbers whose last axis has three.
-std::vector<Vec3> vectors_of(const char* name, const py::array& array) {
-    if (std::string("fiu").find(array.dtype().kind()) == std::string::npos) {
-        fail_type(name, "an array of real numbers", array.dtype());
-    }
+std::vector<Vec3> vectors_of(const char* name, const FloatArray& array) {
     if (array.ndim() == 0 || array.shape(array.ndim() - 1) != 3) {
         throw Error(ErrorKind::invalid_argument,
                     std::string(name) + " have the shape " + shown(array.attr("shape")) +
                         "; the last axis must have 3 numbers",
                     name);
     }
-    const auto floats = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
-    std::vector<Vec3> vectors(static_cast<std::size_t>(floats.size() / 3));
-    const float* value = floats.data();
+    std::vector<Vec3> vectors(static_cast<std::size_t>(array.size() / 3));
+    const float* value = array.data();
     for (Vec3& vector : vectors) {
         vector = {value[0], value[1], value[2]};
         value += 3;
     }
     return vectors;
-}
-
-py::array to_array(const char* name, const py::object& values) {
-    const py::array array = py::array::ensure(values);
-    if (!array) {
-        PyErr_Clear();
-        fail_type(name, "an array of numbers", values);
-    }
-    return array;
 }
 
 std::shared_ptr<PySession> make_session(const py::object& scene, const py::object& devices,
@@ -78,7 +66,7 @@ std::shared_ptr<PySession> make_session(const py::object& scene, const py::objec
                              : py::module_::import("nearlight").attr("load")(scene).cast<Scene>();
     const SharedDevices on = py::isinstance<SharedDevices>(devices)
                                  ? devices.cast<SharedDevices>()
-                                 : choose_devices(py::str(devices).cast<std::string>(), {});
+                                 : choose_devices(encoded(py::str(devices)), {});
     return std::make_shared<PySession>(
         in_turn(*on.turns, [&] { return Session(on.devices, loaded, chosen); }), on.turns);
 }
@@ -126,15 +114,13 @@ py::array irradiance(PySession& self, const py::object& points, const py::object
                      const py::kwargs& fields) {
     const IrradianceSettings chosen = settings_of<IrradianceSettings>("irradiance", settings, fields);
     const std::uint32_t number = to_seed(seed);
-    const py::array places = to_array("points", points);
-    py::array directions = to_array("normals", normals);
-    if (directions.ndim() == 1 && places.ndim() > 1 && places.shape(places.ndim() - 1) == 3 &&
-        directions.shape(0) == 3) {  // one normal for all points
-        directions = py::module_::import("numpy").attr("broadcast_to")(directions, places.attr("shape"));
-    }
+    const FloatArray places = to_floats("points", points);
+    const FloatArray directions = to_floats("normals", normals);
     const std::vector<Vec3> at = vectors_of("points", places);
-    const std::vector<Vec3> towards = vectors_of("normals", directions);
-    if (!places.attr("shape").equal(directions.attr("shape"))) {
+    std::vector<Vec3> towards = vectors_of("normals", directions);
+    if (directions.ndim() == 1) {  // one normal for all points
+        towards.assign(at.size(), Vec3(towards.front()));
+    } else if (!places.attr("shape").equal(directions.attr("shape"))) {
         throw Error(ErrorKind::invalid_argument,
                     "normals of the shape " + shown(directions.attr("shape")) +
                         " do not fit points of the shape " + shown(places.attr("shape")),

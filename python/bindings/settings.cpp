@@ -12,7 +12,7 @@ namespace {
 template <typename Value>
 std::string literal(const Value& value) {
     if constexpr (std::is_enum_v<Value>) {
-        return shown(to_python(value).attr("name"));
+        return shown(py::str(name_of(value)));
     } else {
         return shown(to_python(value));
     }
@@ -96,32 +96,21 @@ void add_class(py::module_& module) {
     cls.def("__deepcopy__", [](const Settings& self, const py::object&) { return self; });
 }
 
-void add_enumerations(py::module_& module) {
-    py::enum_<SamplerKind>(module, "SamplerKind", "How virtual point lights (VPLs) are chosen.")
-        .value("close_range", SamplerKind::close_range,
-               "patches close to the camera, sparse light walks elsewhere")
-        .value("instant_radiosity", SamplerKind::instant_radiosity, "light walks over the whole scene")
-        .value("rejection", SamplerKind::rejection, "light walks; VPLs that bring little are rejected")
-        .value("metropolis", SamplerKind::metropolis,
-               "Markov chains of light paths towards what the camera needs")
-        .value("bidirectional", SamplerKind::bidirectional, "light walks, and rays from what the camera sees")
-        .value("local", SamplerKind::local, "light walks with a wide clamp, and local lights per tile");
-    py::enum_<Policy>(module, "Policy", "The rule for deposits of light walks in the close range.")
-        .value("complete", Policy::complete, "patches carry light of all depths: unbiased")
-        .value("paper", Policy::paper, "deposits of all depths are dropped: loses light of several bounces")
-        .value("partition", Policy::partition, "deposits of depth 2 and more are kept: unbiased");
-    py::enum_<GatherKernel>(module, "GatherKernel", "Which kernel gathers. Both compute the same sum.")
-        .value("automatic", GatherKernel::automatic, "packets on CPUs, rays elsewhere")
-        .value("packets", GatherKernel::packets, "a work-item takes up to 256 receivers")
-        .value("rays", GatherKernel::rays, "a work-item takes one receiver");
-    py::enum_<BvhQuality>(module, "BvhQuality", "How much time the tree for rays is worth.")
-        .value("fast", BvhQuality::fast, "every triangle is in exactly one leaf")
-        .value("quality", BvhQuality::quality, "fewer steps per ray, twice the time to build");
-    py::enum_<ToneCurve>(module, "ToneCurve", "From linear light to what a screen shows.")
-        .value("linear", ToneCurve::linear, "as it is; what is above 1 is clipped")
-        .value("neutral", ToneCurve::neutral, "colours as they are up to 0.76, softly limited above")
-        .value("agx", ToneCurve::agx, "a photograph's contrast, where bright colours fade to white")
-        .value("filmic", ToneCurve::filmic, "strong contrast of film");
+/// A class of Python's module enum, whose members have their names as values, so that the class makes a
+/// member of its name.
+template <typename Enumeration>
+void add_enumeration(py::module_& module) {
+    using Table = MembersOf<Enumeration>;
+    std::string text = std::string(Table::text) + "\n";
+    py::dict values;
+    for (const Member& member : Table::members) {
+        text += "\n" + std::string(member.name) + ": " + member.text;
+        values[member.name] = member.name;
+    }
+    const py::object make = py::module_::import("enum").attr("Enum");
+    py::object type = make(Table::name, values, py::arg("module") = "nearlight");
+    type.attr("__doc__") = text;
+    module.attr(Table::name) = type;
 }
 
 }  // namespace
@@ -138,7 +127,11 @@ void fail_keyword(const std::string& what, const std::string& name, const py::li
 }
 
 void add_settings(py::module_& module) {
-    add_enumerations(module);
+    add_enumeration<SamplerKind>(module);
+    add_enumeration<Policy>(module);
+    add_enumeration<GatherKernel>(module);
+    add_enumeration<BvhQuality>(module);
+    add_enumeration<ToneCurve>(module);
     add_class<CameraPose>(module);
     add_class<ViewSettings>(module);
     add_class<SamplingSettings>(module);

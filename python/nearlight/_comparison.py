@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ._core import Policy, SamplerKind, SamplingSettings, diff
+from ._errors import InvalidArgument
 
 if TYPE_CHECKING:
     from . import GatherSettings, Image, Session, View
@@ -71,18 +72,20 @@ def compare(
     reference: an Image of what the scene should look like, as `nearlight reference` makes it.
     samplers: SamplerKind, their names, or SamplingSettings for all else, whose vpl_count is replaced.
     vpl_counts: numbers of VPLs, each of which is measured.
-    seeds: how many seeds to average over, from 0.
+    seeds: how many seeds to average over, at least 1; they count from 0.
     layer: the layer that is compared.
     gather: GatherSettings; by default those of Session.gather().
 
     Returns a Comparison. The program's `nearlight compare` does more: clamped references, equal errors, plots.
     """
-    session.gather(view, session.sample(view, vpl_count=100), gather)  # compiles kernels before clocks run
+    if seeds < 1:
+        raise InvalidArgument(f"seeds is {seeds}; it must be at least 1", "invalid_argument", "seeds", 2)
     counts = list(vpl_counts)
     rows = Comparison()
     for sampler in samplers:
         settings = sampler if isinstance(sampler, SamplingSettings) else SamplingSettings(sampler=sampler)
-        session.sample(view, settings)
+        # This compiles the sampler's kernels, and the gather's for its VPLs, before clocks run.
+        session.gather(view, session.sample(view, settings, vpl_count=100), gather)
         for vpl_count in counts:
             rows.append(_measure(session, view, reference, settings, vpl_count, seeds, layer, gather))
     return rows

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from typing_extensions import TypedDict, Unpack
+from typing_extensions import TypedDict, Unpack, dataclass_transform
 
 _Path = str | bytes | os.PathLike[Any]
 _Vector = Sequence[float] | npt.NDArray[Any]
@@ -18,45 +18,41 @@ _Progress = Callable[[float], object]
 __version__: str
 
 class SamplerKind(enum.Enum):
-    close_range = ...
-    instant_radiosity = ...
-    rejection = ...
-    metropolis = ...
-    bidirectional = ...
-    local = ...
+    close_range = "close_range"
+    instant_radiosity = "instant_radiosity"
+    rejection = "rejection"
+    metropolis = "metropolis"
+    bidirectional = "bidirectional"
+    local = "local"
 
 class Policy(enum.Enum):
-    complete = ...
-    paper = ...
-    partition = ...
+    complete = "complete"
+    paper = "paper"
+    partition = "partition"
 
 class GatherKernel(enum.Enum):
-    automatic = ...
-    packets = ...
-    rays = ...
+    automatic = "automatic"
+    packets = "packets"
+    rays = "rays"
 
 class BvhQuality(enum.Enum):
-    fast = ...
-    quality = ...
+    fast = "fast"
+    quality = "quality"
 
 class ToneCurve(enum.Enum):
-    linear = ...
-    neutral = ...
-    agx = ...
-    filmic = ...
+    linear = "linear"
+    neutral = "neutral"
+    agx = "agx"
+    filmic = "filmic"
 
-class _CameraPose(TypedDict, total=False):
-    origin: _Vector
-    target: _Vector
-    up: _Vector | None
-    fov_x_degrees: float | None
+@dataclass_transform(kw_only_default=True)
+class _Settings: ...
 
-class CameraPose:
-    def __init__(self, **fields: Unpack[_CameraPose]) -> None: ...
-    origin: _Vector
-    target: _Vector
-    up: _Vector | None
-    fov_x_degrees: float | None
+class CameraPose(_Settings):
+    origin: _Vector = ...
+    target: _Vector = ...
+    up: _Vector | None = ...
+    fov_x_degrees: float | None = ...
 
 class _ViewSettings(TypedDict, total=False):
     camera: CameraPose | None
@@ -94,18 +90,11 @@ class SamplingSettings:
     set_count: int | None
     close_fraction: float | None
 
-class _PixelWindow(TypedDict, total=False):
-    x: int
-    y: int
-    width: int
-    height: int
-
-class PixelWindow:
-    def __init__(self, **fields: Unpack[_PixelWindow]) -> None: ...
-    x: int
-    y: int
-    width: int
-    height: int
+class PixelWindow(_Settings):
+    x: int = ...
+    y: int = ...
+    width: int = ...
+    height: int = ...
 
 class _GatherSettings(TypedDict, total=False):
     samples_per_pixel: int
@@ -169,17 +158,12 @@ class IrradianceSettings:
     direct_samples: int
     paths: int
 
-class _SunPosition(TypedDict, total=False):
-    azimuth: float
-    elevation: float
-
-class SunPosition:
-    def __init__(self, **fields: Unpack[_SunPosition]) -> None: ...
-    azimuth: float
-    elevation: float
+class SunPosition(_Settings):
+    azimuth: float = ...
+    elevation: float = ...
 
 class _LoadOptions(TypedDict, total=False):
-    definitions: Mapping[str, str]
+    definitions: Mapping[str, str | float]
     strict: bool
     clear_glass: bool
     camera: str
@@ -195,7 +179,7 @@ class _LoadOptions(TypedDict, total=False):
 
 class LoadOptions:
     def __init__(self, **fields: Unpack[_LoadOptions]) -> None: ...
-    definitions: Mapping[str, str]
+    definitions: Mapping[str, str | float]
     strict: bool
     clear_glass: bool
     camera: str

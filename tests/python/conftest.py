@@ -41,11 +41,13 @@ def corner(floor, tmp_path_factory):
 
 @pytest.fixture(scope="session", autouse=True)
 def device():
-    """Skips where there is no device, unless one is required."""
-    if not nearlight.list_devices():
-        if os.environ.get("NEARLIGHT_REQUIRE_DEVICE"):
-            pytest.fail("no OpenCL device")
-        pytest.skip("no OpenCL device")
+    """Skips where no device can be used, unless one is required."""
+    devices = nearlight.list_devices()
+    if not any(info.unusable_because == "" for info in devices):
+        found = "; ".join(f"{info.name}: {info.unusable_because}" for info in devices) or "there is none"
+        if os.environ.get("NEARLIGHT_REQUIRE_DEVICE") == "1":
+            pytest.fail(f"no usable OpenCL device ({found}), and NEARLIGHT_REQUIRE_DEVICE is 1")
+        pytest.skip(f"no usable OpenCL device ({found})")
 
 
 @pytest.fixture(scope="session")

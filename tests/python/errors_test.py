@@ -4,6 +4,7 @@
 import copy
 import logging
 import math
+import os
 import pickle
 
 import pytest
@@ -23,7 +24,6 @@ def test_devices_that_are_missing(floor):
     with pytest.raises(nearlight.Error, match="nosuch-device") as error:
         nearlight.Session(floor, "nosuch-device")
     assert (error.value.kind, error.value.exit_code) == ("no_device", 4)
-
 
 
 @pytest.mark.parametrize("width", [0, -1, 2**40, 65537])
@@ -115,6 +115,44 @@ def test_warnings_go_to_the_logger(tmp_path, caplog):
         scene = nearlight.load(dark)
     assert any("no triangles" in record.message for record in caplog.records)
     assert any("no triangles" in note.text and note.file == dark for note in scene.notes)
+
+
+def test_warnings_come_before_the_error_that_ends_loading(tmp_path, caplog):
+    file = tmp_path / "half.xml"
+    file.write_text(
+        '<scene version="3.0.0">'
+        '<shape type="rectangle"><bsdf type="roughconductor"><float name="alpha" value="0"/></bsdf></shape>'
+        '<shape type="obj"><string name="filename" value="nosuch.obj"/></shape></scene>'
+    )
+    with caplog.at_level(logging.WARNING, "nearlight"):
+        with pytest.raises(nearlight.Error, match="nosuch.obj"):
+            nearlight.load(file)
+    assert any("roughness of 0" in record.message for record in caplog.records)
+
+
+def test_names_of_files_that_are_not_utf8(floor, tmp_path, caplog):
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    folder.mkdir()
+    scene_file = folder / "scene.xml"
+    scene_file.write_bytes(floor.read_bytes())
+    scene = nearlight.load(scene_file)
+    assert scene.source == scene_file
+    assert scene.name == "caf\ufffd" and "caf\ufffd" in repr(scene)
+    with pytest.raises(nearlight.Error, match="caf\ufffd"):
+        nearlight.load(folder / "nosuch.xml")
+    (folder / "dark.obj").write_text("v 0 0 0\n")
+    with caplog.at_level(logging.WARNING, "nearlight"):
+        note = nearlight.load(folder / "dark.obj").notes[0]
+    assert note.file == folder / "dark.obj"
+    assert "caf\ufffd" in str(note) and "caf\ufffd" in repr(note)
+    assert any("caf\ufffd" in record.message for record in caplog.records)
+    options = nearlight.LoadOptions(environment=str(folder / "nosuch.exr"))
+    assert options.environment == str(folder / "nosuch.exr")
+    with pytest.raises(nearlight.Error, match="caf\ufffd"):
+        nearlight.load(scene_file, options)
+    cache = nearlight.DeviceOptions(cache_dir=bytes(folder))
+    assert cache.cache_dir == str(folder)
+    assert "caf" in repr(cache) and "caf" in repr(options)
 
 
 def test_debug_messages_are_logged_where_they_are_asked_for(session, caplog):

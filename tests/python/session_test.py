@@ -2,6 +2,7 @@
 """Sessions give the pictures of the program, from several threads too."""
 
 import gc
+import sys
 import threading
 
 import numpy as np
@@ -71,9 +72,9 @@ def test_a_window_has_the_pixels_of_the_whole_picture(session):
 
 def test_progress_goes_up_and_can_stop(session):
     fractions = []
-    session.render(width=256, height=256, vpl_count=300, samples_per_pixel=4, progress=fractions.append)
+    session.render(width=128, height=128, vpl_count=100, samples_per_pixel=4, passes=8, progress=fractions.append)
     assert fractions == sorted(fractions)
-    assert all(0 <= fraction <= 1 for fraction in fractions)
+    assert 0 <= fractions[0] < fractions[-1] <= 1
     stopped = session.render(width=256, height=256, progress=lambda fraction: False)
     assert stopped.interrupted
     assert not session.render(width=16, height=16, progress=lambda fraction: 0).interrupted
@@ -109,20 +110,34 @@ def test_threads_take_turns(session):
     assert all(np.array_equal(values, expected) for values in pictures.values())
 
 
-def test_python_goes_on_while_a_picture_is_made(session):
-    count = 0
-    done = threading.Event()
+@pytest.fixture
+def threads_stay():
+    """Python's threads give way to others only where they wait or release the GIL."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e6)
+    yield
+    sys.setswitchinterval(interval)
+
+
+def test_python_goes_on_while_a_picture_is_made(session, threads_stay):
+    begun = threading.Event()
+    wanted = threading.Event()
+    pictures = []
+
+    def progress(fraction):
+        begun.set()
+        return not wanted.is_set()
 
     def work():
-        session.render(width=256, height=256, vpl_count=1000)
-        done.set()
+        # Nothing but the main thread ends this picture early.
+        pictures.append(session.render(width=1024, height=1024, vpl_count=1000, progress=progress))
 
     thread = threading.Thread(target=work)
     thread.start()
-    while not done.wait(0.001):
-        count += 1
+    begun.wait()
+    wanted.set()
     thread.join()
-    assert count > 20
+    assert pictures[0].interrupted
 
 
 def test_products_outlive_their_session(floor):
@@ -131,6 +146,12 @@ def test_products_outlive_their_session(floor):
     del other
     gc.collect()
     assert len(vpls.lights()) == len(vpls)
+
+
+def test_comparisons_need_a_seed(session, picture):
+    with pytest.raises(nearlight.InvalidArgument, match="seeds is 0") as error:
+        nearlight.compare(session, session.look(width=48, height=32), picture.image, seeds=0)
+    assert error.value.setting == "seeds"
 
 
 def test_samplers_are_compared(corner):

@@ -3,12 +3,17 @@
 
 import ast
 import copy
+import enum
 import inspect
+import pickle
 import re
+import types
 
+import numpy as np
 import pytest
 
 import nearlight
+from nearlight import _core
 
 STRUCTS = {
     "settings.h": [
@@ -87,9 +92,14 @@ def test_names_and_defaults_are_those_of_the_header(source, header, struct):
 
 @pytest.mark.parametrize("name", ENUMERATIONS)
 def test_enumerations_are_those_of_the_header(source, name):
-    text = "".join(without_comments((source / "include/nearlight" / header).read_text()) for header in STRUCTS)
+    headers = sorted((source / "include/nearlight").glob("*.h"))
+    text = "".join(without_comments(header.read_text()) for header in headers)
     body = re.search(rf"enum class {name} {{(.*?)}}", text, re.S).group(1)
-    assert list(getattr(nearlight, name).__members__) == re.findall(r"\w+", body)
+    kind = getattr(nearlight, name)
+    assert [member.name for member in kind] == re.findall(r"\w+", body)
+    for member in kind:
+        assert kind(member.name) is kind[member.name] is pickle.loads(pickle.dumps(member)) is member
+        assert f"{member.name}: " in kind.__doc__
 
 
 def test_fields_can_be_set():
@@ -125,6 +135,14 @@ def test_texts_are_python():
     assert settings.view.width is None
 
 
+def test_definitions_are_names_with_texts_or_numbers():
+    options = nearlight.LoadOptions(definitions=types.MappingProxyType({"a": "x", "b": 2, "c": 0.5, "d": np.int32(3)}))
+    assert options.definitions == {"a": "x", "b": "2", "c": "0.5", "d": "3"}
+    for definitions in ([("a", "x")], {1: "x"}, {"a": None}, {"a": True}, "a=x"):
+        with pytest.raises(TypeError, match="definitions must be a mapping of names to str or numbers"):
+            nearlight.LoadOptions(definitions=definitions)
+
+
 def test_settings_are_changed_by_keywords_of_a_call(session):
     settings = nearlight.ViewSettings(width=32, height=16)
     view = session.look(settings, height=8)
@@ -150,25 +168,45 @@ def keywords_in(function):
     return function.args.kwarg and ast.unparse(function.args.kwarg.annotation)[len("Unpack[") : -1]
 
 
-def test_stubs_name_everything(stubs):
+def test_stubs_name_the_classes_and_functions_of_the_module_and_no_others(stubs):
+    module = {name for name, value in vars(_core).items() if callable(value)}
+    assert {name for name in stubs if name[0] != "_"} == module
     python = {"Comparison", "ComparisonRow", "compare", "Error", "InvalidArgument", "__version__"}
-    assert set(nearlight.__all__) == {name for name in stubs if name[0] != "_"} | python
-    for name in set(stubs) & set(nearlight.__all__) - set(ENUMERATIONS):
-        if inspect.isclass(getattr(nearlight, name)):
-            attributes = vars(getattr(nearlight, name))
-            assert {attribute for attribute in attributes if attribute[0] != "_"} <= set(names_in(stubs[name])), name
-            assert all(hasattr(getattr(nearlight, name), attribute) for attribute in names_in(stubs[name])), name
+    assert set(nearlight.__all__) == module | python
+    for name in module:
+        assert inspect.isclass(getattr(_core, name)) == isinstance(stubs[name], ast.ClassDef), name
 
 
-@pytest.mark.parametrize("name", ENUMERATIONS)
-def test_stubs_have_the_members_of_enumerations(stubs, name):
-    members = [item.targets[0].id for item in stubs[name].body]
-    assert members == list(getattr(nearlight, name).__members__)
+# What every class of pybind11 has, or gets from `object` in the stubs.
+COMMON = {"__init__", "__repr__", "__str__", "__eq__", "__hash__", "__copy__", "__deepcopy__", "__doc__", "__module__"}
+
+
+@pytest.mark.parametrize("name", [name for name, value in vars(_core).items() if inspect.isclass(value)])
+def test_stubs_name_the_members_of_classes_and_no_others(stubs, name):
+    kind = getattr(_core, name)
+    if issubclass(kind, enum.Enum):
+        members = {item.targets[0].id: ast.literal_eval(item.value) for item in stubs[name].body}
+        assert members == {member.name: member.value for member in kind}
+    else:
+        members = {member for member in vars(kind) if not member.startswith("_pybind11")}
+        assert set(names_in(stubs[name])) - COMMON == members - COMMON
+
+
+@pytest.mark.parametrize("name", ["load", "read_image", "diff", "diff_map", "list_devices", "picture_channels"])
+def test_stubs_have_the_arguments_of_functions(stubs, name):
+    arguments = stubs[name].args
+    named = [argument.arg for argument in arguments.args] + ([arguments.kwarg.arg] if arguments.kwarg else [])
+    assert named == list(inspect.signature(getattr(nearlight, name)).parameters)
 
 
 @pytest.mark.parametrize("struct", [name for names in STRUCTS.values() for name in names])
 def test_stubs_have_the_fields_of_settings(stubs, struct):
     fields = fields_of(getattr(nearlight, struct)())
+    if "_" + struct not in stubs:  # the constructor follows from the fields
+        assert names_in(stubs[struct]) == fields
+        assert [ast.unparse(base) for base in stubs[struct].bases] == ["_Settings"]
+        assert all(field.value is not None for field in stubs[struct].body)
+        return
     assert names_in(stubs["_" + struct]) == fields
     assert names_in(stubs[struct]) == ["__init__", *fields]
     assert keywords_in(stubs[struct].body[0]) == "_" + struct
