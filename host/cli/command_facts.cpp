@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/command_facts.h"
+#include "host/base/words.h"
 
 #include <algorithm>
 #include <array>
@@ -8,19 +9,23 @@
 namespace nearlight::core {
 namespace {
 
-/// The words that stand for files and folders in --help.
-constexpr std::array<std::string_view, 7> kFileValues{"OUT", "MAP", "FILE", "DIR", "SCENE", "A", "B"};
+/// Whether the word stands for a file or a folder in --help.
+bool is_file_value(std::string_view word) {
+    constexpr std::array<std::string_view, 7> kFileValues{"OUT", "MAP", "FILE", "DIR", "SCENE", "A", "B"};
+    return std::ranges::find(kFileValues, word) != kFileValues.end();
+}
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == separator) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
+/// The words that may be given as they stand where the name of a type shows several kinds of values, as in
+/// "FILE|sky|COLOR". Capitals stand for what they name.
+std::vector<std::string> choices_among(const std::string& type) {
+    std::vector<std::string> words = split(type, '|');
+    if (words.size() == 1) {
+        return {};
     }
-    return parts;
+    std::erase_if(words, [](const std::string& word) {
+        return word.empty() || !std::ranges::all_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
+    });
+    return words;
 }
 
 /// The choices that the parser writes behind the name of a type, as in "on|off:{on,off}" or, where words
@@ -100,7 +105,10 @@ OptionFacts option_facts(const CLI::Option& option) {
             facts.choices = choices_named(type, facts.description);
         }
         facts.value = facts.is_positional ? facts.names.front() : type.substr(0, type.find(':'));
-        facts.takes_file = std::ranges::find(kFileValues, facts.value) != kFileValues.end();
+        if (facts.choices.empty()) {
+            facts.choices = choices_among(facts.value);
+        }
+        facts.takes_file = std::ranges::any_of(split(facts.value, '|'), is_file_value);
     }
     return facts;
 }

@@ -13,7 +13,9 @@ struct OptionFacts {
     std::vector<std::string>
         names{};          ///< with their dashes, short ones first; one without dashes if positional
     std::string value{};  ///< what stands for the value, as in "N"; empty for a flag
-    std::vector<std::string> choices{};  ///< the values that it takes; empty if they cannot be listed
+    /// The words that it takes; empty if they cannot be listed. Where it takes_file too, it takes other
+    /// words.
+    std::vector<std::string> choices{};
     std::string description;
     std::string default_value;  ///< empty if there is none
     std::string group;          ///< the heading above it in --help

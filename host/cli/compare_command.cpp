@@ -148,13 +148,9 @@ ExitCode run_compare(const CompareOptions& options, const GlobalOptions& global)
 
 void add_what_options(CLI::App& command, CompareOptions& options) {
     CompareSettings& settings = options.settings;
-    std::string names;
-    for (const Method& method : all_methods()) {
-        names += (names.empty() ? "" : ", ") + to_string(method);
-    }
     command
         .add_option("--samplers", options.samplers,
-                    "Samplers to compare, comma-separated (default: all): " + names)
+                    "Samplers to compare, comma-separated (default: all): " + to_string(all_methods()))
         ->type_name("LIST");
     command
         .add_option(

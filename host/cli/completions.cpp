@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/completions.h"
+#include "host/base/words.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,12 +10,8 @@ namespace {
 
 constexpr const char* kMadeBy = "# Made from the options of the program.\n";
 
-std::string words_of(const std::vector<std::string>& words, const char* separator = " ") {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : separator) + word;
-    }
-    return text;
+std::string words_of(const std::vector<std::string>& words) {
+    return joined(words, " ");
 }
 
 /// Calls `visit` with every command that has no parts, and with those that have.
@@ -67,9 +64,13 @@ std::string bash_values(const CommandFacts& command) {
         if (option.is_positional || option.is_flag()) {
             continue;
         }
-        const std::string values = option.takes_file ? "@files" : words_of(option.choices);
+        std::vector<std::string> values = option.choices;
+        if (option.takes_file) {
+            values.insert(values.begin(), "@files");
+        }
         for (const std::string& name : option.names) {
-            text += "        '" + command.full_name + " " + name + "') values='" + values + "' ;;\n";
+            text +=
+                "        '" + command.full_name + " " + name + "') values='" + words_of(values) + "' ;;\n";
         }
     }
     return text;
@@ -82,9 +83,11 @@ std::string zsh_option(const OptionFacts& option) {
     for (const char c : {'[', ']'}) {
         std::erase(title, c);
     }
-    const std::string action = option.takes_file         ? "_files"
-                               : !option.choices.empty() ? "(" + words_of(option.choices) + ")"
-                                                         : " ";
+    const std::string words = words_of(option.choices);
+    std::string action = words.empty() ? " " : "(" + words + ")";
+    if (option.takes_file) {
+        action = words.empty() ? "_files" : "{_files; compadd -- " + words + "}";
+    }
     const std::string stars = option.is_repeated ? "*" : "";
     std::string text;
     for (const std::string& name : option.names) {
@@ -134,17 +137,10 @@ std::string zsh_command(const CommandFacts& command) {
 /// The condition under which fish offers the options of a command: its words were given, and none of its
 /// parts.
 std::string fish_condition(const CommandFacts& command) {
-    std::string text;
-    std::string word;
-    const std::string names = command.full_name.substr(command.full_name.find(' ') + 1);
-    for (const char c : names + " ") {
-        if (c == ' ') {
-            text += (text.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
-            word.clear();
-        } else {
-            word += c;
-        }
-    }
+    std::vector<std::string> words = split(command.full_name, ' ');
+    words.erase(words.begin());
+    const std::string text = joined(
+        words, "; and ", [](const std::string& word) { return "__fish_seen_subcommand_from " + word; });
     return command.parts.empty()
                ? text
                : text + "; and not __fish_seen_subcommand_from " + words_of(part_names(command));
@@ -156,9 +152,8 @@ std::string fish_option(const OptionFacts& option, const std::string& condition)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
     if (!option.is_flag()) {
-        text += option.takes_file         ? " -rF"
-                : !option.choices.empty() ? " -xa '" + words_of(option.choices) + "'"
-                                          : " -x";
+        text += option.takes_file ? " -rF" : " -x";
+        text += option.choices.empty() ? "" : " -a '" + words_of(option.choices) + "'";
     }
     return text + " -d " + quoted_text(brief(option.description), "\\'") + "\n";
 }
@@ -187,9 +182,12 @@ std::string bash_completion(const CommandFacts& program) {
 )") + values +
            R"(        *) values='@none' ;;
     esac
-    if [[ $values == @files || ($values == @none && $current != -* && -z $parts) ]]; then
+    if [[ $values == @none && $current != -* && -z $parts ]]; then
+        values=@files
+    fi
+    if [[ $values == @files* ]]; then
         compopt -o filenames 2>/dev/null
-        mapfile -t COMPREPLY < <(compgen -f -- "$current")
+        mapfile -t COMPREPLY < <(compgen -f -W "${values#@files}" -- "$current")
     elif [[ $values == @none ]]; then
         if [[ $current == -* ]]; then
             parts=$options

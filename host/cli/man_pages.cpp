@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/man_pages.h"
+#include "host/base/words.h"
 
 #include <algorithm>
 #include <cctype>
@@ -46,14 +47,6 @@ out of memory
 interrupted; the partial picture was saved
 )";
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : separator) + word;
-    }
-    return text;
-}
-
 /// Text without characters that have a meaning in man(7). A dash becomes one that can be copied to a shell.
 std::string escaped(const std::string& text) {
     std::string result;
@@ -86,12 +79,11 @@ std::string synopsis(const CommandFacts& command) {
 }
 
 std::string option_entry(const OptionFacts& option) {
-    std::vector<std::string> names;
-    for (const std::string& name : option.names) {
-        names.push_back((option.is_positional ? "\\fI" : "\\fB") + escaped(name) + "\\fR");
-    }
+    const auto marked = [&](const std::string& name) {
+        return (option.is_positional ? "\\fI" : "\\fB") + escaped(name) + "\\fR";
+    };
     const bool shows_value = !option.is_positional && !option.value.empty();
-    std::string text = ".TP\n" + joined(names, ", ") +
+    std::string text = ".TP\n" + joined(option.names, ", ", marked) +
                        (shows_value ? " \\fI" + escaped(option.value) + "\\fR" : "") + "\n" +
                        escaped(option.description);
     if (!option.default_value.empty() && option.description.find("(default") == std::string::npos) {

@@ -6,6 +6,7 @@
 
 #include "host/base/hash.h"
 #include "host/base/memory.h"
+#include "host/base/words.h"
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
 #include "host/cli/picture_files.h"
@@ -16,14 +17,14 @@ namespace {
 
 /// The results of `text` for all devices, separated by commas and without duplicates.
 template <typename Text>
-std::string joined(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
+std::string text_of_devices(const std::vector<std::unique_ptr<Device>>& devices, const Text& text) {
     std::vector<std::string> parts;
     for (const auto& device : devices) {
         if (const std::string part = text(device->entry()); std::ranges::find(parts, part) == parts.end()) {
             parts.push_back(part);
         }
     }
-    return fmt::format("{}", fmt::join(parts, ", "));
+    return joined(parts, ", ");
 }
 
 /// The share of one device in all finished bands.
@@ -79,8 +80,10 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
     metadata["nearlight:filter"] = to_string(view.scene_camera.filter.kind);
     metadata["nearlight:seed"] = static_cast<int>(settings.seed);
-    metadata["nearlight:device"] = joined(devices, [](const DeviceEntry& entry) { return entry.label(); });
-    metadata["nearlight:driver"] = joined(devices, [](const DeviceEntry& entry) { return entry.driver; });
+    metadata["nearlight:device"] =
+        text_of_devices(devices, [](const DeviceEntry& entry) { return entry.label(); });
+    metadata["nearlight:driver"] =
+        text_of_devices(devices, [](const DeviceEntry& entry) { return entry.driver; });
     metadata["nearlight:sceneHash"] = hex_digits(scene_hash);
     metadata["nearlight:commandLine"] = command_line;
     return metadata;

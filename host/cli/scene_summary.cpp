@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/base/words.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
 #include "kernels/shared/film_layers.h"
@@ -101,11 +102,10 @@ std::string text_bytes(std::uint64_t bytes) {
 }
 
 std::string text_parts(const MemoryEstimate::Parts& parts) {
-    std::string text = text_bytes(total(parts)) + " (";
-    for (const auto& [name, bytes] : parts) {
-        text += fmt::format("{}{} {}", &bytes == &parts.front().second ? "" : ", ", name, text_bytes(bytes));
-    }
-    return text + ")";
+    const auto text_of = [](const auto& part) {
+        return fmt::format("{} {}", part.first, text_bytes(part.second));
+    };
+    return text_bytes(total(parts)) + " (" + joined(parts, ", ", text_of) + ")";
 }
 
 Json json_parts(const MemoryEstimate::Parts& parts) {
@@ -289,10 +289,9 @@ nlohmann::ordered_json scene_summary_json(const Scene& scene) {
 }
 
 std::string scene_summary_text(const Scene& scene) {
-    std::string materials;
-    for (const auto& [kind, count] : count_materials(scene)) {
-        materials += fmt::format("{}{} {}", materials.empty() ? "" : ", ", count, kind);
-    }
+    const std::string materials = joined(count_materials(scene), ", ", [](const auto& kind) {
+        return fmt::format("{} {}", kind.second, kind.first);
+    });
     const LightCounts lights = count_lights(scene);
     const Aabb box = bounds(scene);
     const MemoryEstimate memory = estimate_memory(scene);

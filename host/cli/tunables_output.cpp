@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/tunables_output.h"
+#include "host/base/words.h"
 
 namespace nearlight::core {
 
@@ -18,12 +19,9 @@ nlohmann::ordered_json to_json(const ChosenTunables& chosen) {
 }
 
 std::string to_text(const Tunables& tunables) {
-    std::string text;
-    for (const TunableField& field : tunable_fields()) {
-        text += (text.empty() ? "" : ", ") + std::string(field.name) + " " +
-                std::to_string(tunables.*field.value);
-    }
-    return text;
+    return joined(tunable_fields(), ", ", [&](const TunableField& field) {
+        return std::string(field.name) + " " + std::to_string(tunables.*field.value);
+    });
 }
 
 }  // namespace nearlight::core

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/base/words.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -12,6 +13,10 @@ namespace nearlight::core {
 std::string to_string(const Method& method) {
     const std::string sampler = to_string(method.sampler);
     return method.policy ? fmt::format("{}:{}", sampler, to_string(*method.policy)) : sampler;
+}
+
+std::string to_string(std::span<const Method> methods) {
+    return joined(methods, ", ", [](const Method& method) { return to_string(method); });
 }
 
 std::string file_stem(const Method& method) {
@@ -44,15 +49,13 @@ Method parse_method(std::string_view name) {
     if (name == to_string(SamplerKind::close_range)) {
         return default_method();
     }
-    std::string known;
     for (const Method& method : all_methods()) {
         if (name == to_string(method)) {
             return method;
         }
-        known += (known.empty() ? "" : ", ") + to_string(method);
     }
     throw Error(ErrorKind::invalid_argument,
-                "unknown sampler '" + std::string(name) + "'; choose one of: " + known);
+                "unknown sampler '" + std::string(name) + "'; choose one of: " + to_string(all_methods()));
 }
 
 }  // namespace nearlight::core

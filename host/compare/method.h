@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct Method {
 
 /// Name of the method, for example "close-range:partition" or "instant-radiosity".
 std::string to_string(const Method& method);
+/// The names of several, with commas between them.
+std::string to_string(std::span<const Method> methods);
 /// Name of the method in letters, digits and '-', for names of files.
 std::string file_stem(const Method& method);
 

@@ -4,24 +4,13 @@
 #include <algorithm>
 #include <charconv>
 
+#include "host/base/words.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
 
 constexpr uint kMaxVpls = 50'000'000;
-
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> items(1);
-    for (const char c : list) {
-        if (c == ',') {
-            items.emplace_back();
-        } else {
-            items.back() += c;
-        }
-    }
-    return items;
-}
 
 template <typename Number>
 std::optional<Number> whole_number(const std::string& text) {
@@ -67,14 +56,10 @@ void check_baseline(const CompareSettings& settings) {
         settings.methods.end()) {
         return;
     }
-    std::string names;
-    for (const Method& method : settings.methods) {
-        names += (names.empty() ? "" : ", ") + to_string(method);
-    }
-    throw Error(
-        ErrorKind::invalid_argument,
-        "the baseline " + to_string(settings.baseline) + " is not among the samplers to compare: " + names,
-        "baseline");
+    throw Error(ErrorKind::invalid_argument,
+                "the baseline " + to_string(settings.baseline) +
+                    " is not among the samplers to compare: " + to_string(settings.methods),
+                "baseline");
 }
 
 std::size_t min_reference_vpls(const CompareSettings& settings) {
@@ -121,7 +106,7 @@ void check_reference(const CompareSettings& settings) {
 
 std::vector<Method> parse_methods(const std::string& list) {
     std::vector<Method> methods;
-    for (const std::string& name : split(list)) {
+    for (const std::string& name : split(list, ',')) {
         methods.push_back(parse_method(name));
     }
     refuse_twins(methods, "samplers", [](const Method& method) { return to_string(method); });
@@ -130,7 +115,7 @@ std::vector<Method> parse_methods(const std::string& list) {
 
 std::vector<uint> parse_vpl_counts(const std::string& list) {
     std::vector<uint> counts;
-    for (const std::string& item : split(list)) {
+    for (const std::string& item : split(list, ',')) {
         counts.push_back(parse_vpl_count(item));
     }
     refuse_twins(counts, "vpls", [](uint count) { return std::to_string(count); });
@@ -140,7 +125,7 @@ std::vector<uint> parse_vpl_counts(const std::string& list) {
 
 Crop parse_crop(const std::string& text) {
     std::vector<int> numbers;
-    for (const std::string& item : split(text)) {
+    for (const std::string& item : split(text, ',')) {
         const std::optional<int> number = whole_number<int>(item);
         if (!number || *number < 0 || *number > 65536) {
             numbers.clear();

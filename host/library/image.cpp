@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/words.h"
 #include "host/image/exposure_meter.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
@@ -97,12 +98,9 @@ Image layer(const Image& image, std::string_view name) {
         }
     }
     if (selected.empty()) {
-        std::string there;
-        for (const std::string& known : layer_names(image)) {
-            there += (there.empty() ? "" : ", ") + known;
-        }
         throw Error(ErrorKind::invalid_argument,
-                    "the image has no layer '" + std::string(name) + "'; there are: " + there);
+                    "the image has no layer '" + std::string(name) +
+                        "'; there are: " + core::joined(layer_names(image), ", "));
     }
     return select_channels(image, selected);
 }

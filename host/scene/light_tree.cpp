@@ -29,7 +29,7 @@ struct NormalCone {
 };
 
 /// A cone that contains both.
-NormalCone joined(const NormalCone& a, const NormalCone& b) {
+NormalCone cone_of_both(const NormalCone& a, const NormalCone& b) {
     if (a.angle < 0.0 || b.angle < 0.0) {
         return a.angle < 0.0 ? b : a;
     }
@@ -63,7 +63,7 @@ struct LightBounds {
 
     void extend(const LightBounds& other) {
         box.extend(other.box);
-        cone = joined(cone, other.cone);
+        cone = cone_of_both(cone, other.cone);
         power += other.power;
     }
     /// The cost of a node with these lights: its power, the area of its box, and the solid angle into which

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/pixel_filter.h"
+#include "host/base/words.h"
 
 #include <algorithm>
 #include <array>
@@ -90,11 +91,7 @@ std::optional<FilterKind> filter_kind(const std::string& name) {
 }
 
 std::string filter_names() {
-    std::string names;
-    for (const FilterEntry& entry : kFilters) {
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    }
-    return names;
+    return joined(kFilters, ", ", &FilterEntry::name);
 }
 
 void fill_filter_tables(const PixelFilter& filter, std::span<float> absolute, std::span<float> with_sign) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
+#include "host/base/words.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/settings.h"
@@ -19,11 +20,10 @@ std::string text_of(const DeviceInfo& info) {
 }
 
 std::string text_of(const Devices& devices) {
-    std::string text;
-    for (const DeviceInfo& info : devices.infos()) {
-        text += (text.empty() ? "" : ", ") + info.name + (info.part.empty() ? "" : ", " + info.part);
-    }
-    return "<nearlight.Devices: " + text + ">";
+    const auto name_of = [](const DeviceInfo& info) {
+        return info.name + (info.part.empty() ? "" : ", " + info.part);
+    };
+    return "<nearlight.Devices: " + core::joined(devices.infos(), ", ", name_of) + ">";
 }
 
 void add_device_info(py::module_& module) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/base/words.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
@@ -100,12 +101,8 @@ SharedImage image_of(const py::object& values, const std::optional<std::vector<s
 }
 
 std::string text_of(const Image& image) {
-    std::string layers;
-    for (const std::string& name : layer_names(image)) {
-        layers += (layers.empty() ? "" : ", ") + name;
-    }
     return "<nearlight.Image " + std::to_string(image.width) + "x" + std::to_string(image.height) + ": " +
-           layers + ">";
+           core::joined(layer_names(image), ", ") + ">";
 }
 
 void write(const Image& image, const py::object& file, const py::object& options, const py::kwargs& fields) {

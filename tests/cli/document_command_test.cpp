@@ -39,6 +39,7 @@ CommandFacts small_program() {
     part.add_option("--switch", text, "On [or] off")
         ->check(CLI::IsMember({"on", "off"}))
         ->type_name("on|off");
+    part.add_option("--light", text, "Light")->type_name("FILE|sky|COLOR");
     part.add_option("-o,--output", text, "A file (with a back\\slash)")->type_name("OUT")->required();
     part.add_flag("--flag", flag, ".begins with a dot");
     part.add_option("SCENE", text, "A scene")->required();
@@ -61,6 +62,9 @@ TEST(CommandFacts, AreThoseOfTheParser) {
     EXPECT_THAT(options["--number"].choices, ElementsAre("one", "two"));
     EXPECT_THAT(options["--switch"].choices, ElementsAre("on", "off"));
     EXPECT_EQ(options["--switch"].value, "on|off");
+    EXPECT_THAT(options["--light"].choices, ElementsAre("sky"));
+    EXPECT_TRUE(options["--light"].takes_file);
+    EXPECT_FALSE(options["--switch"].takes_file);
     EXPECT_THAT(options["--output"].names, ElementsAre("-o", "--output"));
     EXPECT_TRUE(options["--output"].takes_file);
     EXPECT_TRUE(options["--output"].is_required);
@@ -91,6 +95,13 @@ class Documents : public testing::Test {
     static std::filesystem::path folder() { return *folder_ / "documents"; }
     static bool has(const std::string& program) {
         return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
+    }
+    /// Expects that the command succeeds and says nothing.
+    static void expect_silence(const std::string& command) {
+        const TemporaryFolder scratch;
+        const std::string out = (scratch / "out").string();
+        EXPECT_EQ(std::system((command + " >" + out + " 2>&1").c_str()), 0) << command;
+        EXPECT_EQ(file_text(out), "") << command;
     }
 
     /// What bash offers for the last of these words.
@@ -160,27 +171,41 @@ TEST_F(Documents, BashCompletes) {
     EXPECT_THAT(bash_offers("nearlight render --sampler m"), ElementsAre("metropolis"));
     EXPECT_THAT(bash_offers("nearlight render sce"), ElementsAre("scene.xml"));
     EXPECT_THAT(bash_offers("nearlight render -o sce"), ElementsAre("scene.xml"));
+    EXPECT_THAT(bash_offers("nearlight render --environment s"), ElementsAre("scene.xml", "sky"));
     EXPECT_THAT(bash_offers("nearlight --json info sce"), ElementsAre("scene.xml"));
     EXPECT_THAT(bash_offers("nearlight render --seed ''"), ElementsAre(""));
 }
 
-TEST_F(Documents, ShellsAndManReadThem) {
-    const auto passes = [](const std::string& command) {
-        const TemporaryFolder scratch;
-        const std::string out = (scratch / "out").string();
-        EXPECT_EQ(std::system((command + " >" + out + " 2>&1").c_str()), 0) << command;
-        EXPECT_EQ(file_text(out), "") << command;
-    };
-    if (has("zsh")) {
-        passes("zsh -n " + quoted(folder() / "_nearlight"));
+TEST_F(Documents, ZshReadsThem) {
+    if (!has("zsh")) {
+        GTEST_SKIP() << "no zsh (Debian's zsh)";
     }
-    if (has("fish")) {
-        passes("fish -c 'source '" + quoted(folder() / "nearlight.fish"));
+    expect_silence("zsh -n " + quoted(folder() / "_nearlight"));
+}
+
+TEST_F(Documents, FishCompletes) {
+    if (!has("fish")) {
+        GTEST_SKIP() << "no fish (Debian's fish)";
     }
-    if (has("groff")) {
-        for (const auto& page : std::filesystem::directory_iterator(folder() / "man")) {
-            passes("groff -man -Tutf8 -ww -z " + quoted(page.path()));
-        }
+    const std::string source = "fish -c 'source '" + quoted(folder() / "nearlight.fish");
+    expect_silence(source);
+    const TemporaryFolder scratch;
+    std::ofstream(scratch / "scene.xml") << "";
+    const std::string out = (scratch / "out").string();
+    ASSERT_EQ(std::system(("cd " + quoted(scratch / ".") + " && " + source +
+                           "'; complete -C \"nearlight render --environment s\"' >" + out)
+                              .c_str()),
+              0);
+    EXPECT_THAT(file_text(out), HasSubstr("sky\t"));
+    EXPECT_THAT(file_text(out), HasSubstr("scene.xml"));
+}
+
+TEST_F(Documents, ManReadsThem) {
+    if (!has("groff")) {
+        GTEST_SKIP() << "no groff (Debian's groff-base)";
+    }
+    for (const auto& page : std::filesystem::directory_iterator(folder() / "man")) {
+        expect_silence("groff -man -Tutf8 -ww -z " + quoted(page.path()));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/base/words.h"
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/spectra.h"
 #include "host/scene/mitsuba/values.h"
@@ -234,15 +235,17 @@ class Reader {
 
     /// A name that the file does not have is misspelt.
     void check_parameters(const std::filesystem::path& path) const {
-        std::string known;
+        std::vector<std::string> known;
         for (const auto& [name, parameter] : parameters_) {
-            known += parameter.is_known ? (known.empty() ? "" : ", ") + name : "";
+            if (parameter.is_known) {
+                known.push_back(name);
+            }
         }
         for (const auto& [name, parameter] : parameters_) {
             if (!parameter.is_known) {
                 throw Error(ErrorKind::invalid_argument,
                             path.string() + ": has no parameter '" + name + "'; " +
-                                (known.empty() ? "it has none" : "it has: " + known));
+                                (known.empty() ? "it has none" : "it has: " + joined(known, ", ")));
             }
         }
     }
