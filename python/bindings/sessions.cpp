@@ -87,6 +87,14 @@ std::shared_ptr<PyVplSet> sample(PySession& self, const PyView& view, const py::
         in_turn(*self.turns(), [&] { return self.get().sample(view.get(), chosen, number); }), self.turns());
 }
 
+void save_vpls(PySession& self, const PyVplSet& vpls, const py::object& file) {
+    const std::filesystem::path path = to_path(file);
+    in_turn(*self.turns(), [&] {
+        self.get().save_vpls(vpls.get(), path);
+        return true;  // in_turn() needs a result
+    });
+}
+
 SharedPicture gather(PySession& self, const PyView& view, const PyVplSet& vpls, const py::object& settings,
                      const py::object& seed, py::object progress, const py::kwargs& fields) {
     const GatherSettings chosen = settings_of<GatherSettings>("gather", settings, fields);
@@ -242,6 +250,9 @@ void add_sessions(py::module_& module) {
              "sample(self, view, settings=None, *, seed=0, **fields)\n--\n\n"
              "Places virtual point lights for a view: a VplSet.\n\nsettings: SamplingSettings; fields are "
              "theirs.")
+        .def("save_vpls", &save_vpls, py::arg("vpls"), py::arg("file"),
+             "save_vpls(self, vpls, file)\n--\n\n"
+             "Writes VPLs to a PLY file, from which sample(view, file=...) takes them again.")
         .def("gather", &gather, py::arg("view"), py::arg("vpls"), py::arg("settings") = py::none(),
              py::kw_only(), py::arg("seed") = 0, py::arg("progress") = py::none(),
              "gather(self, view, vpls, settings=None, *, seed=0, progress=None, **fields)\n--\n\n"

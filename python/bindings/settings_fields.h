@@ -67,7 +67,9 @@ struct FieldsOf<SamplingSettings> {
         Field{"set_count", &SamplingSettings::set_count,
               "about how many VPLs the set has, with cuts; None: 64 times vpl_count"},
         Field{"close_fraction", &SamplingSettings::close_fraction,
-              "share of VPLs in the close range, 0 to 1; None: a pilot chooses"}};
+              "share of VPLs in the close range, 0 to 1; None: a pilot chooses"},
+        Field{"file", &SamplingSettings::file,
+              "PLY file that the VPLs come from, whatever the other fields say; empty: none"}};
 };
 
 template <>

@@ -80,6 +80,7 @@ class _SamplingSettings(TypedDict, total=False):
     cuts: bool
     set_count: int | None
     close_fraction: float | None
+    file: _Path
 
 class SamplingSettings:
     def __init__(self, **fields: Unpack[_SamplingSettings]) -> None: ...
@@ -89,6 +90,7 @@ class SamplingSettings:
     cuts: bool
     set_count: int | None
     close_fraction: float | None
+    file: _Path
 
 class PixelWindow(_Settings):
     x: int = ...
@@ -353,6 +355,7 @@ class Session:
         seed: int = 0,
         **fields: Unpack[_SamplingSettings],
     ) -> VplSet: ...
+    def save_vpls(self, vpls: VplSet, file: _Path) -> None: ...
     def gather(
         self,
         view: View,

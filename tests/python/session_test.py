@@ -53,6 +53,19 @@ def test_passes_and_their_samples(session):
     assert np.array_equal(again.image.values, picture.image.values)
 
 
+def test_vpls_go_through_a_file(session, tmp_path):
+    view = session.look(width=32, height=32)
+    vpls = session.sample(view, vpl_count=100)
+    file = tmp_path / "vpls.ply"
+    session.save_vpls(vpls, file)
+    again = session.sample(view, file=file)
+    assert np.array_equal(again.lights(), vpls.lights())
+    pictures = [session.gather(view, some, samples_per_pixel=1).image.values for some in (vpls, again)]
+    assert np.array_equal(*pictures)
+    with pytest.raises(nearlight.Error, match="maximum depth"):
+        session.sample(session.look(max_depth=3), file=file)
+
+
 def test_vpls_of_one_view_light_another(session):
     view = session.look(width=33, height=33)
     vpls = session.sample(view, vpl_count=100)
