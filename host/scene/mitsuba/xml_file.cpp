@@ -40,12 +40,12 @@ std::string Element::text(const char* attribute) const {
             ++end;
         }
         const std::string name = value.substr(at + 1, end - at - 1);
-        const auto found = parameters.find(name);
-        if (found == parameters.end()) {
+        const auto found = definitions.find(name);
+        if (found == definitions.end()) {
             fail(where, "parameter '$" + name + "' has no value; give it one with -D " + name +
                             "=VALUE, or with a <default>");
         }
-        found->second.is_known = true;
+        found->second.is_used = true;
         value.replace(at, end - at, found->second.value);
         at += found->second.value.size();
     }
@@ -148,7 +148,7 @@ Mat4 read_transform(const XmlFile& file, const Element& element) {
     Mat4 transform;
     for (const pugi::xml_node& node : element.node.children()) {
         if (node.type() == pugi::node_element) {
-            transform = read_operation({node, file.location(node), element.parameters}) * transform;
+            transform = read_operation({node, file.location(node), element.definitions}) * transform;
         }
     }
     return transform;

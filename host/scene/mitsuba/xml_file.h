@@ -32,18 +32,18 @@ class XmlFile {
 };
 
 /// The value that stands for a $name.
-struct Parameter {
+struct Definition {
     std::string value;
-    mutable bool is_known = false;  ///< whether the file has the $name, or a <default> for it
+    mutable bool is_used = false;  ///< the file has the $name, or a <default> for it
 };
 /// By name.
-using Parameters = std::map<std::string, Parameter>;
+using Definitions = std::map<std::string, Definition>;
 
 /// An element whose attributes are read with $names replaced.
 struct Element {
     pugi::xml_node node;
     Location where;
-    const Parameters& parameters;
+    const Definitions& definitions;
 
     [[nodiscard]] bool has(const char* attribute) const { return !node.attribute(attribute).empty(); }
     /// The text of an attribute; "" if there is no such attribute. Calls fail() for an undefined $name.

@@ -8,6 +8,7 @@
 #include "host/scene/mitsuba/spectra.h"
 #include "host/scene/mitsuba/values.h"
 #include "host/scene/mitsuba/xml_file.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
@@ -42,7 +43,7 @@ class Reader {
   public:
     Reader(const std::map<std::string, std::string>& values, NoteSink& notes) : notes_(notes) {
         for (const auto& [name, value] : values) {
-            parameters_.emplace(name, Parameter{value});
+            definitions_.emplace(name, Definition{value});
         }
     }
 
@@ -52,7 +53,7 @@ class Reader {
             fail(file.location(file.root()), "not a Mitsuba scene: the outermost element should be <scene>");
         }
         document_.scene = read_object(file, file.root(), 0);
-        check_parameters(path);
+        check_definitions(path);
         for (const auto& object : document_.objects) {
             resolve(*object);
         }
@@ -65,7 +66,7 @@ class Reader {
 
   private:
     const Object* read_object(const XmlFile& file, const pugi::xml_node& node, int depth) {
-        const Element element{node, file.location(node), parameters_};
+        const Element element{node, file.location(node), definitions_};
         if (depth > kMaxXmlDepth) {
             fail(element.where, "elements are nested too deeply");
         }
@@ -101,7 +102,7 @@ class Reader {
     void read_children(const XmlFile& file, const pugi::xml_node& parent, Object& object, int depth) {
         for (const pugi::xml_node& node : parent.children()) {
             if (node.type() == pugi::node_element) {
-                read_child(file, {node, file.location(node), parameters_}, object, depth);
+                read_child(file, {node, file.location(node), definitions_}, object, depth);
             }
         }
     }
@@ -109,8 +110,8 @@ class Reader {
     void read_child(const XmlFile& file, const Element& element, Object& parent, int depth) {
         const std::string tag = element.node.name();
         if (tag == "default") {
-            parameters_.emplace(element.required("name"), Parameter{element.required("value")})
-                .first->second.is_known = true;
+            definitions_.emplace(element.required("name"), Definition{element.required("value")})
+                .first->second.is_used = true;
         } else if (tag == "include") {
             include(resolve_path(*element.where.file, element.required("filename")), element, parent, depth);
         } else if (tag == "alias") {
@@ -142,7 +143,7 @@ class Reader {
         if (file.root().name() == std::string("scene")) {
             read_children(file, file.root(), parent, depth + 1);
         } else {
-            read_child(file, {file.root(), file.location(file.root()), parameters_}, parent, depth + 1);
+            read_child(file, {file.root(), file.location(file.root()), definitions_}, parent, depth + 1);
         }
     }
 
@@ -234,15 +235,15 @@ class Reader {
     }
 
     /// A name that the file does not have is misspelt.
-    void check_parameters(const std::filesystem::path& path) const {
+    void check_definitions(const std::filesystem::path& path) const {
         std::vector<std::string> known;
-        for (const auto& [name, parameter] : parameters_) {
-            if (parameter.is_known) {
+        for (const auto& [name, definition] : definitions_) {
+            if (definition.is_used) {
                 known.push_back(name);
             }
         }
-        for (const auto& [name, parameter] : parameters_) {
-            if (!parameter.is_known) {
+        for (const auto& [name, definition] : definitions_) {
+            if (!definition.is_used) {
                 throw Error(ErrorKind::invalid_argument,
                             path.string() + ": has no parameter '" + name + "'; " +
                                 (known.empty() ? "it has none" : "it has: " + joined(known, ", ")));
@@ -250,7 +251,7 @@ class Reader {
         }
     }
 
-    Parameters parameters_;
+    Definitions definitions_;
     NoteSink& notes_;
     Document document_;
     std::map<std::string, const Object*> by_id_;
@@ -258,9 +259,9 @@ class Reader {
 
 }  // namespace
 
-Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
+Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                   NoteSink& notes) {
-    return Reader(parameters, notes).read_scene(file);
+    return Reader(definitions, notes).read_scene(file);
 }
 
 }  // namespace nearlight::core::mitsuba

@@ -10,9 +10,9 @@
 
 namespace nearlight::core::mitsuba {
 
-/// Reads the scene as objects. The values of $names in `parameters` win over <default>. Throws
+/// Reads the scene as objects. The values of $names in `definitions` win over <default>. Throws
 /// Error(ErrorKind::file) with file and line for anything missing, broken or unknown.
-Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& parameters,
+Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                   NoteSink& notes);
 
 }  // namespace nearlight::core::mitsuba
