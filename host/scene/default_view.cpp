@@ -14,13 +14,6 @@ constexpr Vec3 kTowardsCamera{0.45f, 0.4f, 0.8f};
 constexpr Vec3 kTowardsLamp{-0.5f, 0.8f, 0.7f};
 constexpr int kSkyWidth = 128;  // pixels
 
-bool has_light(const Scene& scene, float dimmest_lamp) {
-    return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
-           std::ranges::any_of(scene.triangles, [&](const Triangle& triangle) {
-               return max_component(scene.materials[triangle.material].emission.value) > dimmest_lamp;
-           });
-}
-
 /// The radiance of the neutral sky: grey, dark below, where the camera sees it behind things, with a wide
 /// lamp that shows their shapes.
 Vec3 neutral_radiance(Vec3 direction) {
@@ -98,8 +91,10 @@ void add_default_camera(Scene& scene, NoteSink& notes) {
     notes.remark(scene.source, 0, "the file has no camera; one that frames everything is added");
 }
 
-void add_default_light(Scene& scene, float dimmest_lamp, NoteSink& notes) {
-    if (!has_light(scene, dimmest_lamp)) {
+void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes) {
+    const bool is_lit = scene.environment.width > 0 || !scene.delta_emitters.empty() ||
+                        (surfaces_are_lamps && has_emitting_surface(scene));
+    if (!is_lit) {
         scene.environment = neutral_sky();
         notes.remark(scene.source, 0, "the file has no light; a neutral sky is added");
     }

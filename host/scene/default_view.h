@@ -13,8 +13,8 @@ SceneCamera default_camera(const Scene& scene);
 /// Adds the default camera with a remark.
 void add_default_camera(Scene& scene, NoteSink& notes);
 
-/// Adds a neutral sky with a remark if there is no other light. Surfaces count as lights if their radiance is
-/// above `dimmest_lamp`.
-void add_default_light(Scene& scene, float dimmest_lamp, NoteSink& notes);
+/// Adds a neutral sky with a remark if there is no other light. Surfaces that shine count as lights if
+/// `surfaces_are_lamps`.
+void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes);
 
 }  // namespace nearlight::core

@@ -177,11 +177,6 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
 }
 
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    if (!options.parameters.empty()) {
-        throw Error(ErrorKind::invalid_argument, file.string() + ": has no parameter '" +
-                                                     options.parameters.begin()->first +
-                                                     "'; OBJ files have none");
-    }
     Scene scene;
     scene.source = file;
     scene.name = file.stem().string();
@@ -194,7 +189,7 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
     choose_camera(file, {}, options.camera);
     add_default_camera(scene, notes);
     if (!options.overrides.bring_light()) {
-        add_default_light(scene, 0.0f, notes);
+        add_default_light(scene, true, notes);
     }
     scene.has_open_exposure = true;
     return scene;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
+#include <algorithm>
+
 namespace nearlight::core {
 
 std::string to_string(const Note& note) {
@@ -30,6 +32,12 @@ Sphere bounding_sphere(const Scene& scene) {
         }
     }
     return sphere;
+}
+
+bool has_emitting_surface(const Scene& scene) {
+    return std::ranges::any_of(scene.triangles, [&](const Triangle& triangle) {
+        return !is_zero(scene.materials[triangle.material].emission.value);
+    });
 }
 
 float triangle_area(const Scene& scene, const Triangle& triangle) {

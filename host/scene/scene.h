@@ -129,6 +129,8 @@ struct Sphere {
 
 /// The sphere about the centre of that box through the farthest vertex that a triangle uses.
 Sphere bounding_sphere(const Scene& scene);
+/// Whether a triangle shines.
+bool has_emitting_surface(const Scene& scene);
 /// The area of a triangle, m².
 float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian

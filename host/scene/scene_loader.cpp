@@ -26,17 +26,23 @@ std::string lower_case_extension(const std::filesystem::path& file) {
 struct Loader {
     std::string_view extension;
     Scene (*load)(const std::filesystem::path& file, const LoadOptions& options);
+    bool has_parameters;  ///< `$name` stands for a value
 };
-constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene},
-                               {".gltf", load_gltf_scene},
-                               {".glb", load_gltf_scene},
-                               {".obj", load_obj_scene}};
+constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene, true},
+                               {".gltf", load_gltf_scene, false},
+                               {".glb", load_gltf_scene, false},
+                               {".obj", load_obj_scene, false}};
+
+void refuse_parameters(const std::filesystem::path& file, const LoadOptions& options) {
+    if (!options.parameters.empty()) {
+        throw Error(ErrorKind::invalid_argument, file.string() + ": has no parameter '" +
+                                                     options.parameters.begin()->first +
+                                                     "'; only Mitsuba scenes (.xml) have parameters");
+    }
+}
 
 bool has_light(const Scene& scene) {
-    return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
-           std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& triangle) {
-               return !is_zero(scene.materials[triangle.material].emission.value);
-           });
+    return scene.environment.width > 0 || !scene.delta_emitters.empty() || has_emitting_surface(scene);
 }
 
 // Adds remarks for scenes that are odd, although their black picture is correct.
@@ -64,6 +70,9 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     if (loader == std::end(kLoaders)) {
         throw Error(ErrorKind::file, file.string() + ": unknown scene format '" + extension +
                                          "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
+    }
+    if (!loader->has_parameters) {
+        refuse_parameters(file, options);
     }
     Scene scene = loader->load(file, options);
     NoteSink notes(scene.notes, options.strict);

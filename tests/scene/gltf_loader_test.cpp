@@ -146,16 +146,20 @@ TEST_F(GltfLoader, CamerasLookAlongMinusZ) {
     EXPECT_EQ(front.height, 480);
     EXPECT_NEAR(std::tan(front.fov_x_degrees * std::numbers::pi / 360), std::tan(0.4) * 4 / 3, 1e-6);
 
-    const SceneCamera wide = load({.parameters = {{"camera", "wide"}}}).camera;
+    const SceneCamera wide = load({.camera = "wide"}).camera;
     EXPECT_EQ(wide.width, 960);
     EXPECT_NEAR(std::tan(wide.fov_x_degrees * std::numbers::pi / 360), 2 * std::tan(0.6), 1e-6);
-    EXPECT_EQ(load({.parameters = {{"camera", "front"}}}).camera.width, 640);
-    for (const auto& [name, value] : {std::pair{"camera", "back"}, {"kamera", "front"}}) {
+    EXPECT_EQ(load({.camera = "front"}).camera.width, 640);
+}
+
+TEST_F(GltfLoader, OnlyMitsubaScenesHaveParameters) {
+    for (const auto& file : {files_.write("scene.gltf", gltf_.text()), files_.write("a.obj", "v 0 0 0\n")}) {
         try {
-            load({.parameters = {{name, value}}});
-            ADD_FAILURE() << "no error";
+            load_scene(file, {.parameters = {{"camera", "front"}}});
+            ADD_FAILURE() << file;
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
+            EXPECT_THAT(error.what(), HasSubstr("has no parameter 'camera'; only Mitsuba scenes"));
         }
     }
 }

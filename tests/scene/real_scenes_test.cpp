@@ -45,7 +45,7 @@ TEST(RealScenes, FurnishedLivingRoom) {
     if (file.empty()) {
         GTEST_SKIP() << "furnished-living-room is not there; set NEARLIGHT_TEST_SCENES";
     }
-    const Scene scene = load_scene(file, {.parameters = {{"camera", "cabinets"}}, .strict = false});
+    const Scene scene = load_scene(file, {.camera = "cabinets"});
     EXPECT_EQ(scene.triangles.size(), 116817u);
     EXPECT_EQ(scene.delta_emitters.size(), 2u);
     // 11 of colours, the others of roughness, metalness and normals, of which five also serve turned over.
