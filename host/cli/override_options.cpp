@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/override_options.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 
 #include "host/cli/log.h"
+#include "host/scene/number_text.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -13,20 +14,15 @@ namespace {
 /// N numbers separated by commas, as `option` wants them.
 template <std::size_t N>
 std::array<double, N> parse_numbers(const char* option, const char* form, const std::string& text) {
-    std::array<double, N> numbers{};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t i = 0; i < N; ++i) {
-        at += at != end && *at == '+' ? 1 : 0;
-        const auto [after, error] = std::from_chars(at, end, numbers[i]);
-        const bool ends_well = i + 1 < N ? after != end && *after == ',' : after == end;
-        if (error != std::errc{} || !ends_well || !std::isfinite(numbers[i])) {
-            throw Error(ErrorKind::invalid_argument, std::string(option) + " must be " + form +
-                                                         ", finite numbers separated by commas, not '" +
-                                                         text + "'");
-        }
-        at = after == end ? end : after + 1;
+    const std::optional<std::vector<double>> given = numbers_in(text);
+    const auto is_finite = [](double number) { return std::isfinite(number); };
+    if (!given || given->size() != N || !std::ranges::all_of(*given, is_finite)) {
+        throw Error(ErrorKind::invalid_argument, std::string(option) + " must be " + form +
+                                                     ", finite numbers separated by commas, not '" + text +
+                                                     "'");
     }
+    std::array<double, N> numbers{};
+    std::ranges::copy(*given, numbers.begin());
     return numbers;
 }
 

@@ -97,8 +97,10 @@ SceneCamera posed(SceneCamera camera, const CameraPose& pose) {
         refuse_pose("it looks along its vector `up`; give another one");
     }
     const bool loses_scale = pose.fov_x_degrees && camera.kind == CameraKind::orthographic;
+    const double side = linear_determinant(camera.to_world) < 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double scale = loses_scale ? 1.0 : norm(column(camera.to_world, axis));
+        const double length = loses_scale ? 1.0 : norm(column(camera.to_world, axis));
+        const double scale = axis == 0 ? side * length : length;
         for (int row = 0; row < 3; ++row) {
             camera.to_world(row, axis) = frame(row, axis) * scale;
         }

@@ -2,20 +2,18 @@
 #include "host/scene/scene_overrides.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "host/image/color.h"
+#include "host/scene/camera.h"
+#include "host/scene/number_text.h"
 #include "host/scene/sky/sky_light.h"
 #include "host/scene/texture_loader.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
-
-using Point = std::array<double, 3>;
 
 constexpr SunPosition kSkySun{35, 45};  // of a sky without a sun
 
@@ -30,15 +28,6 @@ void check_range(double number, double low, double high, const std::string& what
 }
 
 void check(const SceneOverrides& overrides) {
-    for (const std::optional<Point>& point : {overrides.origin, overrides.target, overrides.up}) {
-        if (point && !std::ranges::all_of(*point, [](double x) { return std::abs(x) < 1e30; })) {
-            refuse("the origin, the target and the up vector of the camera must be finite numbers");
-        }
-    }
-    if (overrides.fov_degrees) {
-        check_range(*overrides.fov_degrees, 1e-3, 179.9,
-                    "the field of view must lie between 0 and 180 degrees");
-    }
     if (overrides.sun) {
         check_range(overrides.sun->elevation, 0, 90, "the sun's elevation must lie between 0 and 90 degrees");
         check_range(overrides.sun->azimuth, -1e6, 1e6,
@@ -51,106 +40,63 @@ void check(const SceneOverrides& overrides) {
     }
 }
 
-Point position_of(const Mat4& m) {
-    return {m(0, 3), m(1, 3), m(2, 3)};
+nearlight::Vec3 public_vector(const std::array<double, 3>& v) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-/// The axis of the world that is nearest to the camera's up, unless the camera is to look along it.
-Point upward_axis(const SceneCamera& camera, const Point& view) {
-    const double distance = std::hypot(view[0], view[1], view[2]);
+/// The axis of the world that is nearest to the camera's up, unless the pose looks along it.
+nearlight::Vec3 upward_axis(const SceneCamera& camera, const CameraPose& pose) {
+    const std::array<float, 3> view{pose.target.x - pose.origin.x, pose.target.y - pose.origin.y,
+                                    pose.target.z - pose.origin.z};
     int up = 1;
     for (int axis = 0; axis < 3; ++axis) {
         up = std::abs(camera.to_world(axis, 1)) > std::abs(camera.to_world(up, 1)) + 1e-6 ? axis : up;
     }
     const double sign = camera.to_world(up, 1) < 0 ? -1 : 1;
-    if (std::abs(view[static_cast<std::size_t>(up)]) > 0.9999 * distance) {
+    if (std::abs(view[static_cast<std::size_t>(up)]) > 0.9999f * std::hypot(view[0], view[1], view[2])) {
         up = up == 2 ? 1 : 2;  // straight up or down
     }
-    Point axis{0, 0, 0};
+    std::array<double, 3> axis{0, 0, 0};
     axis[static_cast<std::size_t>(up)] = sign;
-    return axis;
-}
-
-bool are_parallel(const Point& a, const Point& b) {
-    const double x = a[1] * b[2] - a[2] * b[1];
-    const double y = a[2] * b[0] - a[0] * b[2];
-    const double z = a[0] * b[1] - a[1] * b[0];
-    return !(std::hypot(x, y, z) > 1e-9 * std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]));
-}
-
-void aim(SceneCamera& camera, const Point& origin, const Point& target, const std::optional<Point>& up) {
-    const Point view{target[0] - origin[0], target[1] - origin[1], target[2] - origin[2]};
-    if (!(std::hypot(view[0], view[1], view[2]) > 0)) {
-        refuse("the camera's origin and target are the same point; give two points");
-    }
-    if (up && are_parallel(*up, view)) {
-        refuse("the camera looks along its up vector; give another one");
-    }
-    camera.to_world = look_at(origin, target, up.value_or(upward_axis(camera, view)));
-}
-
-/// A point 1 m before the camera.
-Point ahead_of(const Mat4& m) {
-    return {m(0, 3) + m(0, 2), m(1, 3) + m(1, 2), m(2, 3) + m(2, 2)};
+    return public_vector(axis);
 }
 
 void apply_camera(Scene& scene, const SceneOverrides& overrides) {
-    if (!overrides.origin && !overrides.target && !overrides.up && !overrides.fov_degrees) {
+    const bool turns = overrides.origin || overrides.target || overrides.up;
+    if (!turns && !overrides.fov_degrees) {
         return;
     }
-    SceneCamera& camera = scene.camera;
-    if (camera.kind == CameraKind::orthographic) {
-        camera.kind = CameraKind::perspective;
-        camera.fov_x_degrees = 45.0;
-    }
-    if (overrides.fov_degrees) {
-        camera.fov_x_degrees = *overrides.fov_degrees;
-        camera.center_x = camera.center_y = 0.0;
-        camera.film_part = 1.0;
-    }
-    if (overrides.origin || overrides.target || overrides.up) {
+    CameraPose pose = pose_of(scene.camera);
+    pose.fov_x_degrees = overrides.fov_degrees;
+    if (overrides.origin) {
         const Vec3 middle = bounds(scene).center();
-        const Point own = overrides.origin ? Point{middle.x, middle.y, middle.z} : ahead_of(camera.to_world);
-        aim(camera, overrides.origin.value_or(position_of(camera.to_world)), overrides.target.value_or(own),
-            overrides.up);
+        pose.origin = public_vector(*overrides.origin);
+        pose.target = {middle.x, middle.y, middle.z};
     }
-}
-
-/// Numbers separated by commas; empty if the text is anything else.
-std::vector<float> numbers_in(const std::string& text) {
-    std::vector<float> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        float number = 0;
-        const auto [after, error] = std::from_chars(at, end, number);
-        if (error != std::errc{} || (after != end && *after != ',')) {
-            return {};
-        }
-        numbers.push_back(number);
-        if (after == end) {
-            return numbers;
-        }
-        at = after + 1;
+    if (overrides.target) {
+        pose.target = public_vector(*overrides.target);
+    }
+    if (turns) {
+        pose.up = overrides.up ? public_vector(*overrides.up) : upward_axis(scene.camera, pose);
+    }
+    scene.camera = posed(scene.camera, pose);
+    if (overrides.fov_degrees) {  // that of the picture, whatever part of the film it was
+        scene.camera.center_x = scene.camera.center_y = 0.0;
+        scene.camera.film_part = 1.0;
     }
 }
 
 /// The colour that the text names as R,G,B, as one number, or as #rrggbb.
 std::optional<Vec3> color_named(const std::string& text) {
-    std::uint32_t code = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), code, 16);
-    if (text.size() == 7 && text[0] == '#' && error == std::errc{} && end == text.data() + 7) {
-        const auto channel = [&](unsigned shift) {
-            return srgb_to_linear(static_cast<float>(code >> shift & 255u) / 255.0f);
-        };
-        return Vec3{channel(16), channel(8), channel(0)};
+    if (const std::optional<Vec3> color = hex_color_in(text)) {
+        return color;
     }
-    const std::vector<float> numbers = numbers_in(text);
+    const std::vector<double> numbers = numbers_in(text).value_or(std::vector<double>{});
     if (numbers.size() != 1 && numbers.size() != 3) {
         return std::nullopt;
     }
-    const Vec3 color =
-        numbers.size() == 1 ? Vec3{1, 1, 1} * numbers[0] : Vec3{numbers[0], numbers[1], numbers[2]};
+    const Vec3 color{static_cast<float>(numbers[0]), static_cast<float>(numbers[numbers.size() / 2]),
+                     static_cast<float>(numbers.back())};
     if (!is_finite(color) || !(min(color, {0, 0, 0}) == Vec3{0, 0, 0})) {
         refuse("the colour '" + text + "' of the environment must be finite, and not below 0");
     }
@@ -207,13 +153,16 @@ void apply_environment(Scene& scene, const SceneOverrides& overrides, NoteSink& 
     for (Vec3& radiance : light.radiance) {
         radiance *= scale;
     }
-    if (!overrides.sun) {
+    // The sun of an environment belongs to it; one that is added to another environment stands where it is
+    // put.
+    const bool has_own_sun = is_sky || !overrides.sun;
+    if (has_own_sun) {
         light.sun_radiance *= scale;
     }
     if (overrides.environment_rotation != 0) {
         const Mat4 turn = rotation(0, 1, 0, overrides.environment_rotation);
         light.to_world = turn * light.to_world;
-        if (!overrides.sun) {
+        if (has_own_sun) {
             light.sun_direction = transform_vector(turn, light.sun_direction);
         }
     }

@@ -25,12 +25,17 @@ struct SceneOverrides {
     std::optional<std::array<double, 3>> target{};
     /// What points upwards in the picture; empty: the axis of the world that does so as the camera stands.
     std::optional<std::array<double, 3>> up{};
-    std::optional<double> fov_degrees{};  ///< horizontal field of view of the picture, above 0 and below 180
+    /// Horizontal field of view of the picture, above 0 and below 180, with which an orthographic camera
+    /// becomes a perspective one.
+    std::optional<double> fov_degrees{};
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.
     std::string environment{};
-    double environment_rotation = 0;   ///< degrees about +Y
-    double environment_scale = 1;      ///< of the environment, whether it is the scene's own or not
+    /// Degrees about +Y by which the environment turns, and a factor of its light, whether it is the scene's
+    /// own or not. They count for its sun as well, but not for a `sun` that is added to another environment
+    /// than `sky`.
+    double environment_rotation = 0;
+    double environment_scale = 1;
     std::optional<SunPosition> sun{};  ///< a sun, whose place the sky follows
     double light_scale = 1;            ///< of all light
 
@@ -39,7 +44,7 @@ struct SceneOverrides {
 };
 
 /// Applies them to a complete scene. Throws Error: ErrorKind::invalid_argument for a number that is not
-/// finite or out of range, or a camera that stands where it looks; ErrorKind::file for an environment that
+/// finite or out of range, or a camera that posed() refuses; ErrorKind::file for an environment that
 /// cannot be read.
 void apply_overrides(Scene& scene, const SceneOverrides& overrides, NoteSink& notes);
 

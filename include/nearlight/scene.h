@@ -32,27 +32,33 @@ struct SunPosition {
 /// How to load a scene. What says something about camera and light replaces what the file says, whatever its
 /// format; +Y is up.
 struct LoadOptions {
-    /// Values for `$NAME` in a Mitsuba scene, by name. Names that the scene does not use are ignored.
+    /// Values for `$NAME` in a Mitsuba scene, by name. A name that the scene does not have is an error, and
+    /// so is any name for a scene of another format.
     std::map<std::string, std::string> definitions{};
     /// If it is true, load() throws an Error instead of approximating something and noting that.
     bool strict = false;
     /// If it is true, light passes straight through smooth glass bodies, which is not what glass does: a
     /// picture for architects (`--glass clear`).
     bool clear_glass = false;
-    /// The camera to take: its name in the file, or its number counted from 1; empty: the first one.
+    /// The camera to take: its name in the file, or its number counted from 1; empty: the first one. Any
+    /// other name or number is an error.
     std::string camera{};
     std::optional<Vec3> origin{};  ///< where the camera stands
     /// What the camera looks at; if only the origin is given, that is the middle of the scene.
     std::optional<Vec3> target{};
-    std::optional<Vec3> up{};               ///< what points upwards in the picture
-    std::optional<double> field_of_view{};  ///< horizontal, degrees, above 0 and below 180
+    /// What points upwards in the picture; empty: the axis of the world that does so as the camera stands.
+    std::optional<Vec3> up{};
+    /// Horizontal, degrees, above 0 and below 180. With it an orthographic camera becomes a perspective one.
+    std::optional<double> field_of_view{};
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.
     std::string environment{};
-    double environment_rotation = 0.0;  ///< degrees about +Y
-    double environment_scale = 1.0;     ///< 0 or more
-    std::optional<SunPosition> sun{};   ///< a sun, whose place the environment `sky` follows
-    double light_scale = 1.0;           ///< of all light, 0 or more
+    /// Degrees about +Y by which the environment turns, and a factor of its light, 0 or more. They count for
+    /// its sun as well, but not for a `sun` that is added to another environment than `sky`.
+    double environment_rotation = 0.0;
+    double environment_scale = 1.0;
+    std::optional<SunPosition> sun{};  ///< a sun, whose place the environment `sky` follows
+    double light_scale = 1.0;          ///< of all light, 0 or more
 };
 
 /// A note about a scene that was loaded: what was approximated, or what is odd about the file.
@@ -69,10 +75,11 @@ class NEARLIGHT_API Scene {
   public:
     /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0) or .obj; names of
     /// other files in it are relative to its folder. Throws Error: ErrorKind::file if a file is missing, is
-    /// broken or has unknown content, ErrorKind::invalid_argument for a camera that is not there or a number
-    /// out of its range, or if `options.strict` forbids an approximation; ErrorKind::failure if
-    /// the library's image module, which reads textures, is missing. A texture file that cannot be read is
-    /// replaced by grey, with a note. Notes also go to the message sink (message.h).
+    /// broken or has unknown content, or if `options.strict` forbids an approximation;
+    /// ErrorKind::invalid_argument for a camera or a definition that is not there, or a number out of its
+    /// range; ErrorKind::failure if the library's image module, which reads textures, is missing. A texture
+    /// file that cannot be read is replaced by grey, with a note. Notes also go to the message sink
+    /// (message.h).
     static Scene load(const std::filesystem::path& file, const LoadOptions& options = {});
 
     /// The name of the scene's folder, or of its file.

@@ -137,6 +137,15 @@ TEST(Camera, PosesOfOrthographicCamerasKeepTheirScaleUntilTheyHaveAFieldOfView) 
     expect_same(transform_vector(perspective.to_world, {1, 0, 0}), {0, 0, -1});
 }
 
+TEST(Camera, PosesOfCamerasThatMirrorMirror) {
+    SceneCamera camera;
+    camera.to_world = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}) * scaling(-1, 1, 1);
+    const SceneCamera same = posed(camera, pose_of(camera));
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_NEAR(same.to_world.m[i], camera.to_world.m[i], 1e-6) << i;
+    }
+}
+
 TEST(Camera, RefusesWhatHasNoPicture) {
     SceneCamera camera;
     EXPECT_THROW(make_camera(camera, 0, 10), Error);

@@ -56,10 +56,35 @@ TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
         load({.origin = std::array{0.0, 9.0, 0.0}}).camera;  // at the middle, (0, 0, 0)
     EXPECT_NEAR(transform_vector(from_above.to_world, {0, 0, 1}).y, -1, 1e-6f);
     expect_refused({.origin = std::array{1.0, 2.0, 3.0}, .target = std::array{1.0, 2.0, 3.0}},
-                   "the same point");
+                   "its target is its origin");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     expect_refused({.origin = std::array{nan, 2.0, 3.0}}, "finite");
     expect_refused({.fov_degrees = 180}, "field of view");
+    EXPECT_EQ(load({.fov_degrees = 179.95}).camera.fov_x_degrees, 179.95);
+}
+
+/// The scale of an orthographic camera is half the width of what it sees, of which a lens knows nothing.
+TEST_F(Overrides, OrthographicCamerasStaySoWithoutAFieldOfView) {
+    const auto camera = [&](const SceneOverrides& overrides) {
+        LoadOptions options;
+        options.overrides = overrides;
+        return files_
+            .load_xml(
+                "<shape type='rectangle'/><sensor type='orthographic'><transform name='to_world'>"
+                "<scale value='7'/><lookat origin='0,0,4' target='0,0,0' up='0,1,0'/></transform></sensor>",
+                options)
+            .camera;
+    };
+    const SceneCamera moved = camera({.origin = std::array{0.0, 0.0, -3.0}});
+    EXPECT_EQ(moved.kind, CameraKind::orthographic);
+    EXPECT_NEAR(length(transform_vector(moved.to_world, {1, 0, 0})), 7, 1e-5f);
+    EXPECT_NEAR(transform_vector(moved.to_world, {0, 0, 1}).z, 7, 1e-5f);
+    const SceneCamera wide = camera({.fov_degrees = 80});
+    EXPECT_EQ(wide.kind, CameraKind::perspective);
+    EXPECT_EQ(wide.fov_x_degrees, 80);
+    EXPECT_NEAR(length(transform_vector(wide.to_world, {1, 0, 0})), 1, 1e-6f);
+    EXPECT_NEAR(transform_point(wide.to_world, {0, 0, 0}).z, 4, 1e-6f);
+    EXPECT_NEAR(transform_vector(wide.to_world, {0, 0, 1}).z, -1, 1e-6f);
 }
 
 TEST_F(Overrides, SensorsByNameAndNumber) {
@@ -124,6 +149,25 @@ TEST_F(Overrides, TheSunStandsWhereItIsPut) {
     const Vec3 direction = transform_vector(sky.to_world, {std::sin(phi), 0, -std::cos(phi)});
     EXPECT_GT(direction.x, 0.95f);
     expect_refused({.sun = SunPosition{0, -5}}, "elevation");
+}
+
+TEST_F(Overrides, TheSkyTurnsAndDimsWithItsSunAndOtherEnvironmentsWithoutIt) {
+    const auto turned = [&](const std::string& environment) {
+        return load({.environment = environment,
+                     .environment_rotation = 90,
+                     .environment_scale = 0.5,
+                     .sun = SunPosition{90, 0}})
+            .environment;
+    };
+    const EnvironmentLight straight = load({.environment = "sky", .sun = SunPosition{90, 0}}).environment;
+    const EnvironmentLight sky = turned("sky");
+    EXPECT_NEAR(sky.sun_direction.z, -1, 1e-5f);  // from +X on about +Y
+    EXPECT_EQ(sky.sun_radiance, straight.sun_radiance * 0.5f);
+    EXPECT_EQ(sky.radiance[10], straight.radiance[10] * 0.5f);
+    const EnvironmentLight other = turned("1,1,1");
+    EXPECT_NEAR(other.sun_direction.x, 1, 1e-5f);
+    EXPECT_EQ(other.sun_radiance, straight.sun_radiance);
+    EXPECT_EQ(other.radiance[0], (Vec3{0.5f, 0.5f, 0.5f}));
 }
 
 TEST_F(Overrides, AllLightIsScaled) {

@@ -2,12 +2,8 @@
 #include "host/scene/mitsuba/values.h"
 
 #include <cctype>
-#include <charconv>
-#include <sstream>
 
-#include "host/scene/file_text.h"
-#include "host/scene/texture.h"
-#include "nearlight/error.h"
+#include "host/scene/number_text.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
@@ -46,22 +42,11 @@ std::string lower_case(std::string text) {
 }
 
 double parse_number(const std::string& text, const Location& where) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n+");
-    const std::size_t last = text.find_last_not_of(" \t\r\n");
-    double value = 0.0;
-    if (first != std::string::npos) {
-        const char* end = text.data() + last + 1;
-        const auto [stop, error] = std::from_chars(text.data() + first, end, value);
-        if (error == std::errc() && stop == end && std::isfinite(value)) {
-            return value;
-        }
-        if (error == std::errc::result_out_of_range && stop == end &&
-            text.find_first_of("eE") != std::string::npos &&
-            text.find("-", text.find_first_of("eE")) != std::string::npos) {
-            return 0.0;  // too small for a double
-        }
+    const std::optional<double> number = number_in(text);
+    if (!number || !std::isfinite(*number)) {
+        fail(where, "'" + text + "' is not a finite number");
     }
-    fail(where, "'" + text + "' is not a finite number");
+    return *number;
 }
 
 std::vector<double> parse_numbers(const std::string& text, const Location& where) {
@@ -74,14 +59,8 @@ std::vector<double> parse_numbers(const std::string& text, const Location& where
 
 Color parse_rgb(const std::string& text, const Location& where) {
     const std::vector<std::string> words = split_words(text);
-    if (words.size() == 1 && words[0].size() == 7 && words[0][0] == '#') {
-        std::uint32_t code = 0;
-        const char* end = words[0].data() + 7;
-        if (std::from_chars(words[0].data() + 1, end, code, 16).ptr == end) {
-            const std::uint32_t texel = (code >> 16) | (code & 0xff00u) | ((code & 0xffu) << 16);
-            const Vec3 rgb = decode_texel(texel);
-            return {rgb, rgb};
-        }
+    if (const std::optional<Vec3> rgb = hex_color_in(words.size() == 1 ? words[0] : text)) {
+        return {*rgb, *rgb};
     }
     const std::vector<double> n = parse_numbers(text, where);
     if (n.size() != 1 && n.size() != 3) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/number_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "host/scene/texture.h"
+
+namespace nearlight::core {
+
+std::optional<double> number_in(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n+");
+    const std::size_t last = text.find_last_not_of(" \t\r\n");
+    if (first == std::string::npos) {
+        return std::nullopt;
+    }
+    double value = 0.0;
+    const char* const end = text.data() + last + 1;
+    const auto [stop, error] = std::from_chars(text.data() + first, end, value);
+    if (stop != end) {
+        return std::nullopt;
+    }
+    if (error == std::errc::result_out_of_range) {
+        const std::size_t exponent = text.find_first_of("eE");
+        const bool is_tiny = exponent != std::string::npos && text.find('-', exponent) != std::string::npos;
+        return is_tiny ? 0.0 : HUGE_VAL;
+    }
+    return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::vector<double>> numbers_in(const std::string& text) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::optional<double> number = number_in(text.substr(begin, end - begin));
+        if (!number) {
+            return std::nullopt;
+        }
+        numbers.push_back(*number);
+        begin = end + 1;
+    }
+    return numbers;
+}
+
+std::optional<Vec3> hex_color_in(const std::string& text) {
+    if (text.size() != 7 || text[0] != '#') {
+        return std::nullopt;
+    }
+    std::uint32_t code = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + 1, end, code, 16);
+    if (error != std::errc() || stop != end) {
+        return std::nullopt;
+    }
+    return decode_texel((code >> 16) | (code & 0xff00u) | ((code & 0xffu) << 16));
+}
+
+}  // namespace nearlight::core
