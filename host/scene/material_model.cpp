@@ -78,7 +78,7 @@ Material plain_material(uint model) {
     material.roughness = material.emission = material.metallic = material.anisotropic = zero;
     material.spec_trans = material.spec_tint = material.sheen = material.sheen_tint = zero;
     material.flatness = material.clearcoat = material.clearcoat_gloss = zero;
-    material.eta = grey(1.5);
+    material.eta = grey(kUsualIndex);
     material.model = model;
     return material;
 }

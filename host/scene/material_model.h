@@ -8,6 +8,9 @@ namespace nearlight::core {
 
 struct Scene;
 
+/// The index of refraction of glass, plastics and varnish, where a file says nothing else.
+inline constexpr double kUsualIndex = 1.5;
+
 /// The unpolarised Fresnel reflectance of a dielectric, where eta = index behind ÷ index in front.
 double dielectric_reflectance(double cosine, double eta);
 /// The unpolarised Fresnel reflectance of a conductor with complex index eta + i·k.
@@ -36,7 +39,7 @@ inline constexpr Parameter Material::*kMaterialParameters[] = {
     &Material::clearcoat,   &Material::clearcoat_gloss};
 
 /// A material of the model that is white where it reflects or lets light through, smooth, emits nothing, and
-/// has the index 1.5. Its parameters have no textures, and its D has no curve.
+/// has the index kUsualIndex. Its parameters have no textures, and its D has no curve.
 Material plain_material(uint model);
 /// A one-sided Lambertian material; `reflectance` is in [0, 1].
 Material diffuse_material(Vec3 reflectance);
@@ -49,10 +52,10 @@ Material thin_dielectric_material(double eta);
 
 /// What lies on the base of a plastic.
 struct Coat {
-    double eta = 1.5;        ///< interior ÷ exterior index
-    double alpha = 0.0;      ///< roughness of the microfacets; smooth below NEARLIGHT_MIN_ALPHA
-    bool beckmann = false;   ///< their distribution; otherwise GGX
-    bool nonlinear = false;  ///< colours saturate by inter-reflection below the coat
+    double eta = kUsualIndex;  ///< interior ÷ exterior index
+    double alpha = 0.0;        ///< roughness of the microfacets; smooth below NEARLIGHT_MIN_ALPHA
+    bool beckmann = false;     ///< their distribution; otherwise GGX
+    bool nonlinear = false;    ///< colours saturate by inter-reflection below the coat
 
     auto operator<=>(const Coat&) const = default;
 };

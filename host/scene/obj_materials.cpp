@@ -105,7 +105,7 @@ double alpha_of_exponent(double exponent) {
 
 // The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
 double index_of(const tinyobj::material_t& source) {
-    return static_cast<double>(source.ior > 1.001f ? source.ior : 1.5f);
+    return source.ior > 1.001f ? static_cast<double>(source.ior) : kUsualIndex;
 }
 
 // A material library's entry, and where notes of it point.

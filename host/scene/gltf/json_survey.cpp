@@ -62,16 +62,18 @@ std::string word(std::size_t value) {
     return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
+/// The bytes of a .glb before its JSON: the headers of the file and of its first chunk.
+constexpr std::size_t kBinaryHeader = 20;
+
 /// The file with another JSON.
 std::string with_json(std::string_view file, std::string json) {
     if (!file.starts_with("glTF")) {
         return json;
     }
-    constexpr std::size_t kHeader = 20;
-    const std::string_view rest = file.substr(kHeader + json_of(file).size());
+    const std::string_view rest = file.substr(kBinaryHeader + json_of(file).size());
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    return std::string(file.substr(0, 8)) + word(kHeader + json.size() + rest.size()) + word(json.size()) +
-           std::string(file.substr(16, 4)) + json + std::string(rest);
+    return std::string(file.substr(0, 8)) + word(kBinaryHeader + json.size() + rest.size()) +
+           word(json.size()) + std::string(file.substr(16, 4)) + json + std::string(rest);
 }
 
 }  // namespace
@@ -87,13 +89,12 @@ std::string_view json_of(std::string_view file) {
     if (!file.starts_with("glTF")) {
         return file;
     }
-    constexpr std::size_t kHeader = 20;  // of the file and of its first chunk
-    if (file.size() < kHeader) {
+    if (file.size() < kBinaryHeader) {
         return {};
     }
     std::uint32_t length = 0;
     std::memcpy(&length, file.data() + 12, sizeof length);
-    return file.substr(kHeader, length);
+    return file.substr(kBinaryHeader, length);
 }
 
 std::string without_compressed_indices(std::string_view file) {

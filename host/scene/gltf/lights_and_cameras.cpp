@@ -15,7 +15,8 @@ namespace {
 constexpr double kLumensPerWatt = 683;
 constexpr int kUsualHeight = 480;
 
-Vec3 radiance_of(const tinygltf::Light& light) {
+/// The light's intensity in W/sr, or its irradiance in W/m² if it is directional.
+Vec3 strength_of(const tinygltf::Light& light) {
     const auto channel = [&](std::size_t i) {
         const double c = light.color.size() == 3 ? light.color[i] : 1.0;
         return static_cast<float>(std::max(c, 0.0) * std::max(light.intensity, 0.0) / kLumensPerWatt);
@@ -31,7 +32,7 @@ Emitter point_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_POINT;
     emitter.position = transform_point(placed.to_world, {0, 0, 0});
-    emitter.radiance = radiance_of(*placed.light);
+    emitter.radiance = strength_of(*placed.light);
     return emitter;
 }
 
@@ -50,7 +51,7 @@ Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
     emitter.direction = forward(placed.to_world);
-    emitter.radiance = radiance_of(*placed.light);
+    emitter.radiance = strength_of(*placed.light);
     return emitter;
 }
 
@@ -103,14 +104,6 @@ SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
 
 }  // namespace
 
-Mat4 rotation_of(const std::vector<double>& quaternion) {
-    const double angle =
-        2 * std::atan2(std::hypot(quaternion[0], quaternion[1], quaternion[2]), quaternion[3]);
-    const bool turns = quaternion[0] != 0 || quaternion[1] != 0 || quaternion[2] != 0;
-    return turns ? rotation(quaternion[0], quaternion[1], quaternion[2], angle * 180 / std::numbers::pi)
-                 : Mat4{};
-}
-
 void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                 std::vector<PlacedLight>& lights) {
     if (node.extensions.contains("KHR_lights_punctual")) {
@@ -129,7 +122,7 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes) {
     for (const PlacedLight& placed : lights) {
-        if (!is_finite(radiance_of(*placed.light))) {
+        if (!is_finite(strength_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
         }
         if (placed.light->type == "point") {

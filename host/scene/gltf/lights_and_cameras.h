@@ -22,9 +22,6 @@ struct PlacedCamera {
     Mat4 to_world;
 };
 
-/// The rotation of a quaternion x, y, z, w of any length.
-Mat4 rotation_of(const std::vector<double>& quaternion);
-
 /// Adds the node's light, if it has one, to `lights`.
 void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                 std::vector<PlacedLight>& lights);

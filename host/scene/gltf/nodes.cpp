@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "host/scene/gltf/lights_and_cameras.h"
+#include <numbers>
 
 namespace nearlight::core::gltf {
 namespace {
@@ -26,6 +25,15 @@ std::vector<int> roots_of(const tinygltf::Model& model) {
         }
     }
     return roots;
+}
+
+/// The rotation of a quaternion x, y, z, w of any length.
+Mat4 quaternion_rotation(const std::vector<double>& quaternion) {
+    const double angle =
+        2 * std::atan2(std::hypot(quaternion[0], quaternion[1], quaternion[2]), quaternion[3]);
+    const bool turns = quaternion[0] != 0 || quaternion[1] != 0 || quaternion[2] != 0;
+    return turns ? rotation(quaternion[0], quaternion[1], quaternion[2], angle * 180 / std::numbers::pi)
+                 : Mat4{};
 }
 
 bool is_hidden(const tinygltf::Node& node) {
@@ -81,7 +89,7 @@ Mat4 transform_of(const GltfFile& file, const tinygltf::Node& node) {
             matrix = scaling(node.scale[0], node.scale[1], node.scale[2]);
         }
         if (node.rotation.size() == 4) {
-            matrix = rotation_of(node.rotation) * matrix;
+            matrix = quaternion_rotation(node.rotation) * matrix;
         }
         if (node.translation.size() == 3) {
             matrix = translation(node.translation[0], node.translation[1], node.translation[2]) * matrix;

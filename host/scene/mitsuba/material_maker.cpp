@@ -325,12 +325,12 @@ Material MaterialMaker::make_glass(const Object& bsdf) {
 // The index from `eta`, or from `specular`, a scale that Disney's model has for indices from 1 to 1.8.
 double MaterialMaker::principled_index(const Object& bsdf, bool transmits) {
     if (bsdf.texture("eta") != nullptr) {
-        return static_cast<double>(textures_.color(bsdf, "eta", {1.5f, 1.5f, 1.5f}, false).x);
+        return static_cast<double>(textures_.color(bsdf, "eta", {}, false).x);
     }
     const bool is_thin = bsdf.type == "principledthin";
-    double eta = 1.5;
+    double eta = kUsualIndex;
     if (bsdf.has("eta") || is_thin) {
-        eta = index_of_refraction(bsdf, "eta", 1.5);
+        eta = index_of_refraction(bsdf, "eta", kUsualIndex);
         bsdf.ignore({"specular"});
     } else {
         const double specular = static_cast<double>(textures_.number(bsdf, "specular", 0.5f).value.x);

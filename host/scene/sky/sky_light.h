@@ -6,17 +6,17 @@
 
 namespace nearlight::core {
 
+/// The angle under which the sun is seen from the Earth, degrees.
+inline constexpr double kSunAperture = 0.5358;
+
 struct SkyLight {
     double turbidity = 3.0;         ///< 1 to 10
     Vec3 albedo{0.3f, 0.3f, 0.3f};  ///< of the ground, 0 to 1
     Vec3 sun{0, 0, 1};              ///< unit vector to the sun in the model's frame, +Z up; z is not negative
     double sky_scale = 1.0;         ///< 0: no sky
     double sun_scale = 1.0;         ///< 0: no sun
-    double sun_half_angle = 0.5358 * kPi / 360.0;  ///< radians
+    double sun_half_angle = kSunAperture * kPi / 360.0;  ///< radians
 };
-
-/// The angle under which the sun is seen from the Earth, degrees.
-inline constexpr double kSunAperture = 0.5358;
 
 /// The transform from the map of a sky (+Y up) to the model's frame (+Z up).
 Mat4 sky_map_to_model();
