@@ -34,26 +34,6 @@ Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {
     return unit_direction({row(0), row(1), row(2)});
 }
 
-void check_mesh(const Mesh& mesh) {
-    const auto fail = [&](const std::string& what) {
-        throw Error(ErrorKind::file, mesh.source.string() + ": " + what);
-    };
-    if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
-        (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
-        (!mesh.second_uvs.empty() && mesh.second_uvs.size() != mesh.positions.size()) ||
-        (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())) {
-        fail("the numbers of normals, colours or texture coordinates differ from the number of vertices");
-    }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (const uint index : mesh.triangles[i]) {
-            if (index >= mesh.positions.size()) {
-                fail("triangle " + std::to_string(i) + " uses vertex " + std::to_string(index) +
-                     ", but there are only " + std::to_string(mesh.positions.size()));
-            }
-        }
-    }
-}
-
 std::vector<Vec3> world_normals(const Mesh& mesh, const MeshPlacement& placement,
                                 std::span<const Vec3> positions) {
     if (placement.face_normals) {
@@ -149,6 +129,26 @@ std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<cons
         normal = normalize(normal);
     }
     return normals;
+}
+
+void check_mesh(const Mesh& mesh) {
+    const auto fail = [&](const std::string& what) {
+        throw Error(ErrorKind::file, mesh.source.string() + ": " + what);
+    };
+    if ((!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
+        (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
+        (!mesh.second_uvs.empty() && mesh.second_uvs.size() != mesh.positions.size()) ||
+        (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())) {
+        fail("the numbers of normals, colours or texture coordinates differ from the number of vertices");
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (const uint index : mesh.triangles[i]) {
+            if (index >= mesh.positions.size()) {
+                fail("triangle " + std::to_string(i) + " uses vertex " + std::to_string(index) +
+                     ", but there are only " + std::to_string(mesh.positions.size()));
+            }
+        }
+    }
 }
 
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes) {

@@ -43,6 +43,10 @@ struct MeshPlacement {
 /// kNoColor, which finish_vertex_colors() replaces. Throws Error(ErrorKind::file) for an index out of range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
+/// Throws Error(ErrorKind::file) for an index out of range, and if normals, colours or texture coordinates
+/// are not as many as positions.
+void check_mesh(const Mesh& mesh);
+
 /// The unit normal at each position: the sum of the normals of the triangles around it, weighted by their
 /// angles there.
 std::vector<Vec3> smooth_normals(std::span<const Vec3> positions,

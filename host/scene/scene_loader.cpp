@@ -41,6 +41,17 @@ void refuse_parameters(const std::filesystem::path& file, const LoadOptions& opt
     }
 }
 
+/// Gives all vertices second texture coordinates if a texture is looked up there, because kernels read them
+/// without asking.
+void finish_second_uvs(Scene& scene) {
+    const bool are_read = std::ranges::any_of(scene.textures, [](const SceneTexture& texture) {
+        return (texture.parameters.flags & NEARLIGHT_TEXTURE_SECOND_UV) != 0;
+    });
+    if (are_read) {
+        scene.second_uvs.resize(scene.vertices.size());
+    }
+}
+
 bool has_light(const Scene& scene) {
     return scene.environment.width > 0 || !scene.delta_emitters.empty() || has_emitting_surface(scene);
 }
@@ -78,6 +89,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     NoteSink notes(scene.notes, options.strict);
     apply_overrides(scene, options.overrides, notes);
     finish_vertex_colors(scene, notes);
+    finish_second_uvs(scene);
     keep_within_limits(scene, notes);
     remark_emptiness(scene, notes);
     return scene;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "host/image/image_io.h"
 #include "host/scene/gltf/draco_codec.h"
@@ -118,6 +119,41 @@ TEST_F(GltfLoader, TwoSetsOfTextureCoordinates) {
     EXPECT_EQ(scene.textures.at(emission).parameters.flags, NEARLIGHT_TEXTURE_SECOND_UV);
 }
 
+TEST_F(GltfLoader, CoordinatesThatNoMeshHasAreZeroForEveryVertex) {
+    write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B"}, {1, 1, 1}});
+    gltf_.root["images"] = {{{"uri", "texel.exr"}}};
+    gltf_.root["textures"] = {{{"source", 0}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
+                        {"emissiveFactor", {1, 1, 1}}};
+    const Scene scene = load();
+    EXPECT_EQ(scene.second_uvs, (std::vector<std::array<float, 2>>(scene.vertices.size(), {0, 0})));
+    EXPECT_TRUE(has_note(scene, "asks for TEXCOORD_1"));
+    for (const int set : {-1, 2}) {
+        gltf_.material()["emissiveTexture"]["texCoord"] = set;
+        EXPECT_THAT(error(), HasSubstr("asks for the set " + std::to_string(set)));
+    }
+    gltf_.material()["emissiveTexture"] = {{"index", 0},
+                                           {"extensions", {{"KHR_texture_transform", {{"texCoord", -3}}}}}};
+    EXPECT_THAT(error(), HasSubstr("asks for the set -1"));
+}
+
+TEST_F(GltfLoader, MeshesThatNoSurfaceCanHaveAreRefusedBeforeTheyAreLookedAt) {
+    gltf_.material() = {{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}};
+    json& primitive = gltf_.primitive();
+    const json before = primitive;
+    primitive["indices"] =
+        gltf_.accessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 4'000'000}, 5125, "SCALAR", 1);
+    EXPECT_THAT(error(), HasSubstr("uses vertex 4000000, but there are only 4"));
+    primitive = before;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    primitive["attributes"]["POSITION"] = gltf_.points({0, 0, 0, 1, 0, 0, 1, nan, 0, 0, 1, 0});
+    EXPECT_THAT(error(), HasSubstr("node 'thing' has a position that is not finite"));
+    primitive = before;
+    primitive["attributes"]["TEXCOORD_0"] = gltf_.accessor(std::vector<float>{0, 1}, 5126, "VEC2", 2);
+    EXPECT_THAT(error(), HasSubstr("differ from the number of vertices"));
+}
+
 TEST_F(GltfLoader, SurfacesThatShineToBothSidesHaveABack) {
     gltf_.material()["emissiveFactor"] = {1, 1, 1};
     EXPECT_EQ(load().triangles.size(), 2u);
@@ -129,6 +165,23 @@ TEST_F(GltfLoader, SurfacesThatShineToBothSidesHaveABack) {
     EXPECT_LT(back.z, 0.0f);
     EXPECT_LT(corner(scene, 2, 0).z, 0.0f);
     EXPECT_GT(corner(scene, 2, 0).z, -1e-3f);
+    EXPECT_EQ(scene.triangles[2].material, scene.triangles[0].material);
+}
+
+TEST_F(GltfLoader, TheBackOfATransparentSurfaceOnlyShines) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}},
+                        {"alphaMode", "BLEND"},
+                        {"emissiveFactor", {1, 1, 1}},
+                        {"doubleSided", true}};
+    const Scene scene = load();
+    ASSERT_EQ(scene.triangles.size(), 4u);
+    const Material& front = scene.materials.at(scene.triangles[0].material);
+    const Material& back = scene.materials.at(scene.triangles[2].material);
+    EXPECT_EQ(front.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_EQ(front.reflectance.value.x, 0.25f);
+    EXPECT_EQ(back.model, NEARLIGHT_BSDF_NULL);
+    EXPECT_EQ(back.emission.value, front.emission.value);
+    EXPECT_EQ(scene.triangles[3].material, scene.triangles[2].material);
 }
 
 TEST_F(GltfLoader, HiddenNodesAreLeftOut) {

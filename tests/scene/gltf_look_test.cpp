@@ -14,6 +14,7 @@ namespace {
 using testing::Contains;
 using testing::Field;
 using testing::HasSubstr;
+using testing::Not;
 using namespace test;
 
 Material top_material(const Scene& scene) {
@@ -126,6 +127,95 @@ TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {
     const Scene mirrored = load();
     expect_close(parameter_value(mirrored, top_material(mirrored).reflectance, 0.5f, 0.5f),
                  {0.625f, 0.375f, 1}, 1e-3f);
+    gltf_.root["nodes"][0]["scale"] = {1, -1, 1};
+    const Scene twice = load();  // and so as it was
+    expect_close(parameter_value(twice, top_material(twice).reflectance, 0.5f, 0.5f), {0.625f, 0.625f, 1},
+                 1e-3f);
+}
+
+/// A square beside its mirror image: one mesh in two placements, of which the second one mirrors.
+TEST_F(GltfLook, PlacementsThatMirrorTurnNormalMapsOver) {
+    add_texel({0.75f, 0.75f, 1, 1});
+    gltf_.material()["normalTexture"] = {{"index", 0}};
+    gltf_.root["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"scale", {-1, 1, 1}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = load();
+    ASSERT_EQ(scene.triangles.size(), 4u);
+    const auto normals = [&](std::size_t triangle) {
+        const Material& map = scene.materials.at(scene.triangles[triangle].material);
+        return parameter_value(scene, map.reflectance, 0.5f, 0.5f);
+    };
+    expect_close(normals(0), {0.75f, 0.75f, 1}, 1e-3f);
+    expect_close(normals(2), {0.75f, 0.25f, 1}, 1e-3f);
+}
+
+TEST_F(GltfLook, HolesShineAsMuchAsTheyAreFilled) {
+    add_texel({1, 1, 1, 0.5f});
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
+                        {"alphaMode", "BLEND"},
+                        {"emissiveFactor", {1, 0.5, 0}}};
+    const auto emission = [&] {
+        const Scene scene = load();
+        return parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f);
+    };
+    expect_close(emission(), {0.5f, 0.25f, 0});
+    gltf_.material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    expect_close(emission(), {0.25f, 0.125f, 0}, 1e-3f);
+    gltf_.material()["emissiveTexture"] = {{"index", 0}};
+    expect_close(emission(), {0.25f, 0.125f, 0}, 1e-3f);
+    gltf_.material()["alphaMode"] = "MASK";
+    gltf_.material()["alphaCutoff"] = 0.2;
+    expect_close(emission(), {1, 0.5f, 0}, 1e-3f);
+    gltf_.material()["alphaCutoff"] = 0.3;
+    expect_close(emission(), {0, 0, 0});
+    gltf_.material().erase("emissiveTexture");
+    expect_close(emission(), {0, 0, 0});
+    gltf_.material()["alphaCutoff"] = 0.6;  // above the factor, so that no texel passes
+    expect_close(emission(), {0, 0, 0});
+    gltf_.material()["alphaMode"] = "OPAQUE";
+    expect_close(emission(), {1, 0.5f, 0});
+    extension("KHR_materials_unlit") = json::object();
+    gltf_.material()["alphaMode"] = "BLEND";
+    expect_close(emission(), {0.25f, 0.25f, 0.25f}, 1e-3f);
+}
+
+/// Two textures are one image if they agree in the format that is read.
+TEST_F(GltfLook, HolesOfOtherImagesAreNoted) {
+    add_texel({1, 1, 1, 0.5f});
+    gltf_.root["images"].push_back({{"uri", "other.exr"}});
+    write_image(files_.path("other.exr"), {1, 1, {"R", "G", "B"}, {1, 1, 1}});
+    gltf_.root["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"alphaMode", "BLEND"},
+                        {"emissiveTexture", {{"index", 1}}},
+                        {"emissiveFactor", {1, 1, 1}}};
+    const Scene scene = load();
+    expect_close(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f), {1, 1, 1}, 1e-3f);
+    expect_note(scene, "shine in the holes");
+    gltf_.root["textures"][1] = {{"source", 1}, {"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+    const Scene shared = load();
+    expect_close(parameter_value(shared, top_material(shared).emission, 0.5f, 0.5f), {0.5f, 0.5f, 0.5f},
+                 1e-3f);
+    EXPECT_THAT(shared.notes, Not(Contains(Field(&Note::text, HasSubstr("shine in the holes")))));
+}
+
+TEST_F(GltfLook, FactorsOfZeroWinOverTextures) {
+    add_texel({1, 1, 1, 1});
+    gltf_.material()["pbrMetallicRoughness"] = {
+        {"metallicFactor", 0}, {"roughnessFactor", 0}, {"metallicRoughnessTexture", {{"index", 0}}}};
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 0},
+                                               {"transmissionTexture", {{"index", 0}}}};
+    extension("KHR_materials_clearcoat") = {{"clearcoatFactor", 0}, {"clearcoatTexture", {{"index", 0}}}};
+    const Scene scene = load();
+    EXPECT_EQ(top_material(scene).model, NEARLIGHT_BSDF_TWO_SIDED);  // and no blend with glass
+    EXPECT_TRUE(scene.images.empty());
+    const Material side = innermost(scene);
+    for (const Parameter& parameter : {side.metallic, side.roughness, side.clearcoat}) {
+        EXPECT_EQ(parameter.texture, -1);
+        EXPECT_EQ(parameter.value.x, 0.0f);
+    }
+    extension("KHR_materials_transmission")["transmissionFactor"] = 1;
+    EXPECT_EQ(top_material(load()).model, NEARLIGHT_BSDF_BLEND);
 }
 
 TEST_F(GltfLook, BaseTexturesAreMultipliedByVertexColours) {

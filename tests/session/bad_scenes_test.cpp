@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/image/image_io.h"
+#include "tests/scene/gltf_text.h"
 #include "tests/scene/scene_files.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
@@ -124,6 +125,35 @@ TEST_F(BadScenes, LightsGiveAPictureWithoutNan) {
                        1);
         expect_picture(device,
                        "<emitter type='sunsky'><vector name='sun_direction' value='0,0,-1'/></emitter>", 1);
+    });
+}
+
+/// A square whose emissive texture asks for second texture coordinates, of which its mesh has none. All of it
+/// shines as the lower left texel does.
+TEST_F(BadScenes, MeshesWithoutTheCoordinatesOfATextureShowOneTexel) {
+    write_image(files_.path("four.exr"), {2, 2, {"R", "G", "B"}, {1, 1, 1, 2, 2, 2, 3, 4, 5, 6, 6, 6}});
+    test::GltfText gltf;
+    gltf.add_square();
+    gltf.material() = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}};
+    gltf.material()["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {0, 0, 0, 1}}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}};
+    gltf.root["images"] = {{{"uri", "four.exr"}}};
+    gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}}};
+    gltf.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    gltf.root["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"camera", 0}, {"translation", {0.5, 0.5, 1}}}};
+    const Scene scene = load_scene(files_.write("scene.gltf", gltf.text()));
+    ASSERT_EQ(scene.textures.at(0).parameters.flags, NEARLIGHT_TEXTURE_SECOND_UV);
+    on_each_device([&](Device& device) {
+        RenderSettings settings = test::few_vpls();
+        settings.view.width = settings.view.height = 4;
+        const Image image = test::render_image(device, scene, settings).image;
+        for (std::size_t pixel = 0; pixel < 16; ++pixel) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                EXPECT_NEAR(image.values[pixel * image.channel_count() + channel],
+                            static_cast<float>(3 + channel), 0.01f);
+            }
+        }
     });
 }
 

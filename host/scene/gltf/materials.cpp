@@ -10,8 +10,6 @@
 namespace nearlight::core::gltf {
 namespace {
 
-constexpr double kGlassIndex = 1.5;
-
 /// The roughness that the principled model's clearcoat can have is that of α from 0.001 to 0.1.
 float clearcoat_gloss(double roughness) {
     return static_cast<float>(std::clamp((0.1 - roughness * roughness) / (0.1 - 0.001), 0.0, 1.0));
@@ -74,8 +72,8 @@ uint MaterialMaker::add_rough_pane(const SurfaceModel& surface, double index) {
 }
 
 uint MaterialMaker::add_glass(const SurfaceModel& surface) {
-    const double index = surface.index > 1.001 ? surface.index : kGlassIndex;
-    const bool is_rough = surface.roughness.texture >= 0 || surface.roughness.value.x > 0.0f;
+    const double index = surface.index > 1.001 ? surface.index : kUsualIndex;
+    const bool is_rough = surface.roughness.value.x > 0.0f;
     if (surface.is_thin && is_rough) {
         return add_rough_pane(surface, index);
     }
@@ -140,18 +138,17 @@ uint MaterialMaker::material(const MaterialUse& use) {
 }
 
 TextureSets MaterialMaker::texture_sets(int index) const {
-    TextureSets sets{-1, -1};
-    if (index >= 0) {
-        for (const tinygltf::TextureInfo& info : textures_of(source_of(index))) {
-            const int set = texture_set_of(info);
-            if (info.index >= 0 && sets.first < 0) {
-                sets.first = set;
-            } else if (info.index >= 0 && set != sets.first && sets.second < 0) {
-                sets.second = set;
-            }
+    TextureSets sets;
+    if (index < 0) {
+        return sets;
+    }
+    for (const tinygltf::TextureInfo& info : textures_of(source_of(index))) {
+        if (info.index >= 0) {
+            const int set = texture_set_of(file_, info);
+            sets.first = sets.first < 0 ? set : sets.first;
+            sets.second = set != sets.first ? set : sets.second;
         }
     }
-    sets.first = std::max(sets.first, 0);
     return sets;
 }
 
@@ -166,6 +163,21 @@ bool MaterialMaker::emits_back(int index) const {
     const tinygltf::Material& source = source_of(index);
     return source.extensions.contains("KHR_materials_unlit") ||
            std::ranges::any_of(source.emissiveFactor, [](double factor) { return factor > 0; });
+}
+
+std::vector<uint> MaterialMaker::shining_backs(const std::vector<uint>& fronts) {
+    std::vector<uint> backs;
+    for (const uint front : fronts) {
+        const auto [entry, is_new] = backs_.try_emplace(front, front);
+        const uint model = scene_.materials[front].model;
+        if (is_new && model != NEARLIGHT_BSDF_TWO_SIDED && model != NEARLIGHT_BSDF_DIFFUSE) {
+            Material back = plain_material(NEARLIGHT_BSDF_NULL);
+            back.emission = scene_.materials[front].emission;
+            entry->second = add(back);
+        }
+        backs.push_back(entry->second);
+    }
+    return backs;
 }
 
 }  // namespace nearlight::core::gltf

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <map>
+#include <vector>
 
 #include "host/scene/gltf/surface_model.h"
 #include "host/scene/gltf/textures.h"
@@ -35,6 +36,10 @@ class MaterialMaker {
     [[nodiscard]] bool has_normal_map(int index) const;
     /// Whether light should leave the back of its surfaces, too.
     [[nodiscard]] bool emits_back(int index) const;
+    /// The materials of the backs of surfaces that shine to both sides. Those of plain opaque surfaces are
+    /// the same; others only shine, because their light passes through, and their maps are seen on, the
+    /// fronts.
+    [[nodiscard]] std::vector<uint> shining_backs(const std::vector<uint>& fronts);
 
   private:
     [[nodiscard]] const tinygltf::Material& source_of(int index) const {
@@ -54,6 +59,7 @@ class MaterialMaker {
     NoteSink& notes_;
     TextureMaker textures_;
     std::map<MaterialUse, uint> made_;
+    std::map<uint, uint> backs_;  ///< by the materials of the fronts
 };
 
 }  // namespace nearlight::core::gltf

@@ -25,13 +25,16 @@ std::vector<Vec3> to_vectors(const std::vector<float>& numbers) {
     return vectors;
 }
 
+std::string name_of_uvs(int set) {
+    return "TEXCOORD_" + std::to_string(set);
+}
+
 /// Reads texture coordinates. v is 0 at the top of an image in glTF, and at its bottom in a Mesh.
 std::vector<std::array<float, 2>> read_uvs(const PrimitiveData& data, int set) {
-    const std::string name = "TEXCOORD_" + std::to_string(set);
-    if (set < 0 || !data.has(name)) {
+    if (set < 0 || !data.has(name_of_uvs(set))) {
         return {};
     }
-    const std::vector<float> numbers = data.read(name, 2);
+    const std::vector<float> numbers = data.read(name_of_uvs(set), 2);
     std::vector<std::array<float, 2>> uvs(numbers.size() / 2);
     for (std::size_t i = 0; i < uvs.size(); ++i) {
         uvs[i] = {numbers[2 * i], 1.0f - numbers[2 * i + 1]};
@@ -70,6 +73,13 @@ bool is_mirrored(const Mesh& mesh, const std::array<uint, 3>& t) {
     return (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/// Sorts the triangles by whether (u, v) runs clockwise, which turns normal maps over.
+void group_by_side(Mesh& mesh) {
+    for (const std::array<uint, 3>& triangle : mesh.triangles) {
+        mesh.groups.push_back(is_mirrored(mesh, triangle) ? 1 : 0);
+    }
+}
+
 /// Whether the surface has no border, and therefore no back that could be seen. Corners at the same place
 /// count as one.
 bool is_closed(const Mesh& mesh) {
@@ -91,7 +101,9 @@ bool is_closed(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh MeshMaker::read_mesh(const tinygltf::Primitive& primitive, const PrimitiveData& data) {
+/// Reads the mesh in its pose at rest. What is in it may be looked up without further checks.
+Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                          const PrimitiveData& data) {
     Mesh mesh;
     mesh.source = file_.path;
     mesh.positions = to_vectors(data.read("POSITION", 3));
@@ -99,35 +111,63 @@ Mesh MeshMaker::read_mesh(const tinygltf::Primitive& primitive, const PrimitiveD
         mesh.normals = to_vectors(data.read("NORMAL", 3));
     }
     const TextureSets sets = materials_.texture_sets(primitive.material);
-    mesh.uvs = read_uvs(data, sets.first);
+    mesh.uvs = read_uvs(data, std::max(sets.first, 0));
     mesh.second_uvs = read_uvs(data, sets.second);
-    const AttributeData colors = data.read("COLOR_0");
-    const auto stride = static_cast<std::size_t>(colors.components);
-    for (std::size_t i = 0; stride >= 3 && i + 2 < colors.numbers.size(); i += stride) {
-        mesh.colors.push_back({colors.numbers[i], colors.numbers[i + 1], colors.numbers[i + 2]});
-        if (stride == 4 && colors.numbers[i + 3] < 1.0f) {
-            notes_.approximation(file_.path, 0, "the alpha of vertex colours (COLOR_0) is left out");
+    for (const int set : {sets.first, sets.second}) {
+        if (set >= 0 && !data.has(name_of_uvs(set))) {
+            notes_.remark(file_.path, 0,
+                          "a texture asks for " + name_of_uvs(set) +
+                              ", which its mesh does not have; (0, 0) is used everywhere");
         }
     }
+    read_colors(data, mesh);
     mesh.triangles = triangles_of(data.mode(), data.corners(mesh.positions.size()));
+    apply_pose(node, primitive, data, mesh);
+    check_mesh(mesh);
+    if (!std::ranges::all_of(mesh.positions, [](Vec3 position) { return is_finite(position); })) {
+        file_.fail("the mesh of node '" + node.name + "' has a position that is not finite");
+    }
+    if (materials_.has_normal_map(primitive.material) && !mesh.uvs.empty()) {
+        group_by_side(mesh);
+    }
     return mesh;
 }
 
-/// Makes the materials of the mesh: two if texture coordinates are mirrored here and there.
-std::vector<uint> MeshMaker::choose_materials(int material, Mesh& mesh) {
-    MaterialUse use{material, !mesh.colors.empty(), false};
+void MeshMaker::read_colors(const PrimitiveData& data, Mesh& mesh) {
+    const AttributeData colors = data.read("COLOR_0");
+    const auto stride = static_cast<std::size_t>(colors.components);
+    bool is_transparent = false;
+    for (std::size_t i = 0; stride >= 3 && i + stride <= colors.numbers.size(); i += stride) {
+        mesh.colors.push_back({colors.numbers[i], colors.numbers[i + 1], colors.numbers[i + 2]});
+        is_transparent = is_transparent || (stride == 4 && colors.numbers[i + 3] < 1.0f);
+    }
+    if (is_transparent) {
+        notes_.approximation(file_.path, 0, "the alpha of vertex colours (COLOR_0) is left out");
+    }
+}
+
+void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                           const PrimitiveData& data, Mesh& mesh) {
+    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive,
+                        mesh);
+    if (node.skin < 0) {
+        return;
+    }
+    if (!world_) {
+        world_ = world_transforms(file_);
+    }
+    const tinygltf::Skin& skin = file_.at(file_.model.skins, node.skin, "skin", "a node");
+    apply_skin(file_, data, joint_transforms(file_, skin, *world_), mesh);
+}
+
+/// Makes the materials of the mesh's groups where it stands: two if texture coordinates run clockwise here
+/// and there. A placement that mirrors turns them round.
+std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, const Mat4& to_world) {
+    const bool mirrors = linear_determinant(to_world) < 0;
+    MaterialUse use{material, !mesh.colors.empty(), mirrors && !mesh.groups.empty()};
     std::vector<uint> chosen{materials_.material(use)};
-    if (!materials_.has_normal_map(material) || mesh.uvs.size() != mesh.positions.size()) {
-        return chosen;
-    }
-    for (const std::array<uint, 3>& t : mesh.triangles) {
-        const bool is_valid = std::ranges::all_of(t, [&](uint v) { return v < mesh.positions.size(); });
-        mesh.groups.push_back(is_valid && is_mirrored(mesh, t) ? 1 : 0);
-    }
-    if (std::ranges::find(mesh.groups, 1u) == mesh.groups.end()) {
-        mesh.groups.clear();
-    } else {
-        use.is_mirrored = true;
+    if (std::ranges::find(mesh.groups, 1u) != mesh.groups.end()) {
+        use.is_mirrored = !use.is_mirrored;
         chosen.push_back(materials_.material(use));
     }
     return chosen;
@@ -199,28 +239,19 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
     if (!data.has("POSITION")) {
         return;
     }
-    Mesh mesh = read_mesh(primitive, data);
-    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive,
-                        mesh);
-    std::vector<Mat4> placed = placements;
-    if (node.skin >= 0) {
-        if (!world_) {
-            world_ = world_transforms(file_);
-        }
-        const tinygltf::Skin& skin = file_.at(file_.model.skins, node.skin, "skin", "a node");
-        apply_skin(file_, data, joint_transforms(file_, skin, *world_), mesh);
-        placed = {Mat4{}};  // joints stand in the world
-    }
+    const Mesh mesh = read_mesh(node, primitive, data);
+    const Mat4 world;  // where joints stand
+    const std::span<const Mat4> placed = node.skin >= 0 ? std::span(&world, 1) : std::span(placements);
     if (!mesh.triangles.empty() && placed.size() > kMaxTriangles / mesh.triangles.size()) {
         file_.fail("node '" + node.name + "' has " + std::to_string(placed.size()) + " instances of " +
                    std::to_string(mesh.triangles.size()) + " triangles, which are too many");
     }
-    const std::vector<uint> materials = choose_materials(primitive.material, mesh);
     const bool emits_back = materials_.emits_back(primitive.material) && !is_closed(mesh);
     for (const Mat4& to_world : placed) {
         // Where a file gives no normals, its surfaces have flat facets [glTF 2.0, 3.7.2.1], and where a
         // transform mirrors, their front is the other side.
         const bool is_flat = mesh.normals.empty();
+        const std::vector<uint> materials = choose_materials(primitive.material, mesh, to_world);
         append_mesh(scene_, mesh,
                     {.to_world = to_world,
                      .materials = materials,
@@ -228,7 +259,7 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
                      .flip_normals = is_flat && linear_determinant(to_world) < 0},
                     notes_);
         if (emits_back) {
-            add_shining_back(mesh, to_world, materials);
+            add_shining_back(mesh, to_world, materials_.shining_backs(materials));
         }
     }
 }

@@ -24,8 +24,12 @@ class MeshMaker {
   private:
     void add_primitive(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                        const std::vector<Mat4>& placements);
-    [[nodiscard]] Mesh read_mesh(const tinygltf::Primitive& primitive, const PrimitiveData& data);
-    std::vector<uint> choose_materials(int material, Mesh& mesh);
+    [[nodiscard]] Mesh read_mesh(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                                 const PrimitiveData& data);
+    void read_colors(const PrimitiveData& data, Mesh& mesh);
+    void apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
+                    const PrimitiveData& data, Mesh& mesh);
+    std::vector<uint> choose_materials(int material, const Mesh& mesh, const Mat4& to_world);
     void add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials);
     [[nodiscard]] std::vector<Mat4> placements_of(const PlacedNode& placed, const tinygltf::Node& node);
 

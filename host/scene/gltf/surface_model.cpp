@@ -11,7 +11,6 @@
 namespace nearlight::core::gltf {
 namespace {
 
-constexpr double kUsualIndex = 1.5;
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 Vec3 clamped(Vec3 c) {
@@ -72,32 +71,39 @@ Parameter color_of_base(const Base& base, const SurfaceContext& context, const T
     return context.has_colors && color.texture < 0 ? context.textures.vertex_color(color.value) : color;
 }
 
-/// The opacity of masked and blended surfaces; 1 where the material has no holes.
-Parameter opacity_of(const tinygltf::Material& source, const Base& base, const SurfaceContext& context) {
-    if (source.alphaMode == "BLEND") {
-        return context.textures.textured_by(base.texture, Vec3{1, 1, 1} * base.alpha, {.channel = 3},
-                                            context.sets);
+bool has_mask(const tinygltf::Material& source) {
+    return source.alphaMode == "MASK" && source.alphaCutoff > 0;
+}
+
+/// The opacity that the base's factor leaves of masked and blended surfaces whose texture has an alpha of 1.
+float opacity_of_factor(const tinygltf::Material& source, const Base& base) {
+    if (has_mask(source)) {
+        return base.alpha >= static_cast<float>(source.alphaCutoff) ? 1.0f : 0.0f;
     }
-    const auto cutoff = static_cast<float>(source.alphaCutoff);
-    if (source.alphaMode != "MASK" || !(cutoff > 0.0f)) {
-        return parameter_of(1.0f);
+    return source.alphaMode == "BLEND" ? base.alpha : 1.0f;
+}
+
+/// The alpha above which a texture's texels count as opaque; 0 where all count as they are.
+float texel_cutoff(const tinygltf::Material& source, const Base& base) {
+    return has_mask(source) ? static_cast<float>(source.alphaCutoff) / base.alpha : 0.0f;
+}
+
+/// The color times the opacity of masked and blended surfaces.
+Parameter times_opacity(const tinygltf::Material& source, const Base& base, Vec3 color,
+                        const SurfaceContext& context) {
+    const Vec3 value = color * opacity_of_factor(source, base);
+    if (source.alphaMode != "BLEND" && !has_mask(source)) {
+        return parameter_of(value);
     }
-    if (base.texture.index < 0 || base.alpha < cutoff) {
-        return parameter_of(base.alpha >= cutoff ? 1.0f : 0.0f);
-    }
-    return context.textures.textured_by(base.texture, {1, 1, 1}, {.channel = 3}, context.sets, 0,
-                                        cutoff / base.alpha);
+    return context.textures.textured_by(base.texture, value, {.channel = 3}, context.sets, 0,
+                                        texel_cutoff(source, base));
 }
 
 /// How the alpha of the base's image multiplies the light of the same image, because holes do not shine.
 TexelRule shining_rule(const tinygltf::Material& source, const Base& base) {
-    if (source.alphaMode == "BLEND") {
-        return {.times_alpha = true};
-    }
-    const bool is_mask = source.alphaMode == "MASK" && source.alphaCutoff > 0 && base.alpha > 0;
-    return is_mask ? TexelRule{.times_alpha = true,
-                               .alpha_cutoff = static_cast<float>(source.alphaCutoff) / base.alpha}
-                   : TexelRule{};
+    return source.alphaMode == "BLEND" || has_mask(source)
+               ? TexelRule{.times_alpha = true, .alpha_cutoff = texel_cutoff(source, base)}
+               : TexelRule{};
 }
 
 /// The emission as a radiance, because exporters write a strength rather than nits.
@@ -112,9 +118,17 @@ Parameter emission_of(const tinygltf::Material& source, const Base& base, const 
     if (is_zero(emission)) {
         return parameter_of(0.0f);
     }
+    if (source.emissiveTexture.index < 0) {
+        return times_opacity(source, base, emission, context);
+    }
     const bool same = context.textures.share_image(source.emissiveTexture, base.texture);
-    return context.textures.textured_by(source.emissiveTexture, emission,
-                                        same ? shining_rule(source, base) : TexelRule{}, context.sets);
+    const TexelRule rule = shining_rule(source, base);
+    if (rule.times_alpha && base.texture.index >= 0 && !same) {
+        context.approximate(
+            "emissive textures shine in the holes of base colour textures, because they are other images");
+    }
+    return context.textures.textured_by(source.emissiveTexture, emission * opacity_of_factor(source, base),
+                                        same ? rule : TexelRule{}, context.sets);
 }
 
 /// The index and the strength of reflections from KHR_materials_ior and KHR_materials_specular.
@@ -220,13 +234,12 @@ void read_layers(const tinygltf::Material& source, const SurfaceContext& context
 
 /// Notes the extensions of materials that nothing here reads.
 void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceContext& context) {
-    constexpr std::array<std::string_view, 11> kRead{
+    constexpr std::array<std::string_view, 9> kRead{
         "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
         "KHR_materials_ior",          kSpecularGlossiness,
         "KHR_materials_sheen",        "KHR_materials_specular",
         "KHR_materials_transmission", "KHR_materials_unlit",
-        "KHR_materials_variants",     "KHR_materials_volume",
-        "KHR_techniques_webgl"};
+        "KHR_materials_volume"};
     for (const auto& [name, value] : source.extensions) {
         const bool is_look = name.find("_materials_") != std::string::npos;
         if (is_look && std::ranges::find(kRead, name) == kRead.end()) {
@@ -247,11 +260,13 @@ SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext
     const Base base = base_of(source);
     SurfaceModel surface;
     surface.is_unlit = source.extensions.contains("KHR_materials_unlit");
-    surface.opacity = opacity_of(source, base, context);
+    surface.opacity = times_opacity(source, base, {1, 1, 1}, context);
     remark_what_is_left_out(source, context);
     if (surface.is_unlit) {
         context.approximate("KHR_materials_unlit: surfaces shine with their colour, and light others");
-        surface.emission = color_of_base(base, context, shining_rule(source, base));
+        Base shining = base;
+        shining.color = base.color * opacity_of_factor(source, base);
+        surface.emission = color_of_base(shining, context, shining_rule(source, base));
         return surface;
     }
     surface.color = color_of_base(base, context);

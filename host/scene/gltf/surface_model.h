@@ -17,7 +17,7 @@ struct SurfaceModel {
     Parameter transmission = parameter_of(0.0f);
     Parameter clearcoat = parameter_of(0.0f);
     Parameter sheen = parameter_of(0.0f);
-    double index = 1.5;
+    double index = kUsualIndex;
     double clearcoat_roughness = 0;
     Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
     bool is_thin = true;
@@ -26,7 +26,7 @@ struct SurfaceModel {
 
     /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
     [[nodiscard]] bool is_diffuse() const;
-    [[nodiscard]] bool transmits() const { return transmission.texture >= 0 || transmission.value.x > 0.0f; }
+    [[nodiscard]] bool transmits() const { return transmission.value.x > 0.0f; }
 };
 
 /// What the reader of a material works with.

@@ -88,10 +88,23 @@ void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
                                                                           : NEARLIGHT_FILTER_BILINEAR;
 }
 
+/// The index of the texture's image in a format that is read, or −1.
+int readable_image_of(const tinygltf::Texture& texture) {
+    const int webp = index_of(texture.extensions, "EXT_texture_webp", "source", -1);
+    return webp >= 0 ? webp : texture.source;
+}
+
 }  // namespace
 
-int texture_set_of(const tinygltf::TextureInfo& info) {
-    return index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
+int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info) {
+    const int set = index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
+    if (set != 0 && set != 1) {
+        file.fail(
+            "a texture asks for the set " + std::to_string(set) +
+            " of texture coordinates, but only TEXCOORD_0 and TEXCOORD_1 are read; export the scene with "
+            "these two");
+    }
+    return set;
 }
 
 int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
@@ -112,9 +125,9 @@ int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule
 /// The index of the texture's image, −1 if it has none, or −2 with a note if it has only one of a format that
 /// is not read.
 int TextureMaker::image_of(const tinygltf::Texture& texture) {
-    const int webp = index_of(texture.extensions, "EXT_texture_webp", "source", -1);
-    if (webp >= 0 || texture.source >= 0) {
-        return webp >= 0 ? webp : texture.source;
+    const int readable = readable_image_of(texture);
+    if (readable >= 0) {
+        return readable;
     }
     for (const auto& [name, extension] : texture.extensions) {
         if (extension.Has("source")) {
@@ -128,7 +141,7 @@ int TextureMaker::image_of(const tinygltf::Texture& texture) {
 
 Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
                                     const TextureSets& sets, uint flags, float cutoff) {
-    if (info.index < 0) {
+    if (info.index < 0 || is_zero(value)) {
         return parameter_of(value);
     }
     const tinygltf::Texture& source = file_.at(file_.model.textures, info.index, "texture", "a material");
@@ -149,15 +162,8 @@ Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 valu
         apply_sampler(file_.at(file_.model.samplers, source.sampler, "sampler", "a texture"),
                       texture.parameters);
     }
-    const int set = texture_set_of(info);
-    if (set != sets.first && set == sets.second) {
-        flags |= NEARLIGHT_TEXTURE_SECOND_UV;
-    } else if (set != sets.first) {
-        notes_.approximation(file_.path, 0,
-                             "a material uses more than two sets of texture coordinates; the first replaces "
-                             "all but the second");
-    }
-    texture.parameters.flags = flags;
+    const bool is_second = texture_set_of(file_, info) != sets.first;
+    texture.parameters.flags = flags | (is_second ? NEARLIGHT_TEXTURE_SECOND_UV : 0u);
     texture.parameters.cutoff = cutoff;
     return {value, add_texture(scene_, texture)};
 }
@@ -178,8 +184,8 @@ Vec3 TextureMaker::mean(const Parameter& parameter) const {
 bool TextureMaker::share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const {
     const auto image = [&](const tinygltf::TextureInfo& info) {
         const auto index = static_cast<std::size_t>(info.index);
-        return info.index >= 0 && index < file_.model.textures.size() ? file_.model.textures[index].source
-                                                                      : -1;
+        const bool is_there = info.index >= 0 && index < file_.model.textures.size();
+        return is_there ? readable_image_of(file_.model.textures[index]) : -1;
     };
     return image(a) >= 0 && image(a) == image(b);
 }

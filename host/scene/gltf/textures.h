@@ -12,14 +12,15 @@
 
 namespace nearlight::core::gltf {
 
-/// Which TEXCOORD_n of a mesh are the first and the second texture coordinates of its vertices.
+/// Which TEXCOORD_n of a mesh are the first and the second texture coordinates of its vertices, as textures
+/// ask for them; −1: none does.
 struct TextureSets {
-    int first = 0;
-    int second = -1;  ///< −1: none
+    int first = -1;
+    int second = -1;
 };
 
-/// The set that a texture asks for.
-int texture_set_of(const tinygltf::TextureInfo& info);
+/// The set that a texture asks for, 0 or 1. Calls fail() for any other.
+int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info);
 
 /// What normal and occlusion textures have in common with all others.
 template <typename Info>
@@ -36,8 +37,8 @@ class TextureMaker {
     TextureMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
         : file_(file), scene_(scene), notes_(notes), loader_(scene, notes) {}
 
-    /// A parameter of the texture's numbers times `value`; `value` alone if there is no texture, and grey,
-    /// with a note, if it cannot be read. `flags` and `cutoff` are those of Texture.
+    /// A parameter of the texture's numbers times `value`; `value` alone if there is no texture or the value
+    /// is 0, and grey, with a note, if it cannot be read. `flags` and `cutoff` are those of Texture.
     Parameter textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
                           const TextureSets& sets, uint flags = 0, float cutoff = 0.0f);
     /// A parameter of the colours of vertices times `value`.
