@@ -7,6 +7,7 @@
 
 #include "host/image/image_io.h"
 #include "host/scene/gltf/draco_codec.h"
+#include "host/scene/texture.h"
 #include "tests/scene/gltf_text.h"
 
 namespace nearlight::core {
@@ -98,7 +99,61 @@ TEST_F(GltfLoader, VertexColoursMultiplyTheBase) {
     ASSERT_GE(side.reflectance.texture, 0);
     EXPECT_EQ(scene.textures.at(0).parameters.kind, NEARLIGHT_TEXTURE_VERTEX_COLOR);
     expect_close(side.reflectance.value, {0.5f, 1, 1});
-    EXPECT_THAT(scene.notes.at(0).text, HasSubstr("alpha of vertex colours"));
+    EXPECT_FALSE(has_note(scene, "alpha of vertex colours"));  // an opaque material has no use for it
+    EXPECT_TRUE(scene.second_uvs.empty());
+}
+
+TEST_F(GltfLoader, VertexAlphasMakeHoles) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
+                        {"alphaMode", "BLEND"},
+                        {"emissiveFactor", {2, 2, 2}}};
+    gltf_.primitive()["attributes"]["COLOR_0"] = gltf_.accessor(
+        std::vector<float>{1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 0.3f, 1, 1, 1, 0.6f}, 5126, "VEC4", 4);
+    /// The opacity of all masks where the alpha of vertices is this, and the radiance.
+    const auto look = [&](float alpha) {
+        const Scene scene = load();
+        EXPECT_EQ(scene.second_uvs.at(3)[0], 0.6f);
+        const Material* material = &scene.materials.at(scene.triangles[0].material);
+        std::array<float, 2> found{1, parameter_value(scene, material->emission, 0, 0, kWhite, {alpha, 0}).x};
+        for (; material->model == NEARLIGHT_BSDF_MASK; material = &scene.materials.at(material->child[0])) {
+            found[0] *= parameter_value(scene, material->reflectance, 0, 0, kWhite, {alpha, 0}).x;
+        }
+        return found;
+    };
+    for (const float alpha : {0.0f, 0.1f, 0.3f, 0.75f, 1.0f}) {
+        EXPECT_NEAR(look(alpha)[0], 0.5f * alpha, 1e-6f);
+        EXPECT_NEAR(look(alpha)[1], 2 * 0.5f * alpha, 1e-6f);
+    }
+    gltf_.material()["alphaMode"] = "MASK";
+    gltf_.material()["alphaCutoff"] = 0.2;  // half of the alphas
+    for (const auto& [alpha, kept] : {std::pair{0.39f, 0.0f}, {0.41f, 1.0f}, {1.0f, 1.0f}}) {
+        EXPECT_EQ(look(alpha)[0], kept);
+        EXPECT_EQ(look(alpha)[1], 2 * kept);
+    }
+}
+
+TEST_F(GltfLoader, VertexAlphasBesideTexturesCountOrAreNoted) {
+    write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B", "A"}, {1, 1, 1, 0.5f}});
+    gltf_.root["images"] = {{{"uri", "texel.exr"}}};
+    gltf_.root["textures"] = {{{"source", 0}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"alphaMode", "BLEND"}};
+    json& attributes = gltf_.primitive()["attributes"];
+    attributes["COLOR_0"] = gltf_.accessor(std::vector<float>(16, 0.5f), 5126, "VEC4", 4);
+    const Scene blend = load();
+    EXPECT_FALSE(has_note(blend, "alpha of vertex colours"));
+    const Material& outer = blend.materials.at(blend.triangles[0].material);
+    const Material& inner = blend.materials.at(outer.child[0]);
+    EXPECT_EQ(outer.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_EQ(inner.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_NEAR(parameter_value(blend, inner.reflectance, 0, 0, kWhite, {0.25f, 0}).x, 0.5f, 1e-3f);
+    EXPECT_NEAR(parameter_value(blend, outer.reflectance, 0, 0, kWhite, {0.25f, 0}).x, 0.25f, 1e-6f);
+    gltf_.material()["alphaMode"] = "MASK";
+    EXPECT_TRUE(has_note(load(), "alpha of vertex colours is left out where a texture makes a mask"));
+    gltf_.material()["alphaMode"] = "BLEND";
+    gltf_.material()["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+    attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"];
+    EXPECT_TRUE(has_note(load(), "alpha of vertex colours is left out beside two sets"));
 }
 
 TEST_F(GltfLoader, TwoSetsOfTextureCoordinates) {

@@ -59,6 +59,36 @@ TEST_F(GltfLook, ClearcoatAndSheenAreThoseOfThePrincipledModel) {
     expect_note(scene, "KHR_materials_sheen");
 }
 
+/// What the principled model makes of its roughness and its anisotropy: α along u and along v.
+std::array<double, 2> alphas_of(const Material& side) {
+    const double aspect = std::sqrt(1 - 0.9 * static_cast<double>(side.anisotropic.value.x));
+    const double squared = std::pow(static_cast<double>(side.roughness.value.x), 2);
+    return {squared / aspect, squared * aspect};
+}
+
+TEST_F(GltfLook, AnisotropyStretchesReflectionsAlongU) {
+    gltf_.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 0.5}};  // α is ¼
+    json& anisotropy = extension("KHR_materials_anisotropy");
+    anisotropy = {{"anisotropyStrength", 0.5}};
+    const Scene scene = load();
+    const Material side = innermost(scene);
+    EXPECT_NE(side.flags & NEARLIGHT_MATERIAL_TANGENT, 0u);
+    EXPECT_NEAR(alphas_of(side)[0], 0.25 + 0.75 * 0.25, 1e-6);  // mix(α, 1, strength²)
+    EXPECT_NEAR(alphas_of(side)[1], 0.25, 1e-6);
+    EXPECT_FALSE(has_note(scene, "KHR_materials_anisotropy"));
+    gltf_.material()["pbrMetallicRoughness"]["roughnessFactor"] = 0.1;
+    anisotropy["anisotropyStrength"] = 1;
+    const Scene strong = load();
+    EXPECT_NEAR(alphas_of(innermost(strong))[0], std::sqrt(10) * std::sqrt(0.01), 1e-4);
+    EXPECT_NEAR(alphas_of(innermost(strong))[1], std::sqrt(0.1) * std::sqrt(0.01), 1e-4);
+    expect_note(strong, "KHR_materials_anisotropy stretches reflections up to tenfold");
+    anisotropy["anisotropyRotation"] = 1;
+    const Scene turned = load();
+    EXPECT_EQ(innermost(turned).anisotropic.value.x, 0.0f);
+    EXPECT_EQ(innermost(turned).roughness.value.x, 0.1f);
+    expect_note(turned, "KHR_materials_anisotropy is left out");
+}
+
 TEST_F(GltfLook, UnlitSurfacesShineWithTheirColour) {
     gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}};
     extension("KHR_materials_unlit") = json::object();

@@ -57,6 +57,10 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     material.clearcoat = surface.clearcoat;
     material.clearcoat_gloss = parameter_of(clearcoat_gloss(surface.clearcoat_roughness));
     material.sheen = surface.sheen;
+    if (surface.anisotropic > 0.0f) {
+        material.anisotropic = parameter_of(surface.anisotropic);
+        material.flags |= NEARLIGHT_MATERIAL_TANGENT;
+    }
     return add_two_sided(scene_, material);
 }
 
@@ -103,7 +107,8 @@ uint MaterialMaker::add_normal_map(const tinygltf::Material& source, const Surfa
 }
 
 uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& use) {
-    const SurfaceContext context{file_, textures_, notes_, texture_sets(use.index), use.has_colors};
+    const SurfaceContext context{file_,          textures_,     notes_, texture_sets(use.index),
+                                 use.has_colors, use.has_alphas};
     const SurfaceModel surface = read_surface(source, context);
     const bool is_glass = surface.transmission.texture < 0 && surface.transmission.value.x >= 1.0f;
     uint made = is_glass ? add_glass(surface) : add_opaque(surface);
@@ -113,8 +118,10 @@ uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& us
     if (has_normal_map(use.index) && !surface.is_unlit) {
         made = add_normal_map(source, context, use.is_mirrored, made);
     }
-    if (surface.opacity.texture >= 0 || surface.opacity.value.x < 1.0f) {
-        made = add(mask_material(surface.opacity, made));
+    for (const Parameter& opacity : {surface.opacity, surface.vertex_opacity}) {
+        if (opacity.texture >= 0 || opacity.value.x < 1.0f) {
+            made = add(mask_material(opacity, made));
+        }
     }
     scene_.materials[made].emission = surface.emission;
     return made;
@@ -154,6 +161,10 @@ TextureSets MaterialMaker::texture_sets(int index) const {
 
 bool MaterialMaker::has_normal_map(int index) const {
     return index >= 0 && source_of(index).normalTexture.index >= 0;
+}
+
+bool MaterialMaker::is_transparent(int index) const {
+    return index >= 0 && has_opacity(source_of(index));
 }
 
 bool MaterialMaker::emits_back(int index) const {

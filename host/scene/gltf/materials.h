@@ -15,6 +15,7 @@ namespace nearlight::core::gltf {
 struct MaterialUse {
     int index = -1;            ///< of the material in the file; −1: none, which is grey
     bool has_colors = false;   ///< the vertices have colours
+    bool has_alphas = false;   ///< and an alpha, as the first of their second texture coordinates
     bool is_mirrored = false;  ///< texture coordinates run clockwise as seen from the front
 
     auto operator<=>(const MaterialUse&) const = default;
@@ -34,6 +35,8 @@ class MaterialMaker {
     [[nodiscard]] TextureSets texture_sets(int index) const;
     /// Whether the material has a normal map, which tells mirrored texture coordinates from others.
     [[nodiscard]] bool has_normal_map(int index) const;
+    /// Whether the material has holes, or lets light through.
+    [[nodiscard]] bool is_transparent(int index) const;
     /// Whether light should leave the back of its surfaces, too.
     [[nodiscard]] bool emits_back(int index) const;
     /// The materials of the backs of surfaces that shine to both sides. Those of plain opaque surfaces are

@@ -117,10 +117,10 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
         if (set >= 0 && !data.has(name_of_uvs(set))) {
             notes_.remark(file_.path, 0,
                           "a texture asks for " + name_of_uvs(set) +
-                              ", which its mesh does not have; (0, 0) is used everywhere");
+                              ", which its mesh does not have; a corner of it is used everywhere");
         }
     }
-    read_colors(data, mesh);
+    read_colors(data, primitive.material, mesh);
     mesh.triangles = triangles_of(data.mode(), data.corners(mesh.positions.size()));
     apply_pose(node, primitive, data, mesh);
     check_mesh(mesh);
@@ -133,17 +133,27 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
     return mesh;
 }
 
-void MeshMaker::read_colors(const PrimitiveData& data, Mesh& mesh) {
+/// Reads COLOR_0. Its alpha counts where the material is transparent, and stands where second texture
+/// coordinates would.
+void MeshMaker::read_colors(const PrimitiveData& data, int material, Mesh& mesh) {
     const AttributeData colors = data.read("COLOR_0");
     const auto stride = static_cast<std::size_t>(colors.components);
-    bool is_transparent = false;
+    std::vector<std::array<float, 2>> alphas;
+    bool has_alphas = false;
     for (std::size_t i = 0; stride >= 3 && i + stride <= colors.numbers.size(); i += stride) {
         mesh.colors.push_back({colors.numbers[i], colors.numbers[i + 1], colors.numbers[i + 2]});
-        is_transparent = is_transparent || (stride == 4 && colors.numbers[i + 3] < 1.0f);
+        alphas.push_back({stride == 4 ? colors.numbers[i + 3] : 1.0f, 0.0f});
+        has_alphas = has_alphas || alphas.back()[0] < 1.0f;
     }
-    if (is_transparent) {
-        notes_.approximation(file_.path, 0, "the alpha of vertex colours (COLOR_0) is left out");
+    if (!has_alphas || !materials_.is_transparent(material)) {
+        return;
     }
+    if (materials_.texture_sets(material).second >= 0) {
+        notes_.approximation(
+            file_.path, 0, "the alpha of vertex colours is left out beside two sets of texture coordinates");
+        return;
+    }
+    mesh.second_uvs = alphas;
 }
 
 void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
@@ -164,7 +174,8 @@ void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive
 /// and there. A placement that mirrors turns them round.
 std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, const Mat4& to_world) {
     const bool mirrors = linear_determinant(to_world) < 0;
-    MaterialUse use{material, !mesh.colors.empty(), mirrors && !mesh.groups.empty()};
+    const bool has_alphas = !mesh.second_uvs.empty() && materials_.texture_sets(material).second < 0;
+    MaterialUse use{material, !mesh.colors.empty(), has_alphas, mirrors && !mesh.groups.empty()};
     std::vector<uint> chosen{materials_.material(use)};
     if (std::ranges::find(mesh.groups, 1u) != mesh.groups.end()) {
         use.is_mirrored = !use.is_mirrored;

@@ -26,7 +26,7 @@ class MeshMaker {
                        const std::vector<Mat4>& placements);
     [[nodiscard]] Mesh read_mesh(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                                  const PrimitiveData& data);
-    void read_colors(const PrimitiveData& data, Mesh& mesh);
+    void read_colors(const PrimitiveData& data, int material, Mesh& mesh);
     void apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                     const PrimitiveData& data, Mesh& mesh);
     std::vector<uint> choose_materials(int material, const Mesh& mesh, const Mat4& to_world);

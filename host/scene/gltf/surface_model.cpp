@@ -88,11 +88,11 @@ float texel_cutoff(const tinygltf::Material& source, const Base& base) {
     return has_mask(source) ? static_cast<float>(source.alphaCutoff) / base.alpha : 0.0f;
 }
 
-/// The color times the opacity of masked and blended surfaces.
+/// The colour times the opacity of masked and blended surfaces.
 Parameter times_opacity(const tinygltf::Material& source, const Base& base, Vec3 color,
                         const SurfaceContext& context) {
     const Vec3 value = color * opacity_of_factor(source, base);
-    if (source.alphaMode != "BLEND" && !has_mask(source)) {
+    if (!has_opacity(source)) {
         return parameter_of(value);
     }
     return context.textures.textured_by(base.texture, value, {.channel = 3}, context.sets, 0,
@@ -101,9 +101,8 @@ Parameter times_opacity(const tinygltf::Material& source, const Base& base, Vec3
 
 /// How the alpha of the base's image multiplies the light of the same image, because holes do not shine.
 TexelRule shining_rule(const tinygltf::Material& source, const Base& base) {
-    return source.alphaMode == "BLEND" || has_mask(source)
-               ? TexelRule{.times_alpha = true, .alpha_cutoff = texel_cutoff(source, base)}
-               : TexelRule{};
+    return has_opacity(source) ? TexelRule{.times_alpha = true, .alpha_cutoff = texel_cutoff(source, base)}
+                               : TexelRule{};
 }
 
 /// The emission as a radiance, because exporters write a strength rather than nits.
@@ -129,6 +128,24 @@ Parameter emission_of(const tinygltf::Material& source, const Base& base, const 
     }
     return context.textures.textured_by(source.emissiveTexture, emission * opacity_of_factor(source, base),
                                         same ? rule : TexelRule{}, context.sets);
+}
+
+/// Lets the alpha of vertices make holes, which do not shine.
+void read_vertex_alphas(const tinygltf::Material& source, const Base& base, const SurfaceContext& context,
+                        SurfaceModel& surface) {
+    if (!context.has_alphas || is_zero(surface.opacity.value)) {
+        return;
+    }
+    if (has_mask(source) && surface.opacity.texture >= 0) {
+        context.approximate("the alpha of vertex colours is left out where a texture makes a mask");
+        return;
+    }
+    surface.vertex_opacity = context.textures.vertex_number(texel_cutoff(source, base));
+    if (surface.emission.texture >= 0) {
+        context.approximate("the alpha of vertex colours does not dim the light of textures");
+    } else if (!is_zero(surface.emission.value)) {
+        surface.emission.texture = surface.vertex_opacity.texture;
+    }
 }
 
 /// The index and the strength of reflections from KHR_materials_ior and KHR_materials_specular.
@@ -179,6 +196,38 @@ void read_specular_glossiness(const tinygltf::Material& source, const SurfaceCon
         surface.reflects ? index_of_reflectance(std::min(static_cast<double>(mean), 0.25)) : kUsualIndex;
 }
 
+/// KHR_materials_anisotropy, which stretches the microfacets along u: α is that of the roughness across it,
+/// and lies between that and 1 along it. The principled model has √(αu·αv) as the square of its roughness,
+/// and αv ÷ αu = 1 − 0.9·anisotropic.
+void read_anisotropy(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
+    constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
+    const double strength =
+        std::clamp(number_of(source.extensions, kAnisotropy, "anisotropyStrength", 0), 0.0, 1.0);
+    if (strength == 0.0) {
+        return;
+    }
+    const double turn = number_of(source.extensions, kAnisotropy, "anisotropyRotation", 0);
+    if (std::abs(std::sin(turn)) > 1e-3 ||
+        texture_of(source.extensions, kAnisotropy, "anisotropyTexture").index >= 0) {
+        context.approximate(std::string(kAnisotropy) + " is left out where it is turned or has a texture");
+        return;
+    }
+    const auto roughness = static_cast<double>(context.textures.mean(surface.roughness).x);
+    const double across = std::max(roughness * roughness, 1e-3);
+    const double along = across + (1.0 - across) * strength * strength;
+    const double anisotropic = (1.0 - across / along) / 0.9;
+    if (surface.roughness.texture >= 0 || anisotropic > 1.0) {
+        context.approximate(std::string(kAnisotropy) +
+                            " stretches reflections up to tenfold, and as at the mean of the roughness");
+    }
+    surface.anisotropic = static_cast<float>(std::min(anisotropic, 1.0));
+    if (surface.roughness.texture >= 0) {
+        surface.roughness.value *= static_cast<float>(std::pow(along / across, 0.25));
+    } else {
+        surface.roughness = parameter_of(static_cast<float>(std::pow(along * across, 0.25)));
+    }
+}
+
 void read_metallic_roughness(const tinygltf::Material& source, const SurfaceContext& context,
                              SurfaceModel& surface) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
@@ -186,6 +235,7 @@ void read_metallic_roughness(const tinygltf::Material& source, const SurfaceCont
                                                     {.channel = 2}, context.sets);
     surface.roughness = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.roughnessFactor),
                                                      {.channel = 1}, context.sets);
+    read_anisotropy(source, context, surface);
     read_reflections(source, context, surface);
 }
 
@@ -234,11 +284,10 @@ void read_layers(const tinygltf::Material& source, const SurfaceContext& context
 
 /// Notes the extensions of materials that nothing here reads.
 void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceContext& context) {
-    constexpr std::array<std::string_view, 9> kRead{
-        "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-        "KHR_materials_ior",          kSpecularGlossiness,
-        "KHR_materials_sheen",        "KHR_materials_specular",
-        "KHR_materials_transmission", "KHR_materials_unlit",
+    constexpr std::array<std::string_view, 10> kRead{
+        "KHR_materials_anisotropy", "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+        "KHR_materials_ior",        kSpecularGlossiness,          "KHR_materials_sheen",
+        "KHR_materials_specular",   "KHR_materials_transmission", "KHR_materials_unlit",
         "KHR_materials_volume"};
     for (const auto& [name, value] : source.extensions) {
         const bool is_look = name.find("_materials_") != std::string::npos;
@@ -249,6 +298,10 @@ void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceCont
 }
 
 }  // namespace
+
+bool has_opacity(const tinygltf::Material& source) {
+    return source.alphaMode == "BLEND" || has_mask(source);
+}
 
 bool SurfaceModel::is_diffuse() const {
     const bool is_metal = metallic.value.x > 0.0f;
@@ -267,10 +320,12 @@ SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext
         Base shining = base;
         shining.color = base.color * opacity_of_factor(source, base);
         surface.emission = color_of_base(shining, context, shining_rule(source, base));
+        read_vertex_alphas(source, base, context, surface);
         return surface;
     }
     surface.color = color_of_base(base, context);
     surface.emission = emission_of(source, base, context);
+    read_vertex_alphas(source, base, context, surface);
     if (has_specular_glossiness(source)) {
         read_specular_glossiness(source, context, surface);
     } else {

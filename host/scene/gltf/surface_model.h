@@ -11,6 +11,8 @@ namespace nearlight::core::gltf {
 struct SurfaceModel {
     Parameter color = parameter_of(1.0f);
     Parameter opacity = parameter_of(1.0f);
+    Parameter vertex_opacity =
+        parameter_of(1.0f);  ///< from the alpha of vertices, which multiplies the other
     Parameter metallic = parameter_of(0.0f);
     Parameter roughness = parameter_of(1.0f);  ///< perceptual: the square root of GGX's α
     Parameter emission = parameter_of(0.0f);   ///< a radiance
@@ -19,6 +21,7 @@ struct SurfaceModel {
     Parameter sheen = parameter_of(0.0f);
     double index = kUsualIndex;
     double clearcoat_roughness = 0;
+    float anisotropic = 0;     ///< of the principled model, along u
     Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
     bool is_thin = true;
     bool reflects = true;
@@ -36,9 +39,13 @@ struct SurfaceContext {
     NoteSink& notes;
     TextureSets sets;
     bool has_colors = false;
+    bool has_alphas = false;  ///< vertices have an alpha, see TextureMaker::vertex_number()
 
     void approximate(const std::string& what) const { notes.approximation(file.path, 0, what); }
 };
+
+/// Whether the material has holes, or lets light through.
+bool has_opacity(const tinygltf::Material& source);
 
 /// Reads the material. What cannot be represented is noted by the name of its extension.
 SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context);

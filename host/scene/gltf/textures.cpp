@@ -147,14 +147,14 @@ Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 valu
     const tinygltf::Texture& source = file_.at(file_.model.textures, info.index, "texture", "a material");
     const int image = image_of(source);
     if (image < 0) {
-        return image == -1 ? parameter_of(value) : parameter_of(0.5f);
+        return parameter_of(image == -1 ? value : value * 0.5f);
     }
     const auto [entry, is_new] = images_.try_emplace({image, rule}, -1);
     if (is_new) {
         entry->second = load_image(file_.at(file_.model.images, image, "image", "a texture"), rule);
     }
     if (entry->second < 0) {
-        return parameter_of(0.5f);
+        return parameter_of(value * 0.5f);
     }
     SceneTexture texture = plain_texture(entry->second);
     apply_transform(info, texture.parameters);
@@ -175,6 +175,22 @@ Parameter TextureMaker::vertex_color(Vec3 value) {
         vertex_color_ = add_texture(scene_, texture);
     }
     return {value, vertex_color_};
+}
+
+/// Between the middles of a black and a white texel, which lie at ¼ and ¾, the bilinear filter rises as the
+/// coordinate does.
+Parameter TextureMaker::vertex_number(float cutoff) {
+    if (ramp_ < 0) {
+        scene_.images.push_back({"numbers of vertices", 2, 1, NEARLIGHT_TEXELS_LINEAR8, {0xff000000u, ~0u}});
+        ramp_ = static_cast<int>(scene_.images.size() - 1);
+    }
+    SceneTexture texture = plain_texture(ramp_);
+    texture.parameters.u_scale = 0.5f;
+    texture.parameters.u_offset = 0.25f;
+    texture.parameters.wrap_s = texture.parameters.wrap_t = NEARLIGHT_WRAP_CLAMP;
+    texture.parameters.flags = NEARLIGHT_TEXTURE_SECOND_UV;
+    texture.parameters.cutoff = cutoff;
+    return textured(add_texture(scene_, texture));
 }
 
 Vec3 TextureMaker::mean(const Parameter& parameter) const {

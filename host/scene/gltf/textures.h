@@ -38,11 +38,16 @@ class TextureMaker {
         : file_(file), scene_(scene), notes_(notes), loader_(scene, notes) {}
 
     /// A parameter of the texture's numbers times `value`; `value` alone if there is no texture or the value
-    /// is 0, and grey, with a note, if it cannot be read. `flags` and `cutoff` are those of Texture.
+    /// is 0, and half of it, with a note, if the texture cannot be read. `flags` and `cutoff` are those of
+    /// Texture.
     Parameter textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
                           const TextureSets& sets, uint flags = 0, float cutoff = 0.0f);
     /// A parameter of the colours of vertices times `value`.
     Parameter vertex_color(Vec3 value);
+    /// A parameter of the number that vertices have as the first of their second texture coordinates, from 0
+    /// to
+    /// 1. Above a cutoff that is not 0 it counts as 1, below as 0.
+    Parameter vertex_number(float cutoff);
     /// The mean of a parameter over its texture.
     [[nodiscard]] Vec3 mean(const Parameter& parameter) const;
     /// Whether both textures show the same image.
@@ -58,6 +63,7 @@ class TextureMaker {
     TextureLoader loader_;
     std::map<std::pair<int, TexelRule>, int> images_;  ///< index into Scene::images, or −1
     int vertex_color_ = -1;                            ///< index into Scene::textures
+    int ramp_ = -1;                                    ///< index into Scene::images
 };
 
 }  // namespace nearlight::core::gltf
