@@ -172,14 +172,17 @@ TEST(Texture, SecondCoordinatesVertexColoursAndCutoffs) {
     expect_texel(texture_color(scene, scene.textures[0], 0.75f, 0.75f, {0.5f, 0.25f, 1}),
                  first * Vec3{0.5f, 0.25f, 1});
     scene.textures[0].parameters.flags = 0;
-    for (const float cutoff : {0.5f, 1.5f}) {
+    // Between the middles of a black and a white texel, at u = ¼ and ¾, numbers rise in proportion.
+    for (const auto& [cutoff, edge] : {std::pair{0.2f, 0.35f}, {0.5f, 0.5f}, {0.9f, 0.7f}}) {
         scene.textures[0].parameters.cutoff = cutoff;
-        for (const float u : {0.25f, 0.4f, 0.6f, 0.75f}) {
-            const Vec3 number = texture_color(scene, scene.textures[0], u, 0.75f);
-            EXPECT_TRUE(number == (Vec3{0, 0, 0}) || number == (Vec3{1, 1, 1}));
-            EXPECT_TRUE(cutoff < 1 || number.x == 0.0f);
+        for (const float u : {0.25f, edge - 0.01f, edge + 0.01f, 0.75f}) {
+            SCOPED_TRACE(testing::Message() << cutoff << " at " << u);
+            const float kept = u > edge ? 1.0f : 0.0f;
+            EXPECT_EQ(texture_color(scene, scene.textures[0], u, 0.75f), (Vec3{kept, kept, kept}));
         }
     }
+    scene.textures[0].parameters.cutoff = 1.5f;
+    EXPECT_EQ(texture_color(scene, scene.textures[0], 0.75f, 0.75f), (Vec3{0, 0, 0}));
 }
 
 TEST(Texture, MeansOfTextures) {
