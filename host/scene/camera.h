@@ -29,9 +29,8 @@ Camera make_camera(const SceneCamera& camera, int width, int height);
 /// Where the camera stands and looks: a target at the distance 1, and a field of view if it is perspective.
 CameraPose pose_of(const SceneCamera& camera);
 /// Moves the camera and keeps the rest: film, lens and clips, whether it mirrors, and the scale of an
-/// orthographic one. Throws
-/// Error(ErrorKind::invalid_argument) if a number is not finite, if the target lies at the origin or in the
-/// direction of `up` from there, or if the field of view is not between 0 and 180 degrees.
+/// orthographic one. Throws Error(ErrorKind::invalid_argument) if a number is not finite, if the target lies at
+/// the origin or in the direction of `up` from there, or if the field of view is not between 0 and 180 degrees.
 SceneCamera posed(SceneCamera camera, const CameraPose& pose);
 
 /// The ray through the centre of a pixel, and of the lens; the direction has unit length.
