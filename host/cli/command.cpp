@@ -13,6 +13,7 @@
 #include "host/cli/help_formatter.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/scene/number_text.h"
 
 namespace nearlight::core {
 namespace {
@@ -207,15 +208,13 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
     if (text == "auto") {
         return std::nullopt;
     }
-    const char* const end = text.data() + text.size();
-    float value = 0;
-    const auto [last, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
-    if (error != std::errc() || last != end || !(value >= min && value <= max)) {
+    const std::optional<double> value = number_in(text);
+    if (!value || !(*value >= double{min} && *value <= double{max})) {
         throw Error(
             ErrorKind::invalid_argument,
             fmt::format("{} must be `auto` or a number from {:g} to {:g}, not '{}'", option, min, max, text));
     }
-    return value;
+    return static_cast<float>(*value);
 }
 
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {

@@ -152,8 +152,14 @@ TextureSets MaterialMaker::texture_sets(int index) const {
     for (const tinygltf::TextureInfo& info : textures_of(source_of(index))) {
         if (info.index >= 0) {
             const int set = texture_set_of(file_, info);
-            sets.first = sets.first < 0 ? set : sets.first;
-            sets.second = set != sets.first ? set : sets.second;
+            if (sets.first < 0 || set == sets.first) {
+                sets.first = set;
+            } else if (sets.second < 0 || set == sets.second) {
+                sets.second = set;
+            } else {
+                file_.fail("material '" + source_of(index).name +
+                           "' uses more than two sets of texture coordinates; export it with two");
+            }
         }
     }
     return sets;

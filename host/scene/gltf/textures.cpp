@@ -98,11 +98,8 @@ int readable_image_of(const tinygltf::Texture& texture) {
 
 int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info) {
     const int set = index_of(info.extensions, "KHR_texture_transform", "texCoord", info.texCoord);
-    if (set != 0 && set != 1) {
-        file.fail(
-            "a texture asks for the set " + std::to_string(set) +
-            " of texture coordinates, but only TEXCOORD_0 and TEXCOORD_1 are read; export the scene with "
-            "these two");
+    if (set < 0) {
+        file.fail("a texture asks for the set " + std::to_string(set) + " of texture coordinates");
     }
     return set;
 }

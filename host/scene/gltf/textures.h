@@ -19,7 +19,7 @@ struct TextureSets {
     int second = -1;
 };
 
-/// The set that a texture asks for, 0 or 1. Calls fail() for any other.
+/// The set that a texture asks for: n of TEXCOORD_n. Calls fail() if it is negative.
 int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info);
 
 /// What normal and occlusion textures have in common with all others.
