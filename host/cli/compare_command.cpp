@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/compare_command.h"
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <memory>
 
 #include "host/cli/device_options.h"
@@ -116,7 +119,9 @@ std::string to_table(const Comparison& comparison) {
 }
 
 ExitCode run_compare(const CompareOptions& options, const GlobalOptions& global) {
-    const CompareSettings settings = settled(options);
+    CompareSettings settings = settled(options);
+    settings.command_line = global.command_line;
+    settings.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
     refuse_twin_scenes(options.scenes);
     const DeviceChoice choice = with_compile_workers(options.device);
     check_files(settings);

@@ -101,6 +101,11 @@ HtmlWriter& HtmlWriter::element(const std::string& name, std::string_view conten
     return open(name, attributes).text(content).close();
 }
 
+HtmlWriter& HtmlWriter::markup(std::string_view markup) {
+    html_ += markup;
+    return *this;
+}
+
 HtmlWriter& HtmlWriter::image(const std::filesystem::path& file, const std::string& media_type,
                               const std::string& description, HtmlAttributes attributes) {
     attributes.insert(

@@ -24,6 +24,8 @@ class HtmlWriter {
     HtmlWriter& text(std::string_view text);
     /// Adds an element that contains only text.
     HtmlWriter& element(const std::string& tag, std::string_view text, const HtmlAttributes& attributes = {});
+    /// Adds markup that is complete in itself, as it is.
+    HtmlWriter& markup(std::string_view markup);
     /// Embeds the contents of the file in the page. `media_type` is for example "image/png".
     HtmlWriter& image(const std::filesystem::path& file, const std::string& media_type,
                       const std::string& description, HtmlAttributes attributes = {});

@@ -52,10 +52,10 @@ std::string data_line(const EqualVplsRow& row) {
                        row.generate_seconds + row.gather_seconds, rmse.value, low, high);
 }
 
-/// Colours that are readable on white, also for most people with colour blindness [Okabe and Ito, Color
-/// Universal Design, 2008].
+/// Colours that can be told apart on white and on a dark page, where black becomes white, also by most people
+/// with colour blindness [after Okabe and Ito, Color Universal Design, 2008].
 constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
-                             "#e69f00", "#333333", "#7b3294", "#8c510a"};
+                             "#e69f00", "#000000", "#9e5bc4", "#a6701f"};
 
 /// Tics at 1, 2 and 5 times each power of ten between both bounds, for an axis that may be shorter than a
 /// decade.

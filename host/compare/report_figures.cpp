@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/files.h"
+#include "host/compare/inline_svg.h"
 #include "host/compare/pictures.h"
 
 namespace nearlight::core {
@@ -63,7 +65,9 @@ void write_plots(HtmlWriter& html, const SceneComparison& scene) {
                                   ": the plot is missing because gnuplot is not installed; its script is " +
                                   plot.script.filename().string() + " in the folder plots.");
         } else {
-            html.image(plot.svg, "image/svg+xml", plot.title, {{"class", "plot"}});
+            html.open("div", {{"class", "plot"}})
+                .markup(inline_svg(read_bytes(plot.svg), plot.title))
+                .close();
         }
     }
     html.close();
@@ -85,15 +89,16 @@ void write_vpl_figures(HtmlWriter& html, const SceneComparison& scene) {
 void write_method_figures(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
     write_scale_bar(html);
     html.open("div", {{"class", "scroll"}}).open("table", {{"class", "pictures"}});
-    html.open("thead").open("tr").element("th", "VPLs").element("th", "reference");
+    const HtmlAttributes of_column{{"scope", "col"}};
+    html.open("thead").open("tr").element("th", "VPLs", of_column).element("th", "reference", of_column);
     for (const Method& method : settings.methods) {
-        html.element("th", to_string(method));
+        html.element("th", to_string(method), of_column);
     }
     html.close().close().open("tbody");
     const std::size_t methods = settings.methods.size();
     for (std::size_t i = 0; i < scene.figures.methods.size(); ++i) {
         if (i % methods == 0) {
-            html.open("tr").element("th", std::to_string(scene.figures.methods[i].vpls));
+            html.open("tr").element("th", std::to_string(scene.figures.methods[i].vpls), {{"scope", "row"}});
             write_reference_column(html, scene.figures);
         }
         write_method_column(html, scene.figures.methods[i], scene.equal_vpls[i].rmse.value);

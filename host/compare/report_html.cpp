@@ -13,20 +13,21 @@ namespace {
 
 constexpr std::string_view kStyle =
     R"(:root { color-scheme: light dark; --line: #8886; --good: #0a7d3244; --bad: #c33; }
-body { font: 15px/1.45 system-ui, sans-serif; max-width: 1500px; margin: 1.5em auto; padding: 0 1em; }
+body { font: clamp(15px, 0.6vw + 8px, 22px)/1.45 system-ui, sans-serif; max-width: 1500px; margin: 1.5em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { margin-top: 2em; border-bottom: 1px solid var(--line); } h3 { margin-top: 1.6em; }
 p, dl { max-width: 75em; }
 dt { font-weight: 600; } dd { margin: 0 0 .5em 1.5em; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: .15em .6em; text-align: right; vertical-align: top; }
+caption { text-align: left; font-size: .9em; padding-bottom: .3em; } tbody th { font-weight: inherit; }
 thead th { border-bottom: 1px solid var(--line); vertical-align: bottom; }
-tr.first td { border-top: 1px solid var(--line); }
-td.name { text-align: left; } td.best { background: var(--good); font-weight: 600; } td.never { color: var(--bad); }
+tr.first td, tr.first th { border-top: 1px solid var(--line); }
+td.name, th.name { text-align: left; } td.best { background: var(--good); font-weight: 600; } td.never { color: var(--bad); }
 table.pictures td, table.pictures th { text-align: center; padding: .3em; border-bottom: 1px solid var(--line); }
 img.picture { display: block; width: 200px; image-rendering: auto; margin-bottom: 3px; }
 img.crop { width: 97px; image-rendering: pixelated; display: block; }
-img.dots { width: 300px; } img.plot { width: 560px; max-width: 100%; background: #fff; }
+img.dots { width: 300px; } .plot { overflow-x: auto; max-width: 100%; } .plot svg { display: block; width: 46em; min-width: 560px; }
 .crops, .figures, .plots { display: flex; flex-wrap: wrap; gap: 6px; } .figures, .plots { gap: 14px; }
 .crops { width: 200px; }
 figure { margin: 0; } .figures figure { width: 300px; }
@@ -60,6 +61,24 @@ std::string scene_text(const SceneComparison& scene) {
         reference_text(scene.reference));
 }
 
+/// The name of a scene's section, for links. Scenes may have any names, so their place in the list serves.
+std::string section_name(std::size_t scene) {
+    return "scene-" + std::to_string(scene + 1);
+}
+
+void write_contents(HtmlWriter& html, const Comparison& comparison) {
+    html.open("nav", {{"aria-label", "contents"}}).open("ul");
+    const auto link = [&html](const std::string& section, const std::string& title) {
+        html.open("li").element("a", title, {{"href", "#" + section}}).close();
+    };
+    link("summary", "In short");
+    for (std::size_t i = 0; i < comparison.scenes.size(); ++i) {
+        link(section_name(i), comparison.scenes[i].facts.name);
+    }
+    link("meanings", "What the numbers mean");
+    html.close().close();
+}
+
 void write_conditions(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings) {
     html.open("dl");
     write_pair(html, "Device", comparison.device + ", driver " + comparison.driver);
@@ -77,11 +96,13 @@ void write_conditions(HtmlWriter& html, const Comparison& comparison, const Comp
         write_pair(html, "Scene " + scene.facts.name, scene_text(scene));
     }
     write_pair(html, "Program", "nearlight " + settings.program_version);
+    write_pair(html, "Written", settings.date);
+    html.element("dt", "Command").open("dd").element("code", settings.command_line).close();
     html.close();
 }
 
 void write_meanings(HtmlWriter& html) {
-    html.element("h2", "What the numbers mean").open("dl");
+    html.element("h2", "What the numbers mean", {{"id", "meanings"}}).open("dl");
     write_pair(html, "RMSE",
                "Root of the mean squared difference from the reference over pixels and R, G, B, as in the "
                "paper; over seeds, the root of the mean of the squares. The mean variance of the reference's "
@@ -127,8 +148,9 @@ void write_scene_facts(HtmlWriter& html, const SceneComparison& scene) {
     }
 }
 
-void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
-    html.open("section").element("h2", scene.facts.name);
+void write_scene(HtmlWriter& html, const SceneComparison& scene, const std::string& name,
+                 const CompareSettings& settings) {
+    html.open("section", {{"id", name}}).element("h2", scene.facts.name);
     write_scene_facts(html, scene);
     html.element("h3", "Equal numbers of VPLs");
     write_equal_vpls_table(html, scene, settings);
@@ -156,12 +178,12 @@ void write_scene(HtmlWriter& html, const SceneComparison& scene, const CompareSe
 std::string comparison_html(const Comparison& comparison, const CompareSettings& settings) {
     HtmlWriter html("nearlight: comparison of VPL samplers", kStyle);
     html.element("h1", "Comparison of VPL samplers");
+    write_contents(html, comparison);
     write_conditions(html, comparison, settings);
-    html.element("h2", "In short");
-    html.element("p", "Geometric means over all numbers of VPLs; below 1 is better than the baseline.");
+    html.element("h2", "In short", {{"id", "summary"}});
     write_summary_table(html, comparison, settings);
-    for (const SceneComparison& scene : comparison.scenes) {
-        write_scene(html, scene, settings);
+    for (std::size_t i = 0; i < comparison.scenes.size(); ++i) {
+        write_scene(html, comparison.scenes[i], section_name(i), settings);
     }
     write_meanings(html);
     return html.finish();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "host/compare/number_text.h"
 
@@ -12,6 +13,7 @@ namespace nearlight::core {
 namespace {
 
 const HtmlAttributes kName{{"class", "name"}};
+const HtmlAttributes kRowName{{"class", "name"}, {"scope", "row"}};
 
 std::string seconds_text(double value) {
     return std::isfinite(value) ? fmt::format("{:.3f}", value) : "–";
@@ -20,17 +22,20 @@ std::string count_text(double value) {
     return std::isfinite(value) ? fmt::format("{:.0f}", value) : "–";
 }
 
-void write_header(HtmlWriter& html, std::initializer_list<const char*> columns) {
+/// Opens a table, with its caption and the headers of its columns, as far as the body. Three elements are
+/// then open.
+void open_table(HtmlWriter& html, const std::string& caption, std::initializer_list<const char*> columns) {
+    html.open("div", {{"class", "scroll"}}).open("table").element("caption", caption);
     html.open("thead").open("tr");
     for (const char* column : columns) {
-        html.element("th", column);
+        html.element("th", column, {{"scope", "col"}});
     }
     html.close().close().open("tbody");
 }
 
-/// Writes the sampler and its policy into two cells.
+/// Writes the sampler, which names the row, and its policy into two cells.
 void write_method(HtmlWriter& html, const Method& method) {
-    html.element("td", to_string(method.sampler), kName);
+    html.element("th", to_string(method.sampler), kRowName);
     html.element("td", method.policy ? to_string(*method.policy) : "–", kName);
 }
 
@@ -62,6 +67,16 @@ void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row
     }
     html.element("td", to_string(row.reach), {{"class", never ? "name never" : "name"}});
     html.close();
+}
+
+/// The row whose RMSE is certainly the least: its interval lies below those of all others. None if there is
+/// no other row, or if intervals overlap or are unknown.
+const EqualVplsRow* best_of(std::span<const EqualVplsRow> rows) {
+    const auto least =
+        std::ranges::min_element(rows, {}, [](const EqualVplsRow& row) { return row.rmse.value; });
+    const bool is_certain = std::ranges::all_of(
+        rows, [&](const EqualVplsRow& row) { return &row == &*least || least->rmse.high < row.rmse.low; });
+    return rows.size() > 1 && is_certain ? &*least : nullptr;
 }
 
 /// Geometric mean of the ratios of one method, and the number of ratios that do not exist.
@@ -107,9 +122,9 @@ void write_summary_row(HtmlWriter& html, const SceneComparison& scene, const Com
 }  // namespace
 
 void write_summary_table(HtmlWriter& html, const Comparison& comparison, const CompareSettings& settings) {
-    html.open("div", {{"class", "scroll"}}).open("table");
-    write_header(html, {"scene", "sampler", "policy", "RMSE ÷ baseline, equal VPLs",
-                        "VPLs ÷ baseline, equal RMSE", "time ÷ baseline, equal RMSE"});
+    open_table(html, "Geometric means over all numbers of VPLs; below 1 is better than the baseline.",
+               {"scene", "sampler", "policy", "RMSE ÷ baseline, equal VPLs", "VPLs ÷ baseline, equal RMSE",
+                "time ÷ baseline, equal RMSE"});
     for (const SceneComparison& scene : comparison.scenes) {
         for (std::size_t i = 0; i < settings.methods.size(); ++i) {
             write_summary_row(html, scene, settings, i);
@@ -119,18 +134,15 @@ void write_summary_table(HtmlWriter& html, const Comparison& comparison, const C
 }
 
 void write_equal_vpls_table(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings) {
-    html.open("div", {{"class", "scroll"}}).open("table");
-    write_header(html,
-                 {"sampler", "policy", "VPLs requested", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
-                  "relative MSE", "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
+    open_table(html, "Green: certainly the best at this number of VPLs, by the intervals of RMSE.",
+               {"sampler", "policy", "VPLs requested", "gathered", "sparse", "RMSE ± 95 %", "÷ baseline",
+                "relative MSE", "mean ratio ± 95 %", "FLIP", "generate, s", "gather, s"});
     const std::size_t methods = settings.methods.size();
     for (std::size_t i = 0; i < scene.equal_vpls.size(); ++i) {
-        const auto first = scene.equal_vpls.begin() + static_cast<std::ptrdiff_t>(i / methods * methods);
-        const auto best = std::min_element(
-            first, first + static_cast<std::ptrdiff_t>(methods),
-            [](const EqualVplsRow& a, const EqualVplsRow& b) { return a.rmse.value < b.rmse.value; });
+        const EqualVplsRow* const best =
+            best_of(std::span(scene.equal_vpls).subspan(i / methods * methods, methods));
         const EqualVplsRow& row = scene.equal_vpls[i];
-        write_row(html, row, i % methods == 0, methods > 1 && row.method == best->method);
+        write_row(html, row, i % methods == 0, &row == best);
     }
     html.close().close().close();
 }
@@ -140,9 +152,9 @@ void write_equal_rmse_table(HtmlWriter& html, const SceneComparison& scene, cons
         html.element("p", "There is no table of equal RMSE: its fits need at least two counts of VPLs.");
         return;
     }
-    html.open("div", {{"class", "scroll"}}).open("table");
-    write_header(html, {"RMSE", "sampler", "policy", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline",
-                        "basis"});
+    open_table(
+        html, "What each sampler needs for an RMSE that the baseline reached.",
+        {"RMSE", "sampler", "policy", "VPLs", "seconds", "VPLs ÷ baseline", "time ÷ baseline", "basis"});
     for (const EqualRmse& group : scene.equal_rmse) {
         for (const EqualRmseRow& row : group.rows) {
             write_row(html, group, row, settings.methods[row.curve], row.curve == 0);

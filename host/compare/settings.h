@@ -48,6 +48,8 @@ struct CompareSettings {
     BvhQuality bvh_quality = BvhQuality::quality;
     std::vector<Crop> crops;      ///< empty: chosen where errors are largest
     std::string program_version;  ///< cells of other versions are measured again
+    std::string command_line;     ///< by which the report can be made again
+    std::string date;             ///< on which the report is written
 
     [[nodiscard]] std::filesystem::path references() const {
         return reference_folder.empty() ? output / "references" : reference_folder;
