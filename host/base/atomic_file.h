@@ -15,7 +15,8 @@ enum class Durability {
 
 /// A temporary file in its target's folder. The owner writes and closes it; commit() then gives it the
 /// target's name. Without a commit it is removed, and an old file at the target stays as it is. No two
-/// objects share a temporary file, not even across threads, processes and machines.
+/// objects share a temporary file, not even across threads, processes and machines. What a killed process
+/// left of a target is removed when a process on the same machine next writes this target.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path target);

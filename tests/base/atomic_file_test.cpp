@@ -2,7 +2,10 @@
 #include "host/base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <mutex>
 #include <set>
@@ -66,6 +69,56 @@ TEST(AtomicFile, TheOneThatWasMovedToOwnsTheFile) {
     EXPECT_EQ(folder.file_count(), 1u);
     EXPECT_FALSE(second.commit(Durability::cache));
     EXPECT_EQ(read_bytes(folder / "a"), "new");
+}
+
+/// Runs `action` in a process of its own, which must kill itself.
+template <typename Action>
+void in_killed_process(const Action& action) {
+    const pid_t child = fork();
+    if (child == 0) {
+        action();
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemoved) {
+    const TemporaryFolder folder;
+    const AtomicFile living(folder / "a");
+    write(living.temporary(), "of a process that lives");
+    in_killed_process([&] {
+        const AtomicFile file(folder / "a");
+        write(file.temporary(), "half");
+        const AtomicFile other(folder / "ab");
+        write(other.temporary(), "half");
+        raise(SIGKILL);
+    });
+    EXPECT_EQ(folder.file_count(), 3u);
+    { const AtomicFile next(folder / "a"); }
+    EXPECT_EQ(folder.file_count(), 2u) << "that of another target stays";
+    EXPECT_EQ(read_bytes(living.temporary()), "of a process that lives");
+    { const AtomicFile next(folder / "ab"); }
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicFile, FilesThatOnlyLookAbandonedStay) {
+    const TemporaryFolder folder;
+    in_killed_process([&] {
+        write(folder / "name", AtomicFile(folder / "a").temporary().filename());
+        raise(SIGKILL);
+    });
+    const std::string own = read_bytes(folder / "name");
+    const std::size_t system = own.find('-') + 1;
+    std::string elsewhere = own;
+    elsewhere[system] = elsewhere[system] == '0' ? '1' : '0';
+    for (const std::string& name :
+         {elsewhere, own.substr(0, system), own.substr(0, own.find('-', system) + 1), "b" + own}) {
+        write(folder / name, "kept");
+    }
+    { const AtomicFile next(folder / "a"); }
+    EXPECT_EQ(folder.file_count(), 5u);
 }
 
 TEST(AtomicFile, ThreadsThatWriteOneTargetDoNotMeet) {
