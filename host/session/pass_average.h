@@ -6,12 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "host/session/pass_sums.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
 
-/// Averages passes, for which it keeps the whole picture in memory. A column of the table in
-/// kernels/shared/film_layers.h says which layers are averaged and which are those of pass 0.
+/// Averages passes. A column of the table in kernels/shared/film_layers.h says which layers are averaged and
+/// which are those of pass 0.
 ///
 /// The variance of the mean is judged in two ways. Each pass brings a variance of its own, which compares its
 /// samples; it knows every pixel well, but not what all samples of a pass share, above all the set of VPLs.
@@ -22,10 +23,13 @@ namespace nearlight::core {
 class PassAverage {
   public:
     PassAverage(uint width, uint height);
+    /// Goes on from the sums of earlier passes. If the last of them reached only `begun_rows`, it has
+    /// `begun_samples` per pixel, and the next rows are those below.
+    explicit PassAverage(PassSums sums, uint begun_samples = 0, std::size_t begun_rows = 0);
 
-    /// Begins a pass: the next rows are the topmost again. Its light has the given weight in the mean, in
-    /// proportion to its number of samples.
-    void begin_pass(float weight = 1.0f);
+    /// Begins a pass: the next rows are the topmost again. Its light has the number of its samples per pixel
+    /// as a weight in the mean.
+    void begin_pass(uint samples = 1);
     /// Adds further rows of the present pass, from top to bottom, with the channels of layer_channels().
     void add_rows(std::span<const float> rows);
 
@@ -36,30 +40,22 @@ class PassAverage {
     /// Sends the mean of the passes that reached each row. Rows that no pass reached are not sent.
     void send(const std::function<void(std::span<const float> rows)>& sink) const;
 
-  private:
-    struct Row {
-        uint passes = 0;      ///< that reached it
-        float weight = 0.0f;  ///< of these passes together
-    };
+    [[nodiscard]] const PassSums& sums() const { return sums_; }
+    /// How many rows the present pass has added.
+    [[nodiscard]] std::size_t begun_rows() const { return end_; }
 
-    void add_row(std::size_t y, std::span<const float> values);
-    void add_spread(std::size_t y, std::span<const float> values);
-    [[nodiscard]] float mean_of(std::size_t y, std::size_t index) const;
+  private:
+    template <typename Value>
+    [[nodiscard]] std::vector<float> colors(const Value& value) const;
     [[nodiscard]] std::size_t reached_rows() const;
     [[nodiscard]] std::vector<float> beauty() const;
     [[nodiscard]] std::vector<float> variances(std::span<const float> norms) const;
     [[nodiscard]] std::vector<float> own_variances() const;
     [[nodiscard]] std::vector<float> spread_variances() const;
 
-    uint width_;
-    std::size_t row_size_;  ///< floats
-    /// Weighted sums of averaged layers, sums of squared weight × variance, and values of pass 0 for the
-    /// other layers. A row that one pass has reached holds this pass's values, without a weight.
-    std::vector<float> sums_;
-    std::vector<float> spread_;  ///< R, G and B of each pixel: weighted sums of squares about the mean
-    std::vector<Row> rows_;
+    PassSums sums_;
     std::size_t end_ = 0;  ///< number of rows that the present pass has added
-    float weight_ = 1.0f;  ///< of the present pass
+    uint samples_ = 1;     ///< per pixel, of the present pass
 };
 
 }  // namespace nearlight::core

@@ -43,8 +43,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
         const PixelWindow window = window_of(pass.view, pass.settings.gather);
         passes.average.emplace(window.width, window.height);
     }
-    passes.average->begin_pass(static_cast<float>(samples) /
-                               static_cast<float>(settings.gather.samples_per_pixel));
+    passes.average->begin_pass(samples);
     bool too_long = false;
     gather(
         session, pass, [&](std::span<const float> rows) { passes.average->add_rows(rows); },

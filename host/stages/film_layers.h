@@ -44,6 +44,15 @@ struct FilmLayer {
 inline constexpr std::array kFilmLayers{NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_ROW)};
 #undef NEARLIGHT_LAYER_ROW
 
+/// How many channels have this rule.
+constexpr std::size_t channels_with(PassRule rule) {
+    std::size_t count = 0;
+    for (const FilmLayer& layer : kFilmLayers) {
+        count += layer.passes == rule ? layer.channel_count : 0;
+    }
+    return count;
+}
+
 /// The names of a layer's channels in files: R, G and B for the beauty, A for the coverage, names like
 /// "direct.R" for other layers.
 std::vector<std::string> channel_names(const FilmLayer& layer);

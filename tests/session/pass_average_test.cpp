@@ -54,10 +54,10 @@ TEST(PassAverage, WeighsPasses) {
     PassAverage average(1, 1);
     const std::vector<float> ones(NEARLIGHT_LAYER_CHANNELS, 1.0f);
     const std::vector<float> fives(NEARLIGHT_LAYER_CHANNELS, 5.0f);
-    average.begin_pass(0.375f);
+    average.begin_pass(3);
     average.add_rows(ones);
     EXPECT_EQ(sent_by(average), ones) << "a single pass is the picture, bit for bit";
-    average.begin_pass(0.125f);
+    average.begin_pass(1);
     average.add_rows(fives);
     EXPECT_EQ(sent_by(average)[NEARLIGHT_LAYER_BEAUTY], 2.0f);
     EXPECT_EQ(sent_by(average)[NEARLIGHT_LAYER_DEPTH], 1.0f);
@@ -69,20 +69,20 @@ TEST(PassAverage, SendsNoRowThatNoPassReached) {
     EXPECT_EQ(sent_by(average).size(), 2u * NEARLIGHT_LAYER_CHANNELS);
 }
 
-/// Passes of 64 × 64 pixels around 2 with the variance 0.09 ÷ weight. Each says of itself that it has
+/// Passes of 64 × 64 pixels around 2 with the variance 0.36 ÷ samples. Each says of itself that it has
 /// `own_factor` times that.
 class NoisyPasses {
   public:
     explicit NoisyPasses(float own_factor) : own_factor_(own_factor) {}
 
-    void add(PassAverage& average, float weight) {
-        const float variance = 0.09f / weight;
+    void add(PassAverage& average, uint samples) {
+        const float variance = 0.36f / static_cast<float>(samples);
         std::normal_distribution<float> noise(2.0f, std::sqrt(variance));
         std::vector<float> rows(kSide * kSide * NEARLIGHT_LAYER_CHANNELS);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             rows[i] = has_rule(i, PassRule::variance) ? own_factor_ * variance : noise(random_);
         }
-        average.begin_pass(weight);
+        average.begin_pass(samples);
         average.add_rows(rows);
     }
 
@@ -95,7 +95,7 @@ class NoisyPasses {
 
 TEST(PassAverage, TheVarianceOfOnePassIsItsOwn) {
     PassAverage average(NoisyPasses::kSide, NoisyPasses::kSide);
-    NoisyPasses(2.0f).add(average, 1.0f);
+    NoisyPasses(2.0f).add(average, 4);
     EXPECT_NEAR(mean_of(sent_by(average), NEARLIGHT_LAYER_VARIANCE), 0.18, 1e-6);
 }
 
@@ -103,8 +103,8 @@ TEST(PassAverage, TheSpreadOfPassesCorrectsTheirOwnVariances) {
     for (const float own_factor : {0.0f, 0.3f, 1.0f, 3.0f}) {
         PassAverage average(NoisyPasses::kSide, NoisyPasses::kSide);
         NoisyPasses passes(own_factor);
-        for (const float weight : {1.0f, 1.0f, 1.0f, 0.5f}) {
-            passes.add(average, weight);
+        for (const uint samples : {4u, 4u, 4u, 2u}) {
+            passes.add(average, samples);
         }
         // One part in four of the factor of the passes' own variances, which are one part in four, is still
         // their own word.
