@@ -39,6 +39,8 @@ struct SamplingTask {
 struct RayBudget {
     float clamp_radius = 0.0f;  ///< m
     uint light_samples_per_pixel = 64;
+
+    friend bool operator==(const RayBudget&, const RayBudget&) = default;
 };
 
 /// A set of VPLs that is ready to be gathered. The powers add up to the scene's reflected flux in

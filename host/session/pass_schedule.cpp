@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "host/session/passes.h"
 
@@ -57,10 +58,10 @@ double PassSchedule::fitting_samples() const {
     if (!seconds_) {
         return std::numeric_limits<double>::infinity();
     }
-    if (!sample_seconds_) {
+    if (!pace_.sample_seconds) {
         return seconds_left() > 0.0 ? full_samples_ : 0.0;
     }
-    return (seconds_left() - vpl_seconds_) / *sample_seconds_ - kPlannedExtra;
+    return (seconds_left() - pace_.vpl_seconds) / *pace_.sample_seconds - kPlannedExtra;
 }
 
 double PassSchedule::needed_samples() const {
@@ -91,19 +92,35 @@ uint PassSchedule::next_samples() const {
     return samples >= fewest ? static_cast<uint>(samples) : 0;
 }
 
+void PassSchedule::resume(std::vector<uint> samples, std::optional<double> error, const PassPace& pace,
+                          uint begun_samples, double begun_part) {
+    samples_ = std::move(samples);
+    done_samples_ = std::accumulate(samples_.begin(), samples_.end(), 0.0);
+    error_ = error;
+    pace_ = pace;
+    is_resumed_ = true;
+    begun_samples_ = begun_samples;
+    present_part_ = 1.0 - begun_part;
+}
+
 std::optional<uint> PassSchedule::begin() {
-    present_samples_ = next_samples();
+    if (begun_samples_ > 0) {
+        present_samples_ = std::exchange(begun_samples_, 0);
+    } else {
+        present_samples_ = next_samples();
+        present_part_ = 1.0;
+    }
     pass_watch_ = Stopwatch();
     mark_.reset();
     return present_samples_ > 0 ? std::optional(present_samples_) : std::nullopt;
 }
 
 bool PassSchedule::is_too_long(double of_pass) {
-    if (!seconds_ || !samples_.empty() || present_samples_ <= min_samples_) {
+    if (!seconds_ || is_resumed_ || !samples_.empty() || present_samples_ <= min_samples_) {
         return false;
     }
     if (!mark_) {
-        const double in_gather = pass_watch_.seconds() - vpl_seconds_;
+        const double in_gather = pass_watch_.seconds() - pace_.vpl_seconds;
         if (of_pass > 0.0 && (of_pass >= kIgnoredPart || in_gather >= kIgnoredPart * *seconds_)) {
             mark_ = Mark{.seconds = pass_watch_.seconds(), .fraction = of_pass};
         }
@@ -118,19 +135,20 @@ bool PassSchedule::is_too_long(double of_pass) {
     if (missing <= seconds_left() + kToleratedPart * *seconds_) {
         return false;
     }
-    sample_seconds_ = elapsed / passed / present_samples_;
+    pace_.sample_seconds = elapsed / passed / present_samples_;
     return true;
 }
 
 void PassSchedule::end(std::optional<double> error) {
     samples_.push_back(present_samples_);
     done_samples_ += present_samples_;
-    sample_seconds_ = (pass_watch_.seconds() - vpl_seconds_) / present_samples_;
+    pace_.sample_seconds = (pass_watch_.seconds() - pace_.vpl_seconds) / (present_samples_ * present_part_);
     error_ = error;
 }
 
 double PassSchedule::fraction(double of_pass) const {
-    const double done = done_samples_ + of_pass * present_samples_;
+    const double of_present = 1.0 - present_part_ * (1.0 - of_pass);
+    const double done = done_samples_ + of_present * present_samples_;
     const double all =
         list_.empty() ? 1.0 * full_samples_ * max_passes_ : std::accumulate(list_.begin(), list_.end(), 0.0);
     const double by_time = seconds_ ? (seconds_before_ + watch_.seconds()) / *seconds_ : 0.0;
@@ -145,7 +163,7 @@ std::optional<PassForecast> PassSchedule::forecast() const {
     const auto done = static_cast<double>(samples_.size());
     const double unbelieved = *error_ > 0.0 ? believed_passes_ - done : 0.0;
     const double missing = std::max({0.0, (needed_samples() - done_samples_) / full_samples_, unbelieved});
-    const double pass_seconds = vpl_seconds_ + full_samples_ * sample_seconds_.value_or(0.0);
+    const double pass_seconds = pace_.vpl_seconds + full_samples_ * pace_.sample_seconds.value_or(0.0);
     const double seconds = seconds_before_ + watch_.seconds() + missing * pass_seconds;
     return PassForecast{
         .error = *error_,

@@ -23,6 +23,12 @@ struct PassForecast {
     bool reaches = true;  ///< whether the limits of passes and seconds allow that
 };
 
+/// What passes have taken so far, by which the next are planned.
+struct PassPace {
+    std::optional<double> sample_seconds;  ///< of one sample per pixel
+    double vpl_seconds = 0;                ///< of making the VPLs of a pass
+};
+
 /// Passes follow one another until their list is used up, or their number, the time or the error is reached.
 /// The error falls as the root of the samples. Where less than a pass is missing, or less than a pass fits in
 /// the time, the pass has fewer samples. If already the first pass turns out not to fit, it is begun again
@@ -32,6 +38,12 @@ class PassSchedule {
     /// `seconds_before` is the time that was already spent on getting ready.
     PassSchedule(const RenderSettings& settings, double seconds_before);
 
+    /// Goes on after passes of `samples`, whose picture has the error `error` if it is known, with a pass of
+    /// `begun_samples` per pixel, of which `begun_part` is there already. If that is 0, the next pass is
+    /// chosen as usual. To be called before the first begin().
+    void resume(std::vector<uint> samples, std::optional<double> error, const PassPace& pace,
+                uint begun_samples, double begun_part);
+
     /// Begins a pass and returns its samples per pixel, or nothing if there is to be none. After the first
     /// call that follows is_too_long(), this is the same pass again.
     std::optional<uint> begin();
@@ -39,7 +51,7 @@ class PassSchedule {
     /// believed.
     void believe_after(uint passes) { believed_passes_ = passes; }
     /// To be called when the VPLs of the pass are there.
-    void note_vpls() { vpl_seconds_ = pass_watch_.seconds(); }
+    void note_vpls() { pace_.vpl_seconds = pass_watch_.seconds(); }
     /// Whether the present pass should be given up, as it would take far longer than the time allows.
     /// `of_pass` is how far its gather is, from 0 to 1.
     bool is_too_long(double of_pass);
@@ -52,6 +64,7 @@ class PassSchedule {
     [[nodiscard]] std::optional<PassForecast> forecast() const;
     /// The samples of each pass that has ended.
     [[nodiscard]] const std::vector<uint>& samples() const { return samples_; }
+    [[nodiscard]] const PassPace& pace() const { return pace_; }
 
   private:
     [[nodiscard]] uint next_samples() const;
@@ -75,10 +88,12 @@ class PassSchedule {
     double done_samples_ = 0;
     uint believed_passes_ = 1;
     std::optional<double> error_;
-    std::optional<double> sample_seconds_;  ///< of one sample per pixel
-    double vpl_seconds_ = 0;                ///< of the present or the last pass
+    PassPace pace_;  ///< of the present or the last pass
+    bool is_resumed_ = false;
+    uint begun_samples_ = 0;  ///< of the pass to go on with; 0: there is none
 
     uint present_samples_ = 0;
+    double present_part_ = 1.0;  ///< what is made of the present pass, where it was begun before
     Stopwatch pass_watch_;
     /// When the present pass was first heard of, and how far it was: what comes before is the driver's
     /// compiling, too.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/render.h"
 
+#include <utility>
+
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
 #include "host/session/passes.h"
@@ -25,12 +27,11 @@ RenderReport begin_report(Session& session) {
 }
 
 /// The mean of passes with the same VPLs would converge to a picture with their noise.
-void refuse_passes_of_a_file(const RenderSettings& settings) {
-    if (!settings.sampling.file.empty() && may_have_passes(settings)) {
+void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
+    if (!settings.sampling.file.empty() && keeps_sums) {
         throw Error(ErrorKind::invalid_argument,
                     "VPLs from a file would be the same in every pass: a picture of them has one pass, with "
-                    "no limit of "
-                    "time or error",
+                    "no limit of time or error and no checkpoint",
                     "file");
     }
 }
@@ -45,8 +46,10 @@ void render_once(Session& session, const RenderSettings& settings, const RenderS
 }  // namespace
 
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast) {
-    refuse_passes_of_a_file(settings);
+                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast,
+                    PassStart pass_start, const PassWatcher& watcher) {
+    const bool keeps_sums = may_have_passes(settings) || !pass_start.is_plain();
+    refuse_passes_of_a_file(settings, keeps_sums);
     RenderReport report = begin_report(session);
     const Stopwatch total;
     Hasher hasher;
@@ -55,8 +58,9 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
         sink(rows);
     };
     const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
-    if (may_have_passes(settings)) {
-        render_passes(session, settings, start, hash_and_send, gathering, forecast, report);
+    if (keeps_sums) {
+        render_passes(session, settings,
+                      {start, hash_and_send, gathering, forecast, watcher, std::move(pass_start)}, report);
     } else {
         const uint samples =
             settings.pass_samples.empty() ? settings.gather.samples_per_pixel : settings.pass_samples.front();

@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host/session/pass_schedule.h"
+#include "host/session/checkpoint.h"
+#include "host/session/pass_average.h"
 #include "host/session/session.h"
 
 namespace nearlight::core {
@@ -60,9 +61,36 @@ using RenderStart = std::function<void(const RenderReport&, const View&, const V
 /// Called after each pass but the last of a picture that is made until it reaches an error.
 using ForecastSink = std::function<void(const PassForecast&)>;
 
+/// What has become of a picture of several passes so far.
+struct PassesSoFar {
+    enum class Moment { within_pass, between_passes, end };
+    Moment moment;
+    const RenderReport& report;
+    const View& view;  ///< of the first pass that was made
+    const PassAverage& average;
+    std::function<PassRecord()> record;  ///< with average.sums(), what it takes to go on from here
+};
+/// Called within passes when rows have come, after each pass and after the last, in the caller's thread,
+/// while devices go on. What it throws ends the render.
+using PassWatcher = std::function<void(const PassesSoFar&)>;
+
+/// Where passes begin.
+struct PassStart {
+    uint first = 0;  ///< number of the first pass; those before it are made elsewhere, with the same settings
+    std::optional<Checkpoint> checkpoint{};  ///< to go on from
+    /// Makes a picture of one pass in the way of several, so that there are sums to be kept.
+    bool keeps_sums = false;
+
+    [[nodiscard]] bool is_plain() const { return first == 0 && !checkpoint && !keeps_sums; }
+};
+
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
-/// getting ready.
+/// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
+/// becomes the one of an uninterrupted render, to the bit; the report counts the passes of both, but the
+/// time, memory and devices of this one. The view and the VPLs that `start` gets are then of this render's
+/// first pass; if it made none, there are no VPLs.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast = {});
+                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast = {},
+                    PassStart pass_start = {}, const PassWatcher& watcher = {});
 
 }  // namespace nearlight::core

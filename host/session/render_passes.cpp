@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "host/session/pass_average.h"
 #include "host/session/passes.h"
 #include "host/session/picture_window.h"
 #include "host/session/render_steps.h"
@@ -12,46 +11,162 @@
 namespace nearlight::core {
 namespace {
 
-/// The settings of pass `report.passes`. It keeps what the first pass decided about the view, because the
-/// mean would otherwise mix different views.
-RenderSettings pass_settings(RenderSettings settings, uint samples, const std::optional<Prepared>& first,
-                             const RenderReport& report) {
-    settings.seed = pass_seed(settings.seed, report.passes);
-    if (first) {
-        const RayBudget budget = budget_of(first->view, first->vpls, settings.gather);
-        settings.view.range = first->view.close_range.range;
-        settings.view.clamp_radius = budget.clamp_radius;
-        settings.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
-    }
-    return with_samples(settings, samples);
-}
+using Moment = PassesSoFar::Moment;
 
 /// The passes of a picture, and what they have become.
 struct Passes {
     PassSchedule schedule;
-    std::optional<Prepared> first;
-    std::optional<PassAverage> average;
+    uint first = 0;                      ///< number of the first of them
+    std::optional<PassChoice> choice{};  ///< of pass 0
+    std::optional<View> view{};          ///< of the first pass that is made here
+    VplSet vpls{};                       ///< of the same pass
+    std::optional<PassAverage> average{};
+    std::size_t begun_rows = 0;  ///< of the next pass, from a checkpoint
+    PassTotals totals{};         ///< of whole passes
 };
 
+PassTotals totals_of(const RenderReport& report) {
+    return {.close_vpls = report.close_vpls,
+            .distant_vpls = report.distant_vpls,
+            .sparse_vpls = report.sparse_vpls,
+            .candidates = report.candidates,
+            .local_lights = report.local_lights};
+}
+
+PassChoice choice_of(const Prepared& pass, const RenderSettings& settings) {
+    return {.range = pass.view.close_range.range,
+            .ray_budget = budget_of(pass.view, pass.vpls, settings.gather)};
+}
+
+/// Passes keep what pass 0 decided about the view, because the mean would otherwise mix different views.
+RenderSettings with_choice(RenderSettings settings, const PassChoice& choice) {
+    settings.view.range = choice.range;
+    settings.view.clamp_radius = choice.ray_budget.clamp_radius;
+    settings.gather.direct_samples_per_pixel = choice.ray_budget.light_samples_per_pixel;
+    return settings;
+}
+
+/// The settings of pass `number`.
+RenderSettings pass_settings(const RenderSettings& settings, uint number, uint samples,
+                             const std::optional<PassChoice>& choice) {
+    RenderSettings result = choice ? with_choice(settings, *choice) : settings;
+    result.seed = pass_seed(settings.seed, number);
+    return with_samples(std::move(result), samples);
+}
+
+/// Goes on from a checkpoint.
+void resume(Session& session, const RenderSettings& settings, Checkpoint checkpoint, Passes& passes,
+            RenderReport& report) {
+    const PassRecord& record = checkpoint.record;
+    const std::vector<uint>& samples = record.whole.front().samples;
+    const auto height = static_cast<double>(checkpoint.sums.height());
+    report.width = static_cast<int>(checkpoint.sums.width());
+    report.height = static_cast<int>(checkpoint.sums.height());
+    report.passes = static_cast<uint>(samples.size());
+    report.pass_samples = samples;
+    report.close_fraction = record.close_fraction;
+    report.close_vpls = record.totals.close_vpls;
+    report.distant_vpls = record.totals.distant_vpls;
+    report.sparse_vpls = record.totals.sparse_vpls;
+    report.candidates = record.totals.candidates;
+    report.local_lights = record.totals.local_lights;
+    passes.totals = record.totals;
+    passes.choice = record.choice;
+    passes.begun_rows = record.begun_rows;
+    passes.average.emplace(std::move(checkpoint.sums), record.begun_samples, record.begun_rows);
+    const bool knows_error = settings.error && record.begun_rows == 0 && !samples.empty();
+    passes.schedule.believe_after(passes.average->telling_passes());
+    passes.schedule.resume(samples, knows_error ? std::optional(passes.average->error()) : std::nullopt,
+                           record.pace, record.begun_samples, record.begun_rows / height);
+    if (record.choice && !samples.empty()) {
+        passes.view = look(session, with_choice(settings, *record.choice), report);
+        report.ray_budget = record.choice->ray_budget;
+    }
+}
+
+Passes begin_passes(Session& session, const RenderSettings& settings, PassStart start, RenderReport& report) {
+    Passes passes{.schedule = PassSchedule(settings, report.seconds.total), .first = start.first};
+    if (start.checkpoint) {
+        resume(session, settings, std::move(*start.checkpoint), passes, report);
+    }
+    if (passes.first > 0 && !passes.choice) {
+        RenderReport of_pass_0;
+        passes.choice = choice_of(prepare(session, settings, of_pass_0), settings);
+        report.seconds.generate += of_pass_0.seconds.generate;
+    }
+    return passes;
+}
+
+PassRecord record_of(const Passes& passes, uint seed, const RenderReport& report) {
+    const std::size_t rows = passes.average->begun_rows();
+    const bool is_begun = report.pass_samples.size() > passes.schedule.samples().size() && rows > 0;
+    return {.whole = {{.seed = seed, .first = passes.first, .samples = passes.schedule.samples()}},
+            .begun_samples = is_begun ? report.pass_samples.back() : 0,
+            .begun_rows = is_begun ? static_cast<uint>(rows) : 0,
+            .choice = passes.choice,
+            .close_fraction = report.close_fraction,
+            .totals = passes.totals,
+            .pace = passes.schedule.pace()};
+}
+
+void tell(const PassesTask& task, Moment moment, const Passes& passes, const View& view, uint seed,
+          const RenderReport& report) {
+    if (task.watcher) {
+        task.watcher({.moment = moment,
+                      .report = report,
+                      .view = passes.view ? *passes.view : view,
+                      .average = *passes.average,
+                      .record = [&] { return record_of(passes, seed, report); }});
+    }
+}
+
+/// The part of the picture that a pass has yet to make, after the rows from a checkpoint.
+PixelWindow rest_of(const Prepared& pass, std::size_t begun_rows) {
+    PixelWindow window = window_of(pass.view, pass.settings.gather);
+    window.y += static_cast<uint>(begun_rows);
+    window.height -= static_cast<uint>(begun_rows);
+    return window;
+}
+
+/// Ends a pass of which all rows are there.
+void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& passes,
+              const RenderReport& report) {
+    passes.schedule.believe_after(passes.average->telling_passes());
+    passes.schedule.end(settings.error ? std::optional(passes.average->error()) : std::nullopt);
+    passes.totals = totals_of(report);
+    if (!passes.choice) {
+        passes.choice = choice_of(pass, settings);
+    }
+}
+
 /// Makes a pass of `samples` per pixel. If it is the first and given up, nothing is left of it but its time.
-void make_pass(Session& session, const RenderSettings& settings, uint samples, const GatherFraction& progress,
+void make_pass(Session& session, const RenderSettings& settings, uint samples, const PassesTask& task,
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
-    Prepared pass = prepare(session, pass_settings(settings, samples, passes.first, report), report);
+    const uint number = passes.first + report.passes;
+    Prepared pass = prepare(session, pass_settings(settings, number, samples, passes.choice), report);
     passes.schedule.note_vpls();
-    if (!passes.average) {
-        const PixelWindow window = window_of(pass.view, pass.settings.gather);
-        passes.average.emplace(window.width, window.height);
+    const PixelWindow whole = window_of(pass.view, pass.settings.gather);
+    if (passes.begun_rows > 0) {
+        pass.settings.gather.window = rest_of(pass, std::exchange(passes.begun_rows, 0));
+    } else {
+        if (!passes.average) {
+            passes.average.emplace(whole.width, whole.height);
+        }
+        passes.average->begin_pass(samples);
     }
-    passes.average->begin_pass(samples);
     bool too_long = false;
-    gather(
-        session, pass, [&](std::span<const float> rows) { passes.average->add_rows(rows); },
-        [&](double fraction) {
-            too_long = too_long || passes.schedule.is_too_long(fraction);
-            return !too_long && progress(passes.schedule.fraction(fraction));
-        },
-        report);
+    const auto take_rows = [&](std::span<const float> rows) {
+        passes.average->add_rows(rows);
+        if (passes.average->begun_rows() < whole.height) {
+            tell(task, Moment::within_pass, passes, pass.view, settings.seed, report);
+        }
+    };
+    const auto go_on = [&](double fraction) {
+        too_long = too_long || passes.schedule.is_too_long(fraction);
+        return !too_long && task.progress(passes.schedule.fraction(fraction));
+    };
+    gather(session, pass, take_rows, go_on, report);
     if (too_long && report.interrupted) {
         const RenderSeconds seconds = report.seconds;
         report = before;
@@ -59,32 +174,32 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
         passes.average.reset();
         return;
     }
-    if (!report.interrupted) {
-        passes.schedule.believe_after(passes.average->telling_passes());
-        passes.schedule.end(settings.error ? std::optional(passes.average->error()) : std::nullopt);
+    if (passes.average->begun_rows() == whole.height) {
+        end_pass(settings, pass, passes, report);
+        tell(task, Moment::between_passes, passes, pass.view, settings.seed, report);
     }
-    if (!passes.first) {
-        passes.first = std::move(pass);
+    if (!passes.view) {
+        passes.view = std::move(pass.view);
+        passes.vpls = std::move(pass.vpls);
     }
 }
 
 }  // namespace
 
-void render_passes(Session& session, const RenderSettings& settings, const RenderStart& start,
-                   const RowSink& sink, const GatherFraction& progress, const ForecastSink& forecast,
-                   RenderReport& report) {
-    Passes passes{.schedule = PassSchedule(settings, report.seconds.total), .first = {}, .average = {}};
+void render_passes(Session& session, const RenderSettings& settings, PassesTask task, RenderReport& report) {
+    Passes passes = begin_passes(session, settings, std::move(task.pass_start), report);
     while (const std::optional<uint> samples = report.interrupted ? std::nullopt : passes.schedule.begin()) {
-        if (const auto expected = passes.schedule.forecast(); expected && forecast) {
-            forecast(*expected);
+        if (const auto expected = passes.schedule.forecast(); expected && task.forecast) {
+            task.forecast(*expected);
         }
-        make_pass(session, settings, *samples, progress, passes, report);
+        make_pass(session, settings, *samples, task, passes, report);
     }
     if (settings.error && !passes.schedule.samples().empty()) {
         report.error = passes.average->error();
     }
-    start(report, passes.first->view, passes.first->vpls);
-    passes.average->send(sink);
+    tell(task, Moment::end, passes, *passes.view, settings.seed, report);
+    task.start(report, *passes.view, passes.vpls);
+    passes.average->send(task.sink);
 }
 
 }  // namespace nearlight::core

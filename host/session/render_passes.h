@@ -6,9 +6,17 @@
 
 namespace nearlight::core {
 
-/// Makes passes as a PassSchedule says, and sends their mean. The parameters are those of render().
-void render_passes(Session& session, const RenderSettings& settings, const RenderStart& start,
-                   const RowSink& sink, const GatherFraction& progress, const ForecastSink& forecast,
-                   RenderReport& report);
+/// The parameters of render().
+struct PassesTask {
+    const RenderStart& start;
+    const RowSink& sink;
+    const GatherFraction& progress;
+    const ForecastSink& forecast;
+    const PassWatcher& watcher;
+    PassStart pass_start;
+};
+
+/// Makes passes as a PassSchedule says, and sends their mean.
+void render_passes(Session& session, const RenderSettings& settings, PassesTask task, RenderReport& report);
 
 }  // namespace nearlight::core

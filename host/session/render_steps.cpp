@@ -9,16 +9,20 @@
 namespace nearlight::core {
 namespace {
 
+void note_view(const View& view, RenderReport& report) {
+    report.range = view.close_range.range;
+    report.max_depth = view.max_depth;
+    report.filter = view.scene_camera.filter.kind;
+}
+
 /// Adds a pass to the report: the settings that were decided, and the number of VPLs.
 void note_pass(const Prepared& pass, RenderReport& report) {
     if (report.passes++ == 0) {
         const PixelWindow window = window_of(pass.view, pass.settings.gather);
         report.width = static_cast<int>(window.width);
         report.height = static_cast<int>(window.height);
-        report.range = pass.view.close_range.range;
+        note_view(pass.view, report);
         report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
-        report.max_depth = pass.view.max_depth;
-        report.filter = pass.view.scene_camera.filter.kind;
         report.close_fraction = pass.vpls.close_fraction;
     }
     report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
@@ -38,6 +42,14 @@ ViewSettings view_settings(const RenderSettings& settings) {
 }
 
 }  // namespace
+
+View look(Session& session, const RenderSettings& settings, RenderReport& report) {
+    const Stopwatch watch;
+    View view = session.look(view_settings(settings), settings.seed);
+    note_view(view, report);
+    report.seconds.generate += watch.seconds();
+    return view;
+}
 
 Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report) {
     const Stopwatch watch;

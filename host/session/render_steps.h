@@ -13,6 +13,9 @@ struct Prepared {
     RenderSettings settings;  ///< of the pass
 };
 
+/// Looks at the scene.
+View look(Session& session, const RenderSettings& settings, RenderReport& report);
+
 /// Looks at the scene and makes VPLs. `settings` are those of the pass.
 Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report);
 

@@ -86,6 +86,29 @@ TEST(PassSchedule, HasOnePassOfTwoSamplesIfThereIsNoTime) {
     EXPECT_EQ(passes_of(settings), (Samples{16, 16, 16}));
 }
 
+TEST(PassSchedule, GoesOnAsIfItHadNotBeenInterrupted) {
+    // 0.25 takes 40.96 samples, as above.
+    PassSchedule schedule(with_error(0.25), 0.0);
+    schedule.resume({16}, std::nullopt, {}, 16, 0.75);
+    EXPECT_EQ(schedule.begin(), 16u) << "the pass that was begun";
+    EXPECT_NEAR(schedule.fraction(0.0), 28.0 / (16 * kMaxPassesToError), 1e-9);
+    schedule.end(0.4 * std::sqrt(16.0 / 32));
+    EXPECT_EQ(schedule.begin(), 10u);
+    schedule.resume({16, 16}, 0.4 * std::sqrt(16.0 / 32), {}, 0, 0.0);
+    EXPECT_EQ(schedule.begin(), 10u);
+    schedule.end(0.25);
+    EXPECT_EQ(schedule.begin(), std::nullopt);
+    EXPECT_EQ(schedule.samples(), (Samples{16, 16, 10}));
+}
+
+TEST(PassSchedule, PlansByThePaceOfThePassesBefore) {
+    RenderSettings settings;
+    settings.seconds = 10.0;
+    PassSchedule schedule(settings, 0.0);
+    schedule.resume({16}, std::nullopt, {.sample_seconds = 1.0, .vpl_seconds = 2.0}, 0, 0.0);
+    EXPECT_EQ(schedule.begin(), 6u) << "8 s are left for samples, and one is kept in reserve";
+}
+
 TEST(PassSchedule, GivesUpOnlyAFirstPassThatTakesFarTooLong) {
     RenderSettings settings;
     settings.seconds = 0.05;
