@@ -79,7 +79,7 @@ TEST(PassSchedule, HasOnePassOfTwoSamplesIfThereIsNoTime) {
     settings.gather.samples_per_pixel = 1;
     EXPECT_EQ(passes_of(settings), Samples{1});
     settings.gather.samples_per_pixel = 16;
-    settings.seconds = 10.0;
+    settings.seconds = 1000.0;
     EXPECT_EQ(passes_of(settings, 11.0), Samples{2});
     settings.seconds = 1e9;
     settings.passes = 3;
@@ -103,10 +103,10 @@ TEST(PassSchedule, GoesOnAsIfItHadNotBeenInterrupted) {
 
 TEST(PassSchedule, PlansByThePaceOfThePassesBefore) {
     RenderSettings settings;
-    settings.seconds = 10.0;
+    settings.seconds = 1000.0;
     PassSchedule schedule(settings, 0.0);
-    schedule.resume({16}, std::nullopt, {.sample_seconds = 1.0, .vpl_seconds = 2.0}, 0, 0.0);
-    EXPECT_EQ(schedule.begin(), 6u) << "8 s are left for samples, and one is kept in reserve";
+    schedule.resume({16}, std::nullopt, {.sample_seconds = 100.0, .vpl_seconds = 200.0}, 0, 0.0);
+    EXPECT_EQ(schedule.begin(), 6u) << "800 s are left for samples, and one is kept in reserve";
 }
 
 TEST(PassSchedule, GivesUpOnlyAFirstPassThatTakesFarTooLong) {
