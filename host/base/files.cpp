@@ -21,15 +21,21 @@ void make_folder(const std::filesystem::path& folder) {
     }
 }
 
-void write_text(const std::filesystem::path& file, std::string_view text) {
+void write_parts(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts) {
     AtomicFile result(file);
     std::ofstream stream(result.temporary(), std::ios::binary);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    for (const std::span<const std::byte> part : parts) {
+        stream.write(reinterpret_cast<const char*>(part.data()), static_cast<std::streamsize>(part.size()));
+    }
     stream.close();
     if (!stream || result.commit(Durability::result)) {
         throw Error(ErrorKind::file,
                     "cannot write '" + file.string() + "'; is the disk full, or the folder read-only?");
     }
+}
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+    write_parts(file, std::array{std::as_bytes(std::span(text))});
 }
 
 std::string reason_not_to_read(const std::filesystem::path& file) {

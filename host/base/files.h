@@ -2,7 +2,9 @@
 // Folders, text files and the texts of numbers.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,7 +12,9 @@ namespace nearlight::core {
 
 /// Makes a folder and the missing folders above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
-/// Replaces the whole file. After a failure the old file is still there. Throws Error(ErrorKind::file).
+/// Replaces the whole file, by the parts one after another. After a failure the old file is still there.
+/// Throws Error(ErrorKind::file).
+void write_parts(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts);
 void write_text(const std::filesystem::path& file, std::string_view text);
 /// Why there is no use in opening a file for reading, as in "no such file"; empty if there is some. What is
 /// not a regular file, such as a pipe or a device, may never end.

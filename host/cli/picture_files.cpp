@@ -69,29 +69,11 @@ std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::stri
 }
 
 void check_output(const std::string& file) {
-    namespace fs = std::filesystem;
     if (extension_of(file) != ".exr" && extension_of(file) != ".png") {
         throw Error(ErrorKind::invalid_argument,
                     "cannot write '" + file + "': the names of pictures end in .exr or .png");
     }
-    const fs::path parent = fs::path(file).parent_path();
-    const fs::path folder = parent.empty() ? fs::path(".") : parent;
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) {
-        throw Error(ErrorKind::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
-                                         "'; create it first");
-    }
-    if (fs::is_directory(file, error)) {
-        throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; give a file");
-    }
-    if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
-        throw Error(ErrorKind::file,
-                    "cannot write '" + file + "': it exists and is read-only; give another file");
-    }
-    if (access(folder.c_str(), W_OK) != 0) {
-        throw Error(ErrorKind::file, "cannot write '" + file + "': the folder '" + folder.string() +
-                                         "' is not writable; give another folder");
-    }
+    check_writable(file);
 }
 
 std::vector<float> transposed(const Mat4& m) {
@@ -144,6 +126,28 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
 
 std::string default_output(const std::filesystem::path& scene) {
     return scene.stem().string() + "-render.png";
+}
+
+void check_writable(const std::string& file) {
+    namespace fs = std::filesystem;
+    const fs::path parent = fs::path(file).parent_path();
+    const fs::path folder = parent.empty() ? fs::path(".") : parent;
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
+        throw Error(ErrorKind::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
+                                         "'; create it first");
+    }
+    if (fs::is_directory(file, error)) {
+        throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; give a file");
+    }
+    if (fs::exists(file, error) && access(file.c_str(), W_OK) != 0) {
+        throw Error(ErrorKind::file,
+                    "cannot write '" + file + "': it exists and is read-only; give another file");
+    }
+    if (access(folder.c_str(), W_OK) != 0) {
+        throw Error(ErrorKind::file, "cannot write '" + file + "': the folder '" + folder.string() +
+                                         "' is not writable; give another folder");
+    }
 }
 
 void check_outputs(const PictureOptions& options) {
@@ -199,6 +203,10 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
     metadata_["renderTimeSeconds"] = 0.0f;
     look_ = look;
     place_ = place;
+    files_.clear();
+    has_waiting_ = false;
+    waiting_.clear();
+    meter_ = {};
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
             has_waiting_ = true;
@@ -220,12 +228,13 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
 }
 
 /// Writes the files that waited for the exposure.
-void PictureFiles::write_waiting() {
+void PictureFiles::write_waiting(bool quiet) {
     if (!has_waiting_) {
         return;
     }
     const float exposure = meter_.exposure();
-    spdlog::info("exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
+    spdlog::log(quiet ? spdlog::level::debug : spdlog::level::info,
+                "exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
             ImageWriter writer(file, width_, height_, {"R", "G", "B"},
@@ -269,15 +278,15 @@ void PictureFiles::write_rows(std::span<const float> rows) {
     }
 }
 
-void PictureFiles::commit(double render_seconds) {
+void PictureFiles::commit(double render_seconds, bool quiet) {
     for (File& file : files_) {
         file.writer.commit({{"renderTimeSeconds", static_cast<float>(render_seconds)}});
-        if (file.writer.limited_count() > 0) {
+        if (file.writer.limited_count() > 0 && !quiet) {
             spdlog::warn("{}: {} values above 65504 count as that; --exr-precision float keeps them",
                          file.name, file.writer.limited_count());
         }
     }
-    write_waiting();
+    write_waiting(quiet);
 }
 
 }  // namespace nearlight::core

@@ -36,6 +36,9 @@ void add_picture_options(CLI::App& command, PictureOptions& options);
 /// The picture that a scene gets in the current folder if no output is named.
 std::string default_output(const std::filesystem::path& scene);
 
+/// Throws Error(ErrorKind::file) if the file cannot be written, as far as one can see beforehand.
+void check_writable(const std::string& file);
+
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
 /// for an unknown extension or layer, and Error(ErrorKind::file) for a folder that does not exist or cannot
 /// be written to.
@@ -45,7 +48,8 @@ void check_outputs(const PictureOptions& options);
 /// renderers.
 Metadata camera_metadata(const SceneCamera& camera);
 
-/// The output files of one picture. They appear under their final names only with commit().
+/// The output files of one picture. They appear under their final names only with commit(), after which
+/// open() begins anew.
 class PictureFiles {
   public:
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
@@ -55,8 +59,8 @@ class PictureFiles {
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
     void write_rows(std::span<const float> rows);
-    /// Completes the files; missing rows become black.
-    void commit(double render_seconds);
+    /// Completes the files; missing rows become black. Logs what became of them, unless it is `quiet`.
+    void commit(double render_seconds, bool quiet = false);
 
   private:
     struct File {
@@ -68,7 +72,7 @@ class PictureFiles {
     [[nodiscard]] bool waits_for_exposure(const std::string& file) const;
     [[nodiscard]] ImageWriterOptions exr_options(std::span<const FilmLayer> layers) const;
     void keep_for_exposure(std::span<const float> rows);
-    void write_waiting();
+    void write_waiting(bool quiet);
 
     PictureOptions options_;
     std::vector<File> files_;

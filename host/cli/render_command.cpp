@@ -9,6 +9,7 @@
 
 #include "host/base/stopwatch.h"
 #include "host/bvh/thread_limit.h"
+#include "host/cli/checkpoint_options.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -16,6 +17,7 @@
 #include "host/cli/output.h"
 #include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
+#include "host/cli/picture_keeper.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/render_output.h"
 #include "host/cli/rendered_picture.h"
@@ -39,6 +41,7 @@ struct RenderOptions {
     MethodTexts method;
     PassOptions passes;
     VplFiles vpl_files;
+    CheckpointOptions checkpoint;
     std::string tev;
     int threads = 0;  ///< 0: one per core
 };
@@ -91,6 +94,10 @@ void tell(const RenderOptions& options, const RenderReport& report, double secon
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, note);
     }
+    if (!options.checkpoint.file.empty()) {
+        spdlog::info("wrote {}{}", options.checkpoint.file.string(),
+                     report.interrupted ? ", from which --resume goes on" : "");
+    }
 }
 
 /// Where in the whole picture the part is that --crop names.
@@ -120,16 +127,59 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
     return result;
 }
 
+/// What is there before the first rows come.
+struct RenderRun {
+    const RenderOptions& options;
+    const GlobalOptions& global;
+    RenderSettings settings;
+    std::unique_ptr<const Scene> scene{};
+    double load_seconds = 0.0;
+    std::shared_future<std::uint64_t> hash{};  ///< of the scene
+    std::vector<std::unique_ptr<Device>> devices{};
+
+    [[nodiscard]] ScreenLook look() const { return screen_look(options.picture.screen, *scene); }
+    [[nodiscard]] Metadata metadata(const RenderReport& report, const View& view) const {
+        Metadata metadata =
+            render_metadata(hash.get(), options.scene, settings, report, view, devices, global.command_line);
+        metadata["nearlight:firstPass"] = static_cast<int>(options.checkpoint.first_pass);
+        return metadata;
+    }
+    /// What checkpoints say of the picture; nothing if there are none.
+    [[nodiscard]] CheckpointFacts facts() const {
+        return options.checkpoint.file.empty()
+                   ? CheckpointFacts()
+                   : checkpoint_facts(*scene, hash.get(), settings, options.session, devices);
+    }
+};
+
+/// Reads the scene while devices start and kernels compile. Errors of the scene are reported first.
+RenderRun get_ready(const RenderOptions& options, const GlobalOptions& global, const DeviceChoice& choice) {
+    RenderRun run{.options = options, .global = global, .settings = settled(options)};
+    auto opening = std::async(std::launch::async, [&] {
+        auto opened = open_devices(choice, list_devices());
+        begin_compiling(plain(opened), options.session, run.settings.sampling);
+        return opened;
+    });
+    const Stopwatch loading;
+    run.scene = std::make_unique<const Scene>(load_scene(options.scene));
+    run.load_seconds = loading.seconds();
+    check_request(*run.scene, run.settings);
+    // The hash is for metadata and checkpoints, and computed in the background.
+    run.hash = std::async(std::launch::async, [scene = run.scene.get()] { return scene_hash(*scene); });
+    run.devices = opening.get();
+    return run;
+}
+
 /// Where finished rows go, and when the first of them came.
 struct RowSinks {
     RenderedPicture picture;
     TevPicture tev;
     FirstRows first_rows{};
 
-    void open(const RenderReport& started, const Metadata& metadata, const ScreenLook& look,
-              const std::optional<ImagePlace>& place) {
-        picture.open(started.width, started.height, metadata, look, place);
-        tev.open(started.width, started.height);
+    void open(const RenderRun& run, const RenderReport& report, const View& view) {
+        picture.open(report.width, report.height, run.metadata(report, view), run.look(),
+                     place_of(run.settings.gather, view));
+        tev.open(report.width, report.height);
     }
     void add_rows(std::span<const float> rows, const Stopwatch& since_begin) {
         first_rows.note(since_begin);
@@ -148,65 +198,94 @@ ForecastSink tell_once(ProgressBar& bar, const RenderSettings& settings) {
     };
 }
 
+/// Keeps the picture and the checkpoint on disk up to date.
+PictureKeeper make_keeper(const RenderRun& run, const CheckpointFacts& facts, RowSinks& sinks,
+                          ProgressBar& bar, const Stopwatch& total) {
+    return {run.options.checkpoint.file,
+            run.options.checkpoint.seconds,
+            {.facts =
+                 [&](const PassesSoFar& so_far) {
+                     CheckpointFacts now = facts;
+                     now.metadata = run.metadata(so_far.report, so_far.view);
+                     now.look = run.look();
+                     now.place = place_of(run.settings.gather, so_far.view);
+                     return now;
+                 },
+             .write_picture =
+                 [&](const PassesSoFar& so_far) {
+                     sinks.open(run, so_far.report, so_far.view);
+                     so_far.average.send([&](std::span<const float> rows) { sinks.add_rows(rows, total); });
+                     sinks.picture.commit(total, true);
+                 },
+             .warn =
+                 [&](const std::string& why) {
+                     bar.clear();
+                     spdlog::warn("{}; the render goes on", why);
+                 }}};
+}
+
+/// Prints and logs what has become of the picture.
+void tell_outcome(const RenderRun& run, const RenderReport& report, const RowSinks& sinks,
+                  const Stopwatch& total) {
+    const RenderOptions& options = run.options;
+    if (run.global.json) {
+        nlohmann::ordered_json json =
+            render_json(options.scene, options.picture.outputs, run.settings, options.session.bvh_quality,
+                        report, sinks.picture, run.load_seconds, sinks.first_rows, run.devices);
+        json["first_pass"] = options.checkpoint.first_pass;
+        json["checkpoint"] = options.checkpoint.file.empty()
+                                 ? nullptr
+                                 : nlohmann::ordered_json(options.checkpoint.file.string());
+        print_json(json);
+    }
+    if (run.global.verbose) {
+        tell_kernel_times(run.devices);
+    }
+    tell(options, report, total.seconds());
+}
+
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
-    RenderSettings settings = settled(options);
-    check_variance_is_known(options.picture, settings, options.passes);
+    check_variance_is_known(options.picture, settled(options), options.passes);
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {
         limit_driver_threads(options.threads);
     }
     const DeviceChoice choice = with_compile_workers(options.device);
     check_outputs(options.picture);
+    check_checkpoint(options.checkpoint, options.picture.outputs);
+    std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
     const Stopwatch total;
     RowSinks sinks{
         .picture = RenderedPicture(options.picture, options.threads),
         .tev = TevPicture(options.tev,
                           std::filesystem::path(options.picture.outputs.front()).filename().string())};
-    // Devices start and kernels compile while the scene is read. Errors of the scene are reported first.
-    auto opening = std::async(std::launch::async, [&] {
-        auto opened = open_devices(choice, list_devices());
-        begin_compiling(plain(opened), options.session, settings.sampling);
-        return opened;
-    });
-    const Stopwatch loading;
-    const Scene scene = load_scene(options.scene);
-    const double load_seconds = loading.seconds();
-    check_request(scene, settings);
-    // The hash is for the files' metadata and is computed in the background.
-    auto hash = std::async(std::launch::async, [&] { return scene_hash(scene); });
-    const std::vector<std::unique_ptr<Device>> devices = opening.get();
-
+    RenderRun run = get_ready(options, global, choice);
+    const CheckpointFacts facts = run.facts();
+    PassStart start = pass_start(options.checkpoint, reader, facts, run.settings);
     if (options.passes.seconds) {
-        settings.seconds = *options.passes.seconds - total.seconds();
+        run.settings.seconds = *options.passes.seconds - total.seconds();
     }
     catch_interrupts();
     ProgressBar bar("gathering", global);
-    Session session(plain(devices), scene, options.session);
+    Session session(plain(run.devices), *run.scene, options.session);
+    PictureKeeper keeper = make_keeper(run, facts, sinks, bar, total);
     const RenderReport report = render(
-        session, settings,
+        session, run.settings,
         [&](const RenderReport& started, const View& view, const VplSet& vpls) {
             save(options.vpl_files, session, view, vpls);
-            sinks.open(started,
-                       render_metadata(hash.get(), options.scene, settings, started, view, devices,
-                                       global.command_line),
-                       screen_look(options.picture.screen, scene), place_of(settings.gather, view));
+            sinks.open(run, started, view);
         },
         [&](std::span<const float> rows) { sinks.add_rows(rows, total); },
         [&](const std::string&, double fraction) {
             bar.update(fraction);
             return !interrupted();
         },
-        tell_once(bar, settings));
+        tell_once(bar, run.settings), std::move(start),
+        [&](const PassesSoFar& so_far) { keeper.watch(so_far); });
     bar.clear();
     sinks.picture.commit(total);
-    if (global.json) {
-        print_json(render_json(options.scene, options.picture.outputs, settings, options.session.bvh_quality,
-                               report, sinks.picture, load_seconds, sinks.first_rows, devices));
-    }
-    if (global.verbose) {
-        tell_kernel_times(devices);
-    }
-    tell(options, report, total.seconds());
+    keeper.check();
+    tell_outcome(run, report, sinks, total);
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
@@ -271,6 +350,7 @@ void add_render_command(CommandLine& line) {
     add_tev_option(command, options->tev);
     add_sampler_options(command, options->settings, options->method);
     add_vpl_options(command, options->vpl_files);
+    add_checkpoint_options(command, options->checkpoint);
     add_method_options(command, options->settings, options->method);
     add_session_options(command, options->session);
     add_device_options(command, options->device);

@@ -26,6 +26,7 @@ void RenderedPicture::open(int width, int height, Metadata metadata, const Scree
                            const std::optional<ImagePlace>& place) {
     metadata["nearlight:denoised"] = denoiser();
     width_ = width;
+    rows_.clear();
     files_.open(width, height, metadata, look, place);
 }
 
@@ -61,12 +62,12 @@ void RenderedPicture::denoise() {
     denoising_seconds_ = watch.seconds();
 }
 
-void RenderedPicture::commit(const Stopwatch& since_begin) {
+void RenderedPicture::commit(const Stopwatch& since_begin, bool quiet) {
     if (!rows_.empty()) {
         denoise();
         files_.write_rows(rows_);
     }
-    files_.commit(since_begin.seconds());
+    files_.commit(since_begin.seconds(), quiet);
 }
 
 }  // namespace nearlight::core

@@ -19,14 +19,14 @@ class RenderedPicture {
     /// all if that is 0. Throws as Denoiser does.
     RenderedPicture(const PictureOptions& options, int threads);
 
-    /// Opens the files. `metadata` gets the attribute that names the denoiser.
+    /// Opens the files, again if they were committed. `metadata` gets the attribute that names the denoiser.
     void open(int width, int height, Metadata metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Takes rows with the channels of layer_channels().
     void add_rows(std::span<const float> rows);
     /// Denoises what rows there are, and completes the files. `since_begin` is for their attribute of the
-    /// time.
-    void commit(const Stopwatch& since_begin);
+    /// time. `quiet` is PictureFiles::commit()'s.
+    void commit(const Stopwatch& since_begin, bool quiet = false);
 
     /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N)",
     /// or "none".

@@ -43,8 +43,10 @@ void TevPicture::attempt(const Action& action) {
 }
 
 void TevPicture::open(int width, int height) {
-    width_ = width;
-    attempt([&] { link_->create(name_, width, height, channels_); });
+    next_row_ = 0;
+    if (std::exchange(width_, width) == 0) {
+        attempt([&] { link_->create(name_, width, height, channels_); });
+    }
 }
 
 void TevPicture::add_rows(std::span<const float> rows) {

@@ -20,6 +20,7 @@ class TevPicture {
     /// Connects to tev, unless `address` is empty: then nothing is sent. Throws as TevLink does.
     TevPicture(const std::string& address, std::string name);
 
+    /// Begins with the topmost row, again if it was called before.
     void open(int width, int height);
     /// Sends the next rows, with the channels of layer_channels(). If tev is gone, a warning says so, once.
     void add_rows(std::span<const float> rows);

@@ -28,9 +28,9 @@ constexpr std::size_t kSampleUnit = 16;
 constexpr std::size_t kVplPasses = 8;
 
 /// Sums of values, squares and variances over passes.
-class PassSums {
+class ReferenceSums {
   public:
-    explicit PassSums(const ReferenceSpec& spec)
+    explicit ReferenceSums(const ReferenceSpec& spec)
         : values_(spec.width * spec.height * 3), squares_(values_), own_(values_) {}
 
     void add(const Image& pass, double samples) {
@@ -142,7 +142,7 @@ std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t sampl
 std::optional<Reference> make_reference(const ReferenceSpec& spec, std::size_t samples,
                                         const ReferenceStore& store, const PassMaker& make_pass) {
     const Stopwatch watch;
-    PassSums sums(spec);
+    ReferenceSums sums(spec);
     bool made = false;
     const std::vector<std::size_t> sizes = pass_sizes(spec, samples);
     for (std::size_t index = 0; index < sizes.size(); ++index) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a picture and its checkpoint to disk while passes are made.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/base/stopwatch.h"
+#include "host/cli/checkpoint_file.h"
+#include "host/session/render.h"
+#include "nearlight/error.h"
+
+namespace nearlight::core {
+
+/// Decides when it is time to write something again: after so many seconds, or, if that is open, after 5 s
+/// and so seldom that writing takes at most a hundredth of the time.
+class WritingPace {
+  public:
+    explicit WritingPace(std::optional<double> seconds) : seconds_(seconds) {}
+
+    /// `guess` is how many seconds the first writing probably takes.
+    [[nodiscard]] bool is_time(double guess) const;
+    /// To be called before and after writing.
+    void begin() { writing_ = Stopwatch(); }
+    void end();
+
+  private:
+    std::optional<double> seconds_;
+    Stopwatch total_;
+    Stopwatch since_last_;
+    Stopwatch writing_;
+    double spent_ = 0.0;
+    std::optional<double> last_;  ///< seconds that the last writing took
+};
+
+class PictureKeeper {
+  public:
+    struct Actions {
+        /// The facts of the picture so far.
+        std::function<CheckpointFacts(const PassesSoFar&)> facts;
+        std::function<void(const PassesSoFar&)> write_picture;
+        /// Told why something could not be written. The render goes on, since the disk may have room later.
+        std::function<void(const std::string& why)> warn;
+    };
+
+    /// `checkpoint` may be empty. `seconds` is the least time between two writings.
+    PictureKeeper(std::filesystem::path checkpoint, std::optional<double> seconds, Actions actions);
+
+    /// Writes what is due. At the end the checkpoint is due, but not the picture.
+    void watch(const PassesSoFar& so_far);
+    /// Throws what kept the last checkpoint from being written.
+    void check() const;
+
+  private:
+    /// One of the two files.
+    struct Kept {
+        WritingPace pace;
+        std::optional<Error> failure{};  ///< of the last writing
+    };
+    void attempt(Kept& kept, const std::function<void()>& write);
+
+    std::filesystem::path checkpoint_file_;
+    Actions actions_;
+    Kept checkpoint_;
+    Kept picture_;
+};
+
+}  // namespace nearlight::core
