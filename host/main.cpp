@@ -14,6 +14,7 @@
 #include "host/cli/document_command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/info_command.h"
+#include "host/cli/merge_command.h"
 #include "host/cli/reference_command.h"
 #include "host/cli/render_command.h"
 #include "host/cli/selftest_command.h"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
         nearlight::core::add_view_command(line);
         nearlight::core::add_reference_command(line);
         nearlight::core::add_diff_command(line);
+        nearlight::core::add_merge_command(line);
         nearlight::core::add_compare_command(line);
         nearlight::core::add_bench_command(line);
         nearlight::core::add_selftest_command(line);

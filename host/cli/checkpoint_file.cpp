@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -211,21 +212,21 @@ CheckpointReader::CheckpointReader(std::filesystem::path file) : file_(std::move
     if (const std::string reason = reason_not_to_read(file_); !reason.empty()) {
         fail_to_read(file_, reason);
     }
-    stream_.open(file_, std::ios::binary);
+    std::ifstream stream(file_, std::ios::binary);
     std::array<char, kMagic.size()> magic{};
-    if (!stream_) {
+    if (!stream) {
         fail_to_read(file_, "it cannot be opened");
     }
-    stream_.read(magic.data(), magic.size());
+    stream.read(magic.data(), magic.size());
     const std::string_view found(magic.data(), magic.size());
-    if (!stream_ || found.substr(0, kFamily) != kMagic.substr(0, kFamily)) {
+    if (!stream || found.substr(0, kFamily) != kMagic.substr(0, kFamily)) {
         fail_to_read(file_, "it is no checkpoint of nearlight");
     }
     if (found != kMagic) {
         fail_to_read(file_, "another version of nearlight wrote it; remove it and render anew");
     }
     try {
-        take_header();
+        take_header(stream);
     } catch (const std::exception&) {
         fail_as_damaged(file_);
     }
@@ -239,15 +240,15 @@ CheckpointReader::CheckpointReader(std::filesystem::path file) : file_(std::move
     }
 }
 
-void CheckpointReader::take_header() {
+void CheckpointReader::take_header(std::istream& stream) {
     std::uint64_t length = 0;
-    stream_.read(reinterpret_cast<char*>(&length), sizeof length);
-    if (!stream_ || length > kMaxHeaderBytes || length > std::filesystem::file_size(file_)) {
+    stream.read(reinterpret_cast<char*>(&length), sizeof length);
+    if (!stream || length > kMaxHeaderBytes || length > std::filesystem::file_size(file_)) {
         throw std::length_error("header");
     }
     header_.resize(length);
-    stream_.read(header_.data(), static_cast<std::streamsize>(length));
-    if (!stream_) {
+    stream.read(header_.data(), static_cast<std::streamsize>(length));
+    if (!stream) {
         throw std::length_error("header");
     }
     const Json json = Json::parse(header_);
@@ -257,17 +258,19 @@ void CheckpointReader::take_header() {
     height_ = json.at("height");
 }
 
-PassSums CheckpointReader::read_sums() {
+PassSums CheckpointReader::read_sums() const {
     PassSums sums(width_, height_);
     Hash128 checksum{};
+    std::ifstream stream(file_, std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(kMagic.size() + sizeof(std::uint64_t) + header_.size()));
     const auto read = [&](std::span<std::byte> bytes) {
-        stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     };
     read(std::as_writable_bytes(sums.sums()));
     read(std::as_writable_bytes(sums.firsts()));
     read(std::as_writable_bytes(std::span(checksum)));
     const std::array<std::uint64_t, 1> size{header_.size()};
-    if (!stream_ || checksum_of(parts_of(size, header_, sums)) != checksum) {
+    if (!stream || checksum_of(parts_of(size, header_, sums)) != checksum) {
         fail_as_damaged(file_);
     }
     set_rows(record_, sums);

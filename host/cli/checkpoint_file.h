@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -32,7 +32,8 @@ struct CheckpointFacts {
 void write_checkpoint(const std::filesystem::path& file, const CheckpointFacts& facts,
                       const PassRecord& record, const PassSums& sums);
 
-/// A checkpoint that is read. What it says of itself is there at once, and its sums on demand.
+/// A checkpoint that is read. What it says of itself is there at once, and its sums on demand; in between,
+/// the file is closed.
 class CheckpointReader {
   public:
     /// Throws Error(ErrorKind::file) if there is no such file, or if it is none or that of another version of
@@ -45,14 +46,13 @@ class CheckpointReader {
     [[nodiscard]] std::size_t width() const { return width_; }    ///< pixels
     [[nodiscard]] std::size_t height() const { return height_; }  ///< pixels
 
-    /// Reads the sums, once. Throws Error(ErrorKind::file) if any byte of the file is not as it was written.
-    [[nodiscard]] PassSums read_sums();
+    /// Reads the sums. Throws Error(ErrorKind::file) if any byte of the file is not as it was written.
+    [[nodiscard]] PassSums read_sums() const;
 
   private:
-    void take_header();
+    void take_header(std::istream& stream);
 
     std::filesystem::path file_;
-    std::ifstream stream_;
     std::string header_;  ///< JSON
     CheckpointFacts facts_;
     PassRecord record_;

@@ -33,16 +33,17 @@ void check_screen_options(const ScreenOptions& options) {
     }
 }
 
-ScreenLook screen_look(const ScreenOptions& options, const Scene& scene) {
-    ScreenLook look;
-    if (scene.has_open_exposure) {
-        look = {ToneCurve::neutral, std::nullopt};
-    }
+ScreenLook chosen_look(const ScreenOptions& options, ScreenLook look) {
     if (!options.exposure.empty()) {
         look.exposure = exposure_of(options.exposure);
     }
     look.curve = options.curve.value_or(look.curve);
     return look;
+}
+
+ScreenLook screen_look(const ScreenOptions& options, const Scene& scene) {
+    return chosen_look(options,
+                       scene.has_open_exposure ? ScreenLook{ToneCurve::neutral, std::nullopt} : ScreenLook());
 }
 
 ImageWriterOptions screen_writer_options(const ScreenLook& look, float exposure, Metadata metadata) {

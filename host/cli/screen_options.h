@@ -32,6 +32,9 @@ void check_screen_options(const ScreenOptions& options);
 /// neutral curve, unless the options say otherwise.
 ScreenLook screen_look(const ScreenOptions& options, const Scene& scene);
 
+/// The look of a picture whose scene asks for `look`.
+ScreenLook chosen_look(const ScreenOptions& options, ScreenLook look);
+
 /// Writer options for a PNG file with that look and the attributes that name it.
 ImageWriterOptions screen_writer_options(const ScreenLook& look, float exposure, Metadata metadata);
 

@@ -13,12 +13,6 @@
 namespace nearlight::core {
 namespace {
 
-void add_beauty(std::span<const float> rows, Hasher& hasher) {
-    for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
-        hasher.add_bytes(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)));
-    }
-}
-
 RenderReport begin_report(Session& session) {
     RenderReport report;
     const SessionSeconds ready = session.take_seconds();
@@ -44,6 +38,12 @@ void render_once(Session& session, const RenderSettings& settings, const RenderS
 }
 
 }  // namespace
+
+void add_beauty(std::span<const float> rows, Hasher& hasher) {
+    for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
+        hasher.add_bytes(std::as_bytes(rows.subspan(i + NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB)));
+    }
+}
 
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/hash.h"
 #include "host/session/checkpoint.h"
 #include "host/session/pass_average.h"
 #include "host/session/session.h"
@@ -83,6 +84,9 @@ struct PassStart {
 
     [[nodiscard]] bool is_plain() const { return first == 0 && !checkpoint && !keeps_sums; }
 };
+
+/// Adds finished rows to RenderReport::image_hash.
+void add_beauty(std::span<const float> rows, Hasher& hasher);
 
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
