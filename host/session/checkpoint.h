@@ -43,10 +43,10 @@ struct PassRecord {
     std::vector<PassRange> whole;  ///< passes that have reached every row; seed and first are always there
     uint begun_samples = 0;        ///< of the pass after them; 0 if that has reached no row
     uint begun_rows = 0;           ///< rows that it has reached, less than all
-    std::optional<PassChoice> choice;  ///< empty until pass 0 is whole
-    float close_fraction = 0.0f;       ///< of the first pass that was made
-    PassTotals totals;                 ///< of the whole passes
-    PassPace pace;
+    std::optional<PassChoice> choice{};  ///< empty until pass 0 is whole
+    float close_fraction = 0.0f;         ///< of the first pass that was made
+    PassTotals totals{};                 ///< of the whole passes
+    PassPace pace{};
 };
 
 struct Checkpoint {
