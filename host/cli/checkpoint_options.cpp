@@ -5,6 +5,7 @@
 
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
+#include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
 #include "nearlight/error.h"
 
@@ -76,7 +77,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
                     "Write the checkpoint, and the picture so far after a pass, when so many seconds have "
                     "passed; 0: whenever there is anything new (default: 5, but so seldom that each takes at "
                     "most a hundredth of the time)")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(number_from(0.0, 1e9))
         ->type_name("SECONDS");
     auto* const first_pass = command.add_option(
         "--first-pass", options.first_pass,

@@ -9,9 +9,6 @@
 
 namespace nearlight::core {
 
-namespace {
-
-/// Accepts numbers from `low` to `high`, and no NaN.
 CLI::Validator number_from(double low, double high) {
     return CLI::Validator(
         [low, high](const std::string& text) {
@@ -23,8 +20,6 @@ CLI::Validator number_from(double low, double high) {
         },
         "");
 }
-
-}  // namespace
 
 void add_pass_options(CLI::App& command, PassOptions& options) {
     auto* const passes = command.add_option(

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "host/cli/log.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -35,8 +37,8 @@ void WritingPace::end() {
 PictureKeeper::PictureKeeper(std::filesystem::path checkpoint, std::optional<double> seconds, Actions actions)
     : checkpoint_file_(std::move(checkpoint)),
       actions_(std::move(actions)),
-      checkpoint_{WritingPace(seconds)},
-      picture_{WritingPace(seconds)} {}
+      checkpoint_{"checkpoint", WritingPace(seconds)},
+      picture_{"picture", WritingPace(seconds)} {}
 
 void PictureKeeper::attempt(Kept& kept, const std::function<void()>& write) {
     kept.pace.begin();
@@ -50,6 +52,7 @@ void PictureKeeper::attempt(Kept& kept, const std::function<void()>& write) {
         kept.failure = error;
     }
     kept.pace.end();
+    spdlog::debug("{} written; writing has taken {:.2f} % of the time", kept.name, 100.0 * kept.pace.share());
 }
 
 void PictureKeeper::watch(const PassesSoFar& so_far) {

@@ -25,6 +25,8 @@ class WritingPace {
     /// To be called before and after writing.
     void begin() { writing_ = Stopwatch(); }
     void end();
+    /// What part of the time writing has taken, from 0 to 1.
+    [[nodiscard]] double share() const { return spent_ / total_.seconds(); }
 
   private:
     std::optional<double> seconds_;
@@ -56,6 +58,7 @@ class PictureKeeper {
   private:
     /// One of the two files.
     struct Kept {
+        const char* name;
         WritingPace pace;
         std::optional<Error> failure{};  ///< of the last writing
     };

@@ -102,7 +102,7 @@ TEST_F(CheckpointsOfRender, OfOnePassIsThePictureWithoutOne) {
 }
 
 TEST_F(CheckpointsOfRender, AKilledRenderGoesOnToTheSameBits) {
-    const std::string options = "--passes 12 --size 256x192 ";
+    const std::string options = "--passes 8 --size 256x192 ";
     const std::string whole = plain(options);
     const Image expected = read_image(folder_ / "plain.exr");
     const std::string line = arguments("a", checkpoint("a") + options + "--resume --checkpoint-every 0");
@@ -110,7 +110,7 @@ TEST_F(CheckpointsOfRender, AKilledRenderGoesOnToTheSameBits) {
     ProgramResult result;
     // The moments spread over start, VPLs, gather and writing. Each run has a little longer than the one
     // before.
-    for (double seconds = 0.15; seconds < 60; seconds *= 1.25) {
+    for (double seconds = 0.15; seconds < 60; seconds *= 1.4) {
         result = run_program(line, "timeout --foreground --signal=KILL " + std::to_string(seconds));
         if (result.exit_code == 0) {
             break;
@@ -139,11 +139,16 @@ TEST_F(CheckpointsOfRender, AnInterruptedRenderGoesOnToTheSameBits) {
 }
 
 TEST_F(CheckpointsOfRender, ThePictureOnDiskImprovesPassByPass) {
-    const ProgramResult stopped = run_program(arguments("a", "--passes 100000 --checkpoint-every 0"),
-                                              "timeout --foreground --signal=KILL 10");
-    ASSERT_EQ(stopped.exit_code, 137) << stopped.errors;
-    const Metadata metadata = read_metadata(folder_ / "a.exr");
-    EXPECT_GT(std::get<int>(metadata.at("nearlight:passes")), 1);
+    const std::string line = arguments("a", "--passes 100000 --checkpoint-every 0");
+    // A slow machine needs longer for the first passes.
+    for (double seconds = 2; seconds < 100 && !std::filesystem::exists(folder_ / "a.exr"); seconds *= 2) {
+        const ProgramResult stopped =
+            run_program(line, "timeout --foreground --signal=KILL " + std::to_string(seconds));
+        ASSERT_EQ(stopped.exit_code, 137) << stopped.errors;
+    }
+    const int passes = std::get<int>(read_metadata(folder_ / "a.exr").at("nearlight:passes"));
+    plain("--passes " + std::to_string(passes));
+    EXPECT_EQ(read_image(folder_ / "a.exr").values, read_image(folder_ / "plain.exr").values);
 }
 
 TEST_F(CheckpointsOfRender, OfAnotherPictureAreRefused) {
