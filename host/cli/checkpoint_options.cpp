@@ -73,10 +73,11 @@ void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
             "there is no such file")
         ->needs(file);
     command
-        .add_option("--checkpoint-every", options.seconds,
-                    "Write the checkpoint, and the picture so far after a pass, when so many seconds have "
-                    "passed; 0: whenever there is anything new (default: 5, but so seldom that each takes at "
-                    "most a hundredth of the time)")
+        .add_option(
+            "--checkpoint-every", options.seconds,
+            "Write the checkpoint, and the picture so far after a pass, when so many seconds have "
+            "passed; 0: whenever there is anything new (default: 5, but so seldom that writing takes at "
+            "most a fiftieth of the time)")
         ->check(number_from(0.0, 1e9))
         ->type_name("SECONDS");
     auto* const first_pass = command.add_option(

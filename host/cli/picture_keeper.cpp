@@ -9,14 +9,11 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kLeastSeconds = 5.0;
-constexpr double kShare = 0.01;
-/// What writing a pixel takes on a slow disk, or where a picture is compressed.
-constexpr double kGuessedSecondsPerPixel = 2e-6;
-
-double guessed_seconds(const PassesSoFar& so_far) {
-    const PassSums& sums = so_far.average.sums();
-    return kGuessedSecondsPerPixel * static_cast<double>(sums.width() * sums.height());
-}
+/// Of the time, for all files together.
+constexpr double kMaxShare = 0.02;
+/// What writing a pixel of all layers took on two busy cores (docs/reliability.md).
+constexpr double kCheckpointSecondsPerPixel = 1.5e-6;
+constexpr double kPictureSecondsPerPixel = 3e-6;
 
 }  // namespace
 
@@ -25,7 +22,7 @@ bool WritingPace::is_time(double guess) const {
         return since_last_.seconds() >= *seconds_;
     }
     return since_last_.seconds() >= kLeastSeconds &&
-           spent_ + last_.value_or(guess) <= kShare * total_.seconds();
+           spent_ + last_.value_or(guess) <= max_share_ * total_.seconds();
 }
 
 void WritingPace::end() {
@@ -37,8 +34,13 @@ void WritingPace::end() {
 PictureKeeper::PictureKeeper(std::filesystem::path checkpoint, std::optional<double> seconds, Actions actions)
     : checkpoint_file_(std::move(checkpoint)),
       actions_(std::move(actions)),
-      checkpoint_{"checkpoint", WritingPace(seconds)},
-      picture_{"picture", WritingPace(seconds)} {}
+      checkpoint_{"checkpoint", WritingPace(seconds, kMaxShare / 2), kCheckpointSecondsPerPixel},
+      picture_{"picture", WritingPace(seconds, checkpoint_file_.empty() ? kMaxShare : kMaxShare / 2),
+               kPictureSecondsPerPixel} {}
+
+bool PictureKeeper::is_due(const Kept& kept, const PassSums& sums) {
+    return kept.pace.is_time(kept.seconds_per_pixel * static_cast<double>(sums.width() * sums.height()));
+}
 
 void PictureKeeper::attempt(Kept& kept, const std::function<void()>& write) {
     kept.pace.begin();
@@ -57,16 +59,16 @@ void PictureKeeper::attempt(Kept& kept, const std::function<void()>& write) {
 
 void PictureKeeper::watch(const PassesSoFar& so_far) {
     const bool is_end = so_far.moment == PassesSoFar::Moment::end;
-    const double guess = guessed_seconds(so_far);
-    if (!checkpoint_file_.empty() && (is_end || checkpoint_.pace.is_time(guess))) {
+    const PassSums& sums = so_far.average.sums();
+    if (!checkpoint_file_.empty() && (is_end || is_due(checkpoint_, sums))) {
         attempt(checkpoint_, [&] {
             const PassRecord record = so_far.record();
             if (record.begun_rows > 0 || !record.whole.front().samples.empty()) {
-                write_checkpoint(checkpoint_file_, actions_.facts(so_far), record, so_far.average.sums());
+                write_checkpoint(checkpoint_file_, actions_.facts(so_far), record, sums);
             }
         });
     }
-    if (so_far.moment == PassesSoFar::Moment::between_passes && picture_.pace.is_time(guess)) {
+    if (so_far.moment == PassesSoFar::Moment::between_passes && is_due(picture_, sums)) {
         attempt(picture_, [&] { actions_.write_picture(so_far); });
     }
 }

@@ -15,12 +15,12 @@
 namespace nearlight::core {
 
 /// Decides when it is time to write something again: after so many seconds, or, if that is open, after 5 s
-/// and so seldom that writing takes at most a hundredth of the time.
+/// and so seldom that writing takes at most the part `share` of the time.
 class WritingPace {
   public:
-    explicit WritingPace(std::optional<double> seconds) : seconds_(seconds) {}
+    WritingPace(std::optional<double> seconds, double share) : seconds_(seconds), max_share_(share) {}
 
-    /// `guess` is how many seconds the first writing probably takes.
+    /// `guess` is how many seconds the first writing takes on a busy machine.
     [[nodiscard]] bool is_time(double guess) const;
     /// To be called before and after writing.
     void begin() { writing_ = Stopwatch(); }
@@ -30,6 +30,7 @@ class WritingPace {
 
   private:
     std::optional<double> seconds_;
+    double max_share_;
     Stopwatch total_;
     Stopwatch since_last_;
     Stopwatch writing_;
@@ -60,8 +61,10 @@ class PictureKeeper {
     struct Kept {
         const char* name;
         WritingPace pace;
+        double seconds_per_pixel;        ///< a guess
         std::optional<Error> failure{};  ///< of the last writing
     };
+    static bool is_due(const Kept& kept, const PassSums& sums);
     void attempt(Kept& kept, const std::function<void()>& write);
 
     std::filesystem::path checkpoint_file_;
