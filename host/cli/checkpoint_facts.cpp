@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "host/base/hash.h"
 #include "host/bvh/bvh.h"

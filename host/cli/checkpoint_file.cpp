@@ -24,6 +24,10 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kMagic = "NLSUMS01";
 /// How much of the magic all versions of the format have.
 constexpr std::size_t kFamily = 6;
+/// Bounds that only a file that somebody made up exceeds: it must not take more memory than its size.
+constexpr std::size_t kMaxPasses = 2'000'000;
+constexpr uint kMaxPassNumber = 2'000'000'000;
+constexpr int kMaxDepth = 8;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{16} << 20u;
 constexpr std::uint64_t kMaxCheckpointSide = 65536;
 constexpr std::uint64_t kPixelBytes = PassSums::kSums * sizeof(DoubleSum) + PassSums::kFirsts * sizeof(float);
@@ -147,11 +151,16 @@ PassRecord record_in(const Json& json) {
                                  .local_lights = json.at("local_lights")},
                       .pace = {.sample_seconds = optional_in<double>(json.at("sample_seconds")),
                                .vpl_seconds = json.at("vpl_seconds")}};
+    std::size_t passes = 0;
     for (const Json& range : json.at("passes")) {
         const std::string samples = range.at("samples");
         record.whole.push_back({.seed = range.at("seed"),
                                 .first = range.at("first"),
                                 .samples = samples.empty() ? std::vector<uint>() : parse_pass_list(samples)});
+        passes += record.whole.back().samples.size();
+        if (passes > kMaxPasses || record.whole.back().first > kMaxPassNumber) {
+            throw std::length_error("passes");
+        }
     }
     if (const Json& choice = json.at("choice"); !choice.is_null()) {
         record.choice = {
@@ -251,7 +260,9 @@ void CheckpointReader::take_header(std::istream& stream) {
     if (!stream) {
         throw std::length_error("header");
     }
-    const Json json = Json::parse(header_);
+    const Json json = Json::parse(header_, [](int depth, Json::parse_event_t, const Json&) {
+        return depth <= kMaxDepth ? true : throw std::length_error("header");
+    });
     facts_ = facts_in(json);
     record_ = record_in(json.at("record"));
     width_ = json.at("width");

@@ -92,15 +92,19 @@ void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
     }
 }
 
+void check_checkpoint_file(const std::filesystem::path& file, const std::vector<std::string>& outputs) {
+    if (std::ranges::find(outputs, file.string()) != outputs.end()) {
+        throw Error(ErrorKind::invalid_argument,
+                    "--checkpoint '" + file.string() + "' is the picture's file too; give another one");
+    }
+    check_writable(file.string());
+}
+
 void check_checkpoint(const CheckpointOptions& options, const std::vector<std::string>& outputs) {
     if (options.file.empty()) {
         return;
     }
-    if (std::ranges::find(outputs, options.file.string()) != outputs.end()) {
-        throw Error(ErrorKind::invalid_argument, "--checkpoint '" + options.file.string() +
-                                                     "' is the picture's file too; give another one");
-    }
-    check_writable(options.file.string());
+    check_checkpoint_file(options.file, outputs);
     std::error_code error;
     if (!options.resumes && std::filesystem::exists(options.file, error)) {
         throw Error(ErrorKind::file, "the checkpoint '" + options.file.string() +

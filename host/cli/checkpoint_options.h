@@ -24,6 +24,10 @@ struct CheckpointOptions {
 /// added before.
 void add_checkpoint_options(CLI::App& command, CheckpointOptions& options);
 
+/// Throws Error(ErrorKind::invalid_argument) if the checkpoint is one of `outputs`, and
+/// Error(ErrorKind::file) if it cannot be written.
+void check_checkpoint_file(const std::filesystem::path& file, const std::vector<std::string>& outputs);
+
 /// Checks before any work starts that the checkpoint can be written and replaces no file by mistake. Throws
 /// Error(ErrorKind::file) and, if it is one of `outputs`, Error(ErrorKind::invalid_argument).
 void check_checkpoint(const CheckpointOptions& options, const std::vector<std::string>& outputs);

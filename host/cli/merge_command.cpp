@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +11,7 @@
 #include "host/base/stopwatch.h"
 #include "host/cli/checkpoint_facts.h"
 #include "host/cli/checkpoint_file.h"
+#include "host/cli/checkpoint_options.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/pass_list.h"
@@ -48,7 +49,7 @@ void check_merge_options(const MergeOptions& options) {
     }
     check_outputs(options.picture);
     if (!options.checkpoint.empty()) {
-        check_writable(options.checkpoint.string());
+        check_checkpoint_file(options.checkpoint, options.picture.outputs);
     }
 }
 

@@ -261,6 +261,8 @@ TEST_F(CheckpointsOfRender, JobsThatDoNotBelongTogetherAreRefused) {
     expect_no_merge({"a", "missing"}, 3, "no such file");
     expect_no_merge({}, 2, "CHECKPOINT is required");
     EXPECT_EQ(merge({"a"}, "").exit_code, 2);
+    const std::string same = quoted(folder_ / "x.exr");
+    EXPECT_EQ(merge({"a"}, "-o " + same + " --checkpoint " + same).exit_code, 2);
     EXPECT_EQ(
         run_program("merge " + quoted(folder_ / "a.exr") + " -o " + quoted(folder_ / "x.exr")).exit_code, 3);
 }
