@@ -143,7 +143,7 @@ CLI::App& CommandLine::add_part(CLI::App& group, const std::string& part, const 
     return command;
 }
 
-ExitCode CommandLine::run(int argc, const char* const* argv) {
+std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
     try {
         app_.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
@@ -161,6 +161,13 @@ ExitCode CommandLine::run(int argc, const char* const* argv) {
     if (global_.quiet && global_.verbose) {
         throw Error(ErrorKind::invalid_argument,
                     "--quiet and --verbose contradict each other; give only one of them");
+    }
+    return std::nullopt;
+}
+
+ExitCode CommandLine::run(int argc, const char* const* argv) {
+    if (const std::optional<ExitCode> answered = parse(argc, argv)) {
+        return *answered;
     }
     set_up_log(global_.quiet ? Verbosity::quiet : global_.verbose ? Verbosity::verbose : Verbosity::normal);
     global_.command_line = command_line_of(argc, argv);

@@ -5,7 +5,7 @@
 //     GlobalOptions&)`; add_foo_command() makes the options shared, calls line.add_command("foo", "what it
 //     does", [options](const GlobalOptions& global) { return run_foo(*options, global); }) and declares the
 //     options on the CLI::App that this returns. diff_command.cpp shows it.
-//  3. host/cli/CMakeLists.txt lists the file, main.cpp calls add_foo_command().
+//  3. host/cli/CMakeLists.txt lists the file, commands.cpp calls add_foo_command().
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -42,8 +42,10 @@ class CommandLine {
     CLI::App& add_command_group(const std::string& name, const std::string& description);
     /// Adds a command as add_command() does, but as a part of `group`.
     CLI::App& add_part(CLI::App& group, const std::string& part, const std::string& description, Run run);
-    /// Parses the line and runs its command. Throws Error(ErrorKind::invalid_argument) with a hint if the
-    /// line is wrong, and what the command throws.
+    /// Parses the line, and answers --help and --version. Returns nothing if there is a command to run.
+    /// Throws Error(ErrorKind::invalid_argument) with a hint if the line is wrong.
+    std::optional<ExitCode> parse(int argc, const char* const* argv);
+    /// Parses the line and runs its command. Throws what parse() and the command throw.
     ExitCode run(int argc, const char* const* argv);
     /// All commands and options that --help lists.
     [[nodiscard]] CommandFacts facts() const { return command_facts(app_); }

@@ -101,7 +101,8 @@ std::string option_sections(const CommandFacts& command) {
         }
     }
     // What all commands share comes last.
-    std::ranges::stable_partition(groups, [](const std::string& group) { return group != "Common options"; });
+    std::stable_partition(groups.begin(), groups.end(),
+                          [](const std::string& group) { return group != "Common options"; });
     std::string text;
     for (const std::string& group : groups) {
         std::string heading = group;
