@@ -58,10 +58,14 @@ Header describe(const ShapedBvh& tree) {
     return header;
 }
 
-/// The size in a file of the arrays of a tree.
-std::uint64_t array_bytes(const Header& header) {
-    return header.nodes * sizeof(BvhNode) + header.wide_nodes * sizeof(WideNode) +
-           (header.triangles + header.block_columns) * sizeof(uint);
+/// Whether a file of that size can hold what the header promises, and nothing else.
+bool is_whole(const Header& header, std::uint64_t file_size) {
+    const std::array counts{header.nodes, header.wide_nodes, header.triangles, header.block_columns};
+    // No product of a number that is less than the file's size overflows.
+    return std::ranges::max(counts) <= file_size &&
+           sizeof header + header.nodes * sizeof(BvhNode) + header.wide_nodes * sizeof(WideNode) +
+                   (header.triangles + header.block_columns) * sizeof(uint) ==
+               file_size;
 }
 
 /// Calls visit(array) for all arrays of a file, in their order. Triangles are not among them, because the
@@ -97,7 +101,7 @@ std::optional<ShapedBvh> read(const fs::path& path, const Hash128& key, const Sc
     const Header expected;
     std::error_code ignored;
     if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != expected.magic ||
-        header.key != key || sizeof header + array_bytes(header) != fs::file_size(path, ignored)) {
+        header.key != key || !is_whole(header, fs::file_size(path, ignored))) {
         return std::nullopt;
     }
     ShapedBvh tree = room_for(header);

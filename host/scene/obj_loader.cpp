@@ -6,6 +6,7 @@
 #include <istream>
 #include <limits>
 #include <string_view>
+#include <unordered_map>
 
 #include "host/scene/camera_choice.h"
 #include "host/scene/default_view.h"
@@ -33,7 +34,7 @@ int line_of_face(std::string_view text, std::size_t face) {
 // Takes tinyobjloader's callbacks and makes one vertex of each distinct (position, texture, normal) triple.
 class ObjBuilder {
   public:
-    explicit ObjBuilder(ObjFile& obj) : obj_(obj) { obj_.materials.emplace_back(); }
+    explicit ObjBuilder(ObjFile& obj) : obj_(obj) { use_material(""); }
 
     void add_face(const tinyobj::index_t* corners, int count) {
         if (count < 3) {
@@ -52,9 +53,9 @@ class ObjBuilder {
         ++faces_;
     }
     void use_material(const std::string& name) {
-        const auto found = std::find(obj_.materials.begin(), obj_.materials.end(), name);
-        group_ = static_cast<uint>(found - obj_.materials.begin());
-        if (found == obj_.materials.end()) {
+        const auto [known, is_new] = groups_.try_emplace(name, static_cast<uint>(obj_.materials.size()));
+        group_ = known->second;
+        if (is_new) {
             obj_.materials.push_back(name);
         }
     }
@@ -73,7 +74,18 @@ class ObjBuilder {
 
   private:
     struct Corner {
-        uint uv, normal, vertex, next;
+        uint position, uv, normal;
+        bool operator==(const Corner&) const = default;
+    };
+    struct CornerHash {
+        std::size_t operator()(const Corner& corner) const {
+            // The finaliser of SplitMix64, of numbers that seldom coincide.
+            std::uint64_t bits =
+                corner.position + (std::uint64_t{corner.uv} << 21) + (std::uint64_t{corner.normal} << 42);
+            bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+            bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+            return static_cast<std::size_t>(bits ^ (bits >> 31));
+        }
     };
 
     // OBJ counts from 1, or back from the last element. The index 0 means "not given", which is an error for
@@ -97,17 +109,11 @@ class ObjBuilder {
         const uint p = resolve(index.vertex_index, positions.size(), "vertex", true);
         const uint t = resolve(index.texcoord_index, uvs.size(), "texture coordinate", false);
         const uint n = resolve(index.normal_index, normals.size(), "normal", false);
-        if (chains_.size() < positions.size()) {
-            chains_.resize(positions.size(), kNone);
-        }
-        for (uint c = chains_[p]; c != kNone; c = corners_[c].next) {
-            if (corners_[c].uv == t && corners_[c].normal == n) {
-                return corners_[c].vertex;
-            }
-        }
         const auto made = static_cast<uint>(obj_.mesh.positions.size());
-        corners_.push_back({t, n, made, chains_[p]});
-        chains_[p] = static_cast<uint>(corners_.size() - 1);
+        const auto [known, is_new] = corners_.try_emplace({p, t, n}, made);
+        if (!is_new) {
+            return known->second;
+        }
         obj_.mesh.positions.push_back(positions[p]);
         obj_.mesh.uvs.push_back(t == kNone ? std::array<float, 2>{0, 0} : uvs[t]);
         obj_.mesh.normals.push_back(n == kNone ? Vec3{0, 0, 0} : normals[n]);
@@ -117,8 +123,8 @@ class ObjBuilder {
     }
 
     ObjFile& obj_;
-    std::vector<uint> chains_;  // the first corner of each position
-    std::vector<Corner> corners_;
+    std::unordered_map<Corner, uint, CornerHash> corners_;  // their vertices
+    std::unordered_map<std::string, uint> groups_;
     std::size_t faces_ = 0, short_faces_ = 0;
     uint group_ = 0;
     bool any_uv_ = false, any_normal_ = false;
@@ -150,12 +156,9 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
-    for_each_line(obj.text, [&](int, std::string_view line) {
-        if (starts_with_word(line, "mtllib")) {
-            obj.libraries.push_back(trimmed(line.substr(line.find("mtllib") + 6)));
-        }
-        return true;
-    });
+    for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
+        obj.libraries.emplace(line.number, name);
+    }
     ObjBuilder builder(obj);
     TextBuffer buffer(obj.text);
     std::istream stream(&buffer);
@@ -165,6 +168,9 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
         throw Error(ErrorKind::file, file.string() + ": not a valid OBJ file: " + trimmed(error));
     }
     builder.finish();
+    if (obj.mesh.triangles.empty()) {
+        throw Error(ErrorKind::file, file.string() + ": has no triangles");
+    }
     if (builder.short_faces() > 0) {
         notes.approximation(
             file, 0,

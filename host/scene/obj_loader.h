@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,15 @@
 namespace nearlight::core {
 
 struct ObjFile {
-    Mesh mesh;                           ///< its groups are indices into `materials`
-    std::vector<std::string> materials;  ///< names after `usemtl`; the first is "", for faces before any
-    std::vector<std::string> libraries;  ///< names after `mtllib`
-    std::string text;                    ///< text of the file, to find lines in; empty unless kept
+    Mesh mesh;                             ///< its groups are indices into `materials`
+    std::vector<std::string> materials;    ///< names after `usemtl`; the first is "", for faces before any
+    std::map<int, std::string> libraries;  ///< names after `mtllib` by their lines, each once
+    std::string text;                      ///< text of the file, to find lines in; empty unless kept
 };
 
 /// Reads the geometry: polygons become fans, and negative indices count back. Throws Error(ErrorKind::file)
-/// with file and line for an index out of range. Faces of fewer than three corners are left out, with a note.
+/// with file and line for an index out of range, and for a file without a triangle. Faces of fewer than three
+/// corners are left out, with a note.
 ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text = false);
 
 /// Reads an OBJ file and its materials as a whole scene. A camera is added, and light if nothing emits.

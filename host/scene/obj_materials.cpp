@@ -20,6 +20,7 @@ namespace {
 struct MaterialLibrary {
     std::filesystem::path file;
     std::string text;
+    std::unordered_map<std::string, TextLine> lines;  ///< where materials begin
     std::map<std::string, int> names;
     std::vector<tinyobj::material_t> materials;
 };
@@ -30,7 +31,7 @@ void restore_names(MaterialLibrary& library) {
     std::vector<std::string> names;
     for_each_line(library.text, [&](int, std::string_view line) {
         if (starts_with_word(line, "newmtl")) {
-            const std::string name = trimmed(line.substr(line.find("newmtl") + 6));
+            const std::string name = value_after(line, "newmtl");
             if (!name.empty()) {
                 names.push_back(name);
             }
@@ -49,13 +50,13 @@ void restore_names(MaterialLibrary& library) {
 
 std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
     std::vector<MaterialLibrary> libraries;
-    for (const std::string& name : obj.libraries) {
+    for (const auto& [line, name] : obj.libraries) {
         MaterialLibrary library;
         library.file = resolve_path(obj.mesh.source, name);
         try {
             library.text = read_file_text(library.file);
         } catch (const Error&) {
-            notes.approximation(obj.mesh.source, find_line(obj.text, "mtllib", name),
+            notes.approximation(obj.mesh.source, line,
                                 "material library '" + name + "' cannot be read; its materials are grey");
             continue;
         }
@@ -65,6 +66,7 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
         std::string error;
         tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
         restore_names(library);
+        library.lines = lines_by_value(library.text, "newmtl");
         libraries.push_back(std::move(library));
     }
     return libraries;
@@ -112,7 +114,7 @@ double index_of(const tinyobj::material_t& source) {
 struct MaterialSource {
     const MaterialLibrary& library;
     const tinyobj::material_t& entry;
-    int line;
+    TextLine begin;
 };
 
 class ObjMaterials {
@@ -139,7 +141,7 @@ class ObjMaterials {
 
   private:
     void approximate(const MaterialSource& source, const std::string& what) {
-        notes_.approximation(source.library.file, source.line, what);
+        notes_.approximation(source.library.file, source.begin.number, what);
     }
 
     void warn_of_what_is_left_out(const MaterialSource& source) {
@@ -210,7 +212,7 @@ class ObjMaterials {
     int load(const MaterialSource& source, const std::string& name, const char* keyword,
              const TexelRule& rule) {
         return textures_.load(resolve_path(source.library.file, name), rule, source.library.file,
-                              find_line(source.library.text, keyword, name));
+                              find_in_block(source.library.text, source.begin, "newmtl", keyword, name));
     }
 
     Material mirror(const MaterialSource& source) {
@@ -266,11 +268,17 @@ class ObjMaterials {
     std::map<Coat, Material> coats_;
 };
 
+TextLine line_of(const std::unordered_map<std::string, TextLine>& lines, const std::string& value) {
+    const auto found = lines.find(value);
+    return found == lines.end() ? TextLine{} : found->second;
+}
+
 }  // namespace
 
 std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
     const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
     ObjMaterials materials(scene, notes);
+    const auto uses = lines_by_value(obj.text, "usemtl");
     std::vector<uint> indices;
     for (const std::string& name : obj.materials) {
         const MaterialLibrary* found = nullptr;
@@ -278,7 +286,7 @@ std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& 
             found = found == nullptr && library.names.contains(name) ? &library : found;
         }
         if (found == nullptr && !name.empty()) {
-            notes.approximation(obj.mesh.source, find_line(obj.text, "usemtl", name),
+            notes.approximation(obj.mesh.source, line_of(uses, name).number,
                                 "material '" + name + "' is not defined; it is grey");
         }
         if (found == nullptr) {
@@ -286,7 +294,7 @@ std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& 
             continue;
         }
         const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
-        indices.push_back(materials.add({*found, entry, find_line(found->text, "newmtl", entry.name)}));
+        indices.push_back(materials.add({*found, entry, line_of(found->lines, entry.name)}));
     }
     return indices;
 }

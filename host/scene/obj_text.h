@@ -7,6 +7,7 @@
 #include <streambuf>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 namespace nearlight::core {
 
@@ -43,14 +44,42 @@ inline bool starts_with_word(std::string_view line, std::string_view word) {
            (line[word.size()] == ' ' || line[word.size()] == '\t');
 }
 
-/// The number of the line `word … value`; 0 if there is none.
-inline int find_line(std::string_view text, std::string_view word, std::string_view value) {
-    int found = 0;
+/// What follows the word in a line that starts with it.
+inline std::string value_after(std::string_view line, std::string_view word) {
+    return trimmed(line.substr(line.find(word) + word.size()));
+}
+
+/// A line, and where it begins in the text.
+struct TextLine {
+    int number = 0;  ///< counted from 1; 0 if there is no such line
+    std::size_t begin = 0;
+};
+
+/// The first line `word VALUE` of each value.
+inline std::unordered_map<std::string, TextLine> lines_by_value(std::string_view text,
+                                                                std::string_view word) {
+    std::unordered_map<std::string, TextLine> lines;
     for_each_line(text, [&](int number, std::string_view line) {
-        if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {
-            found = number;
+        if (starts_with_word(line, word)) {
+            lines.try_emplace(value_after(line, word),
+                              TextLine{number, static_cast<std::size_t>(line.data() - text.data())});
         }
-        return found == 0;
+        return true;
+    });
+    return lines;
+}
+
+/// The number of the line `word … value` in the block that begins at `first` and goes on to the next line
+/// with the word that `first` has; 0 if there is none. Blocks are short, so that all searches in a file read
+/// it about once.
+inline int find_in_block(std::string_view text, TextLine first, std::string_view block, std::string_view word,
+                         std::string_view value) {
+    int found = 0;
+    for_each_line(text.substr(first.begin), [&](int number, std::string_view line) {
+        if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {
+            found = first.number + number - 1;
+        }
+        return found == 0 && (number == 1 || !starts_with_word(line, block));
     });
     return found;
 }

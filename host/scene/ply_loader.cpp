@@ -2,6 +2,7 @@
 #include "host/scene/ply_loader.h"
 
 #include <array>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -71,8 +72,9 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
 uint read_index(PlyReader& reader, PlyScalar type, const Mesh& mesh) {
     const double index = reader.read(type);
     if (!(index >= 0.0 && index < static_cast<double>(mesh.positions.size()))) {
-        fail_ply(mesh.source, "PLY face refers to vertex " + std::to_string(static_cast<long long>(index)) +
-                                  ", but there are only " + std::to_string(mesh.positions.size()));
+        std::ostringstream text;  // any number may stand there
+        text << "PLY face refers to vertex " << index << ", but there are only " << mesh.positions.size();
+        fail_ply(mesh.source, text.str());
     }
     return static_cast<uint>(index);
 }
@@ -122,6 +124,9 @@ Mesh read_ply(const std::filesystem::path& file) {
                 }
             }
         }
+    }
+    if (mesh.triangles.empty()) {
+        fail_ply(file, "has no triangles");
     }
     return mesh;
 }

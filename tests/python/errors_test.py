@@ -11,6 +11,8 @@ import pytest
 
 import nearlight
 
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
 
 def test_files_that_are_missing():
     with pytest.raises(nearlight.Error, match="nosuch.xml") as error:
@@ -109,12 +111,12 @@ def test_errors_survive_pickling_and_copies():
 
 
 def test_warnings_go_to_the_logger(tmp_path, caplog):
-    dark = tmp_path / "dark.obj"
-    dark.write_text("v 0 0 0\n")
+    plain = tmp_path / "plain.obj"
+    plain.write_text(TRIANGLE)
     with caplog.at_level(logging.WARNING, "nearlight"):
-        scene = nearlight.load(dark)
-    assert any("no triangles" in record.message for record in caplog.records)
-    assert any("no triangles" in note.text and note.file == dark for note in scene.notes)
+        scene = nearlight.load(plain)
+    assert any("no light" in record.message for record in caplog.records)
+    assert any("no light" in note.text and note.file == plain for note in scene.notes)
 
 
 def test_warnings_come_before_the_error_that_ends_loading(tmp_path, caplog):
@@ -140,10 +142,10 @@ def test_names_of_files_that_are_not_utf8(floor, tmp_path, caplog):
     assert scene.name == "caf\ufffd" and "caf\ufffd" in repr(scene)
     with pytest.raises(nearlight.Error, match="caf\ufffd"):
         nearlight.load(folder / "nosuch.xml")
-    (folder / "dark.obj").write_text("v 0 0 0\n")
+    (folder / "plain.obj").write_text(TRIANGLE)
     with caplog.at_level(logging.WARNING, "nearlight"):
-        note = nearlight.load(folder / "dark.obj").notes[0]
-    assert note.file == folder / "dark.obj"
+        note = nearlight.load(folder / "plain.obj").notes[0]
+    assert note.file == folder / "plain.obj"
     assert "caf\ufffd" in str(note) and "caf\ufffd" in repr(note)
     assert any("caf\ufffd" in record.message for record in caplog.records)
     options = nearlight.LoadOptions(environment=str(folder / "nosuch.exr"))

@@ -215,9 +215,26 @@ TEST(Obj, MissingAndEmptyFiles) {
     EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("no.obj")); }), "no such"));
     EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("")); }), "directory"));
     EXPECT_TRUE(mentions(file_error([&] { load_scene(files.write("a.fbx", "x")); }), "unknown scene format"));
-    const Scene scene = load_obj(files, "");
-    EXPECT_TRUE(scene.triangles.empty());
-    EXPECT_TRUE(has_note(scene, "no triangles"));
+    for (const char* const text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n"}) {
+        EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text); }), "no triangles")) << text;
+    }
+}
+
+TEST(Obj, LinesOfWhatIsLeftOut) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl a\nKd 1 1 1\nnewmtl b\n\nmap_Kd no.png\nnewmtl c\nmap_Kd no2.png\n");
+    const Scene scene =
+        load_obj(files,
+                 "mtllib m.mtl\nmtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\n"
+                 "f 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\nusemtl d\nf 1/1 2/1 3/1\n");
+    const auto line_of = [&](const std::string& text) {
+        const auto note =
+            std::ranges::find_if(scene.notes, [&](const Note& n) { return mentions(n.text, text); });
+        return note == scene.notes.end() ? -1 : note->line;
+    };
+    EXPECT_EQ(line_of("gone.mtl"), 2);
+    EXPECT_EQ(line_of("'d' is not defined"), 11);
+    EXPECT_EQ(line_of("no.png"), 5);
 }
 
 TEST(Mesh, SmoothNormalsAreWeightedByAngle) {

@@ -230,6 +230,9 @@ Mesh read_serialized(const std::filesystem::path& file, int index) {
         inflate_stream(file, std::string_view(text).substr(static_cast<std::size_t>(begin)));
     ByteReader reader(file, data);
     Mesh mesh = version == 5 ? read_records(file, reader) : read_arrays(file, reader, version);
+    if (mesh.triangles.empty()) {
+        refuse(file, "has no triangles");
+    }
     mesh.source = file;
     return mesh;
 }
