@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
+#include "host/base/printable.h"
 #include "host/cli/advice.h"
 #include "host/cli/command.h"
 #include "host/cli/commands.h"
@@ -13,8 +15,8 @@
 
 namespace {
 
-int fail(const char* message, nearlight::core::ExitCode code) {
-    std::fprintf(stderr, "nearlight: error: %s\n", message);
+int fail(std::string_view message, nearlight::core::ExitCode code) {
+    std::fprintf(stderr, "nearlight: error: %s\n", nearlight::core::printable_line(message).c_str());
     return static_cast<int>(code);
 }
 
@@ -28,7 +30,7 @@ int main(int argc, char** argv) {
         nearlight::core::add_commands(line);
         return static_cast<int>(line.run(argc, argv));
     } catch (const nearlight::Error& error) {
-        return fail(nearlight::core::with_advice(error).c_str(), nearlight::core::exit_code(error.kind()));
+        return fail(nearlight::core::with_advice(error), nearlight::core::exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
         return fail("out of memory on the host; use a smaller --size or fewer --layers",
                     ExitCode::out_of_memory);

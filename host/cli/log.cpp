@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/log.h"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include <memory>
+
 #include "host/base/message.h"
+#include "host/base/printable.h"
 
 namespace nearlight::core {
 namespace {
@@ -14,19 +18,37 @@ spdlog::level::level_enum log_level(MessageLevel level) {
                                             : spdlog::level::debug;
 }
 
+/// What a pattern has for the text of a message: only what may go to a terminal.
+class PrintableText : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+        const std::string text = printable({message.payload.data(), message.payload.size()});
+        out.append(text.data(), text.data() + text.size());
+    }
+    [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<PrintableText>();
+    }
+};
+
 }  // namespace
 
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>("nearlight",
                                                    std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
     // Lines have a time only in verbose mode.
-    logger->set_pattern(verbosity == Verbosity::verbose ? "[%T.%e] %^%l%$: %v" : "%^%l%$: %v");
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<PrintableText>('*').set_pattern(verbosity == Verbosity::verbose ? "[%T.%e] %^%l%$: %*"
+                                                                                        : "%^%l%$: %*");
+    logger->set_formatter(std::move(formatter));
     logger->set_level(verbosity == Verbosity::quiet     ? spdlog::level::err
                       : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                         : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
-    set_message_sink(
-        [](MessageLevel level, std::string_view text) { spdlog::log(log_level(level), "{}", text); });
+    set_message_sink([](MessageLevel level, std::string_view text) {
+        // Only a compiler's log has several lines.
+        spdlog::log(log_level(level), "{}",
+                    level == MessageLevel::warning ? printable_line(text) : std::string(text));
+    });
 }
 
 }  // namespace nearlight::core

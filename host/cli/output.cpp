@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/base/printable.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -13,7 +14,7 @@ void print_json(const nlohmann::ordered_json& result) {
 }
 
 void print(std::string_view text) {
-    std::cout << text;
+    std::cout << printable(text);
 }
 
 void check_standard_output() {

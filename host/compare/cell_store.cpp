@@ -24,6 +24,11 @@ double number(const Json& value) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+/// Reads a whole number of 0 or more. Others count as broken, like what is no number.
+std::size_t count_in(const Json& value) {
+    return value.get_ref<const Json::number_unsigned_t&>();
+}
+
 Json to_json(const Cell& cell) {
     return {{"method", to_string(cell.id.method)},
             {"vpls", cell.id.vpls},
@@ -44,9 +49,9 @@ Json to_json(const Cell& cell) {
 
 Cell from_json(const Json& json, const CellId& id) {
     Cell cell{.id = id,
-              .close_vpls = json.at("close_vpls"),
-              .distant_vpls = json.at("distant_vpls"),
-              .sparse_vpls = json.at("sparse_vpls"),
+              .close_vpls = count_in(json.at("close_vpls")),
+              .distant_vpls = count_in(json.at("distant_vpls")),
+              .sparse_vpls = count_in(json.at("sparse_vpls")),
               .error = {},
               .generate_seconds = number(json.at("generate_s")),
               .gather_seconds = number(json.at("gather_s")),
@@ -58,7 +63,7 @@ Cell from_json(const Json& json, const CellId& id) {
         cell.error.mean_error[c] = number(json.at("mean_error").at(c));
     }
     cell.error.flip = number(json.at("flip"));
-    cell.error.non_finite = json.at("non_finite");
+    cell.error.non_finite = count_in(json.at("non_finite"));
     return cell;
 }
 

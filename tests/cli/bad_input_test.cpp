@@ -110,7 +110,28 @@ TEST_F(BadInput, BrokenMeshes) {
     expect_error(render(write_scene(shape)), 3, "mesh.ply: no such file");
     write("mesh.ply", kPlyHeader + "0 0 0\n1 0");
     expect_error(render(write_scene(shape)), 3, "truncated");
+    write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 1000000000000\nelement face 1\nend_header\n");
+    expect_error(render(write_scene(shape)), 3, "promises 1000000000000 times 'vertex'");
+    write("mesh.ply",
+          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n0 0 0\n");
+    expect_error(render(write_scene(shape)), 3, "mesh.ply: has no triangles");
     expect_error(render(write("bad.obj", "v 0 0 0\nf 1 2 9\n")), 3, "bad.obj:2: face refers to vertex");
+}
+
+// A name in a file could otherwise change the terminal's colours, title or contents.
+TEST_F(BadInput, NothingInAFileControlsTheTerminal) {
+    const std::string name = "cu&#27;[31m&#155;&#13;&#10;&#7;be";
+    const ProgramResult result = render(write_scene("<shape type='" + name + "'/>\n"));
+    expect_error(result, 3, "unknown shape 'cu?[31m??");
+    EXPECT_EQ(count(result.errors, "\n"), 1u) << result.errors;
+    const ProgramResult info = run_program(
+        "info " +
+        quoted(write_scene("<shape type='cube' id='a'><string name='" + name + "' value='x'/></shape>\n")));
+    EXPECT_EQ(info.exit_code, 0);
+    EXPECT_TRUE(contains(info.errors, "cu?[31m??")) << info.errors;
+    EXPECT_EQ(count(info.errors + info.output, "\x1b"), 0u);
+    EXPECT_EQ(count(info.errors, "\n"), count(info.errors, "warning: ")) << info.errors;
 }
 
 // Such a file may never end.

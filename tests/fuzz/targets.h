@@ -18,6 +18,8 @@ void fuzz_mitsuba(Bytes bytes);
 void fuzz_obj(Bytes bytes);
 void fuzz_mtl(Bytes bytes);
 void fuzz_ply(Bytes bytes);
+/// Sets of VPLs.
+void fuzz_vpls(Bytes bytes);
 /// The first byte says whether the rest is a file as it is, or what is compressed in a file of some version.
 void fuzz_serialized(Bytes bytes);
 /// A .glb if it begins like one, else a .gltf.
@@ -40,6 +42,7 @@ inline constexpr Target kTargets[] = {{"mitsuba", fuzz_mitsuba},
                                       {"obj", fuzz_obj},
                                       {"mtl", fuzz_mtl},
                                       {"ply", fuzz_ply},
+                                      {"vpls", fuzz_vpls},
                                       {"serialized", fuzz_serialized},
                                       {"gltf", fuzz_gltf},
                                       {"image", fuzz_image},

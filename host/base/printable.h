@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text from files and from the command line, on its way to a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace nearlight::core {
+
+/// The text without what a terminal would obey: control characters other than line breaks and tabs become
+/// question marks, and so does what is not UTF-8.
+std::string printable(std::string_view text);
+
+/// The same as one line, which is cut where it is longer than anybody would read.
+std::string printable_line(std::string_view text);
+
+}  // namespace nearlight::core
