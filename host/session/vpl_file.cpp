@@ -132,7 +132,8 @@ Vpl vpl_of(const fs::path& file, std::size_t index, const Row& row, bool has_sha
                            " is broken: it needs a finite position, a normal, and powers of 0 or more");
     }
     if (std::abs(length - 1.0f) > 1e-3f) {
-        vpl.normal = vpl.normal * (1.0f / length);
+        // The reciprocal of the shortest lengths is infinite.
+        vpl.normal = {vpl.normal.x / length, vpl.normal.y / length, vpl.normal.z / length};
     }
     if (!has_shading) {
         vpl.shading = pack_direction(vpl.normal);

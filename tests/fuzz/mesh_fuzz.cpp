@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes, PLY and Mitsuba's serialized files, and sets of VPLs.
+// Meshes: PLY and Mitsuba's serialized files.
 #include <zlib.h>
 
 #include <string>
 
-#include "host/session/vpl_file.h"
-#include "nearlight/error.h"
 #include "tests/fuzz/scene_check.h"
 #include "tests/fuzz/targets.h"
 
@@ -32,14 +30,6 @@ void fuzz_ply(Bytes bytes) {
                                    "<scene version='3.0.0'><shape type='ply'><string name='filename' "
                                    "value='mesh.ply'/></shape></scene>");
     load_and_check(kScene);
-}
-
-void fuzz_vpls(Bytes bytes) {
-    try {
-        static_cast<void>(read_vpl_file(put("vpls.ply", bytes)));
-    } catch (const Error&) {
-        return;  // was refused
-    }
 }
 
 void fuzz_serialized(Bytes bytes) {

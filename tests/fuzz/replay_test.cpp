@@ -44,6 +44,11 @@ std::vector<fs::path> kept_files(const std::string& target) {
     return files;
 }
 
+/// The name of a test case.
+std::ostream& operator<<(std::ostream& stream, const Target& target) {
+    return stream << target.name;
+}
+
 class Replay : public testing::TestWithParam<Target> {};
 
 TEST_P(Replay, NoFileCrashesOrHangsOrTakesTooMuchMemory) {
