@@ -14,6 +14,12 @@
 #include "tests/fuzz/targets.h"
 
 namespace nearlight::core::fuzz {
+
+/// The name of a test case.
+static std::ostream& operator<<(std::ostream& stream, const Target& target) {
+    return stream << target.name;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,11 +48,6 @@ std::vector<fs::path> kept_files(const std::string& target) {
     }
     std::ranges::sort(files);
     return files;
-}
-
-/// The name of a test case.
-std::ostream& operator<<(std::ostream& stream, const Target& target) {
-    return stream << target.name;
 }
 
 class Replay : public testing::TestWithParam<Target> {};

@@ -207,6 +207,11 @@ TEST(VplFile, NormalsNeedNotHaveUnitLength) {
     EXPECT_NEAR(vpl.normal.y, 0.6f, 1e-6f);
     EXPECT_NEAR(vpl.normal.z, 0.8f, 1e-6f);
     EXPECT_EQ(vpl.shading, pack_direction({0, 0.6f, 0.8f}));
+    // The reciprocal of this length is infinite.
+    write_text(folder / "a.ply", kHeader + "end_header\n0 0 0 0 0 1e-40 1 1 1\n");
+    const Vec3 normal = read_vpl_file(folder / "a.ply").vpls.at(0).normal;
+    EXPECT_EQ(normal.x, 0.0f);
+    EXPECT_EQ(normal.z, 1.0f);
 }
 
 }  // namespace
