@@ -7,6 +7,7 @@
 #include <array>
 #include <system_error>
 #include <variant>
+#include <vector>
 
 #include "host/base/names.h"
 #include "host/image/image_codec.h"
@@ -38,6 +39,30 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::I
     return input;
 }
 
+/// Reads all pixels. Images of scanlines are read in parts, so that a short file whose header promises many
+/// pixels takes memory for the first part only.
+bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
+    constexpr std::size_t kPart = std::size_t{4} << 20;  // numbers
+    const OIIO::ImageSpec& spec = input.spec();
+    const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
+    const bool has_tiles = spec.tile_width > 0;
+    const int step =
+        has_tiles ? spec.height : static_cast<int>(std::clamp<std::size_t>(kPart / row, 1, 1u << 16));
+    values.reserve(row * static_cast<std::size_t>(spec.height));
+    for (int first = 0; first < spec.height; first += step) {
+        const int end = std::min(first + step, spec.height);
+        const std::size_t before = values.size();
+        values.resize(row * static_cast<std::size_t>(end));
+        float* const part = values.data() + before;
+        if (has_tiles ? !input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, part)
+                      : !input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0, spec.nchannels,
+                                              OIIO::TypeDesc::FLOAT, part)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
     const auto input = open(file, bytes.empty() ? nullptr : &memory);
@@ -49,9 +74,8 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
     if (!fits_in_file(spec.image_bytes(true), bytes.empty() ? fs::file_size(file, ignored) : bytes.size())) {
         fail_image("cannot read image", file, "its header promises more pixels than it can hold");
     }
-    Image image = make_image(spec.width, spec.height, spec.channelnames);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()) ||
-        input->has_error()) {
+    Image image{spec.width, spec.height, spec.channelnames, {}};
+    if (!read_pixels(*input, image.values) || input->has_error()) {
         fail_image("cannot read image", file, input->geterror());
     }
     const bool is_integer = !spec.format.is_floating_point();
