@@ -31,6 +31,8 @@ void fuzz_tunables(Bytes bytes);
 /// The first byte chooses between the caches of programs, of trees and of measured cells. Of the first two, a
 /// whole file is changed from a place on that the next two bytes tell.
 void fuzz_cache(Bytes bytes);
+/// The first byte says whether the rest is a file, or what stands in the header of one without sums.
+void fuzz_checkpoint(Bytes bytes);
 /// Words of a command line, one a line; it is parsed, not run.
 void fuzz_command_line(Bytes bytes);
 
@@ -48,6 +50,7 @@ inline constexpr Target kTargets[] = {{"mitsuba", fuzz_mitsuba},
                                       {"image", fuzz_image},
                                       {"tunables", fuzz_tunables},
                                       {"cache", fuzz_cache},
+                                      {"checkpoint", fuzz_checkpoint},
                                       {"command_line", fuzz_command_line}};
 
 /// The folder of this process, in memory where the system has such folders. It is removed at the end.
