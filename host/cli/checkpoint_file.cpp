@@ -49,6 +49,16 @@ Json to_json(const Metadata& metadata) {
     return json;
 }
 
+/// A whole number of 0 or more. Others make the file a damaged one, as what is no number does.
+template <typename Integer>
+Integer whole_in(const Json& json) {
+    const std::uint64_t number = json.get_ref<const Json::number_unsigned_t&>();
+    if (!std::in_range<Integer>(number)) {
+        throw std::out_of_range("whole number");
+    }
+    return static_cast<Integer>(number);
+}
+
 Metadata metadata_in(const Json& json) {
     Metadata metadata;
     for (const auto& [name, value] : json.items()) {
@@ -109,7 +119,8 @@ CheckpointFacts facts_in(const Json& json) {
                                    .exposure = optional_in<float>(json.at("exposure"))},
                           .place = {}};
     if (const Json& place = json.at("place"); !place.is_null()) {
-        facts.place = {place.at(0), place.at(1), place.at(2), place.at(3)};
+        facts.place = {whole_in<int>(place.at(0)), whole_in<int>(place.at(1)), whole_in<int>(place.at(2)),
+                       whole_in<int>(place.at(3))};
     }
     return facts;
 }
@@ -140,32 +151,33 @@ Json record_json(const PassRecord& record) {
 
 PassRecord record_in(const Json& json) {
     PassRecord record{.whole = {},
-                      .begun_samples = json.at("begun_samples"),
-                      .begun_rows = json.at("begun_rows"),
+                      .begun_samples = whole_in<uint>(json.at("begun_samples")),
+                      .begun_rows = whole_in<uint>(json.at("begun_rows")),
                       .choice = {},
                       .close_fraction = json.at("close_fraction"),
-                      .totals = {.close_vpls = json.at("close_vpls"),
-                                 .distant_vpls = json.at("distant_vpls"),
-                                 .sparse_vpls = json.at("sparse_vpls"),
-                                 .candidates = json.at("candidates"),
-                                 .local_lights = json.at("local_lights")},
+                      .totals = {.close_vpls = whole_in<std::size_t>(json.at("close_vpls")),
+                                 .distant_vpls = whole_in<std::size_t>(json.at("distant_vpls")),
+                                 .sparse_vpls = whole_in<std::size_t>(json.at("sparse_vpls")),
+                                 .candidates = whole_in<std::size_t>(json.at("candidates")),
+                                 .local_lights = whole_in<std::size_t>(json.at("local_lights"))},
                       .pace = {.sample_seconds = optional_in<double>(json.at("sample_seconds")),
                                .vpl_seconds = json.at("vpl_seconds")}};
     std::size_t passes = 0;
     for (const Json& range : json.at("passes")) {
         const std::string samples = range.at("samples");
-        record.whole.push_back({.seed = range.at("seed"),
-                                .first = range.at("first"),
+        record.whole.push_back({.seed = whole_in<uint>(range.at("seed")),
+                                .first = whole_in<uint>(range.at("first")),
                                 .samples = samples.empty() ? std::vector<uint>() : parse_pass_list(samples)});
+        // Each list is limited, but a short file could have many.
         passes += record.whole.back().samples.size();
         if (passes > kMaxPasses || record.whole.back().first > kMaxPassNumber) {
             throw std::length_error("passes");
         }
     }
     if (const Json& choice = json.at("choice"); !choice.is_null()) {
-        record.choice = {
-            .range = choice.at(0),
-            .ray_budget = {.clamp_radius = choice.at(1), .light_samples_per_pixel = choice.at(2)}};
+        record.choice = {.range = choice.at(0),
+                         .ray_budget = {.clamp_radius = choice.at(1),
+                                        .light_samples_per_pixel = whole_in<uint>(choice.at(2))}};
     }
     return record;
 }
@@ -265,8 +277,8 @@ void CheckpointReader::take_header(std::istream& stream) {
     });
     facts_ = facts_in(json);
     record_ = record_in(json.at("record"));
-    width_ = json.at("width");
-    height_ = json.at("height");
+    width_ = whole_in<std::size_t>(json.at("width"));
+    height_ = whole_in<std::size_t>(json.at("height"));
 }
 
 PassSums CheckpointReader::read_sums() const {

@@ -10,7 +10,6 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kMaxListedSamples = 65536;
-constexpr uint kMaxListedPasses = 1'000'000;
 
 /// The number that the whole text is, from 1 to `max`; 0 if it is none.
 uint whole_number_in(std::string_view text, uint max) {

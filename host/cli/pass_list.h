@@ -10,6 +10,9 @@
 
 namespace nearlight::core {
 
+/// The maximum number of passes in a list.
+inline constexpr uint kMaxListedPasses = 1'000'000;
+
 std::string pass_list_text(std::span<const uint> samples);
 
 /// Throws Error(ErrorKind::invalid_argument) if the text is no such list, or lists a pass of more than 65536
