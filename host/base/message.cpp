@@ -46,4 +46,8 @@ void say_debug(const std::string& text) {
     say(MessageLevel::debug, text);
 }
 
+void say_lost_device(const std::string& device, const std::string& reason) {
+    say_warning("device " + device + " failed, and others do its part: " + reason);
+}
+
 }  // namespace nearlight::core

@@ -14,5 +14,7 @@ void set_message_sink(MessageSink sink);
 void say_error(const std::string& text);
 void say_warning(const std::string& text);
 void say_debug(const std::string& text);
+/// Warns that a device is left out because it failed.
+void say_lost_device(const std::string& device, const std::string& reason);
 
 }  // namespace nearlight::core

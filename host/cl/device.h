@@ -8,7 +8,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "host/cl/devices/device_list.h"
 #include "host/cl/devices/tunables.h"
@@ -63,7 +65,7 @@ class Device {
     [[nodiscard]] std::size_t worker_count() const;
 
     /// Begins to build a program from `source`, the expanded text of kernels/`file`, or returns the same
-    /// program begun earlier.
+    /// program begun earlier, if that has not failed.
     std::shared_future<cl::Program> start_build(const std::string& file, std::string source,
                                                 std::string options);
     [[nodiscard]] ProgramCompiler& compiler() const { return *options_.compiler; }
@@ -88,5 +90,10 @@ class Device {
     std::size_t allocated_bytes_ = 0;
     std::size_t peak_bytes_ = 0;
 };
+
+/// Opens one or more devices, which share options.compiler, or a new one if that is null. Devices that do not
+/// start are left out with a warning. Throws the last one's error if no device starts.
+std::vector<std::unique_ptr<Device>> open_devices(std::span<const DeviceEntry> entries,
+                                                  const DeviceOptions& options);
 
 }  // namespace nearlight::core

@@ -64,12 +64,12 @@ std::string opencl_error_name(cl_int code) {
 Error make_opencl_error(const cl::Error& error, const std::string& subject) {
     const bool memory = error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE ||
                         error.err() == CL_OUT_OF_HOST_MEMORY || error.err() == CL_INVALID_BUFFER_SIZE;
-    std::string message =
+    const std::string message =
         std::string(error.what()) + " failed with " + opencl_error_name(error.err()) + " (" + subject + ")";
     if (memory) {
-        message += "; free memory, or ask for less at a time";
+        return {ErrorKind::out_of_memory, message + "; free memory, or ask for less at a time"};
     }
-    return {memory ? ErrorKind::out_of_memory : ErrorKind::failure, message};
+    return {ErrorKind::failure, message + "; try again, or on another device", "device"};
 }
 
 }  // namespace nearlight::core

@@ -13,7 +13,7 @@ namespace nearlight::core {
 std::string opencl_error_name(cl_int code);
 
 /// Makes an Error that says which call failed on what `subject` ("kernel gather on device X"). Its kind is
-/// ErrorKind::out_of_memory for failed allocations, ErrorKind::failure otherwise.
+/// ErrorKind::out_of_memory for failed allocations, ErrorKind::failure otherwise, with the setting "device".
 Error make_opencl_error(const cl::Error& error, const std::string& subject);
 
 /// Runs `action`, returns its result, and translates a cl::Error with make_opencl_error().

@@ -28,17 +28,33 @@ std::string build_options(const Device& device, const Defines& defines) {
 }  // namespace
 
 Program::Program(Device& device, const std::string& file, const Defines& defines)
-    : device_(&device), file_(file), built_(begin_build(device, file, build_options(device, defines))) {}
+    : device_(&device),
+      file_(file),
+      built_file_(file),
+      options_(build_options(device, defines)),
+      built_(begin_build(device, built_file_, options_)) {}
 
 Program::Program(Device& device, const std::string& file, const JointProgram& joint)
     : device_(&device),
       file_(file),
-      built_(begin_build(device, device.is_cpu() ? joint.file : file, build_options(device, {}))) {}
+      built_file_(device.is_cpu() ? joint.file : file),
+      options_(build_options(device, {})),
+      built_(begin_build(device, built_file_, options_)) {}
+
+cl::Program Program::built() const {
+    try {
+        return built_.get();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::out_of_memory) {
+            throw;
+        }
+    }
+    return begin_build(*device_, built_file_, options_).get();
+}
 
 cl::Kernel Program::kernel(const std::string& name) const {
-    const cl::Program& program = built_.get();
-    return with_opencl_errors("kernel " + name + " of kernels/" + file_,
-                              [&] { return cl::Kernel(program, name.c_str()); });
+    return with_opencl_errors("kernel " + name + " of kernels/" + file_ + " on device " + device_->name(),
+                              [&] { return cl::Kernel(built(), name.c_str()); });
 }
 
 }  // namespace nearlight::core

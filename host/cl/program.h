@@ -37,8 +37,14 @@ class Program {
     [[nodiscard]] cl::Kernel kernel(const std::string& name) const;
 
   private:
+    /// Waits for the compiler. Begins again after an Error(ErrorKind::out_of_memory), because there may be
+    /// memory by now.
+    [[nodiscard]] cl::Program built() const;
+
     Device* device_;
     std::string file_;
+    std::string built_file_;  ///< what is compiled: `file_`, or a joint program that includes it
+    std::string options_;
     std::shared_future<cl::Program> built_;
 };
 

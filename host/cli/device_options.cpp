@@ -32,28 +32,17 @@ DeviceChoice with_compile_workers(DeviceChoice choice) {
 }
 
 std::vector<std::unique_ptr<Device>> open_devices(const DeviceChoice& choice, const DeviceList& list) {
-    DeviceOptions options = choice.options;
-    if (options.compiler == nullptr) {
-        options.compiler = std::make_shared<ProgramCompiler>();
-    }
-    std::vector<std::unique_ptr<Device>> devices;
-    for (const DeviceEntry& entry : choose_devices(list, choice.device)) {
-        spdlog::debug("device {}: {}, {}, driver {}", entry.index, entry.label(), entry.platform,
-                      entry.driver);
-        devices.push_back(std::make_unique<Device>(entry, options));
-    }
-    return devices;
+    return open_devices(choose_devices(list, choice.device), choice.options);
 }
 
 std::unique_ptr<Device> open_device(const DeviceChoice& choice) {
-    const std::vector<DeviceEntry> chosen = choose_devices(list_devices(), choice.device);
+    std::vector<DeviceEntry> chosen = choose_devices(list_devices(), choice.device);
     if (chosen.size() > 1) {
         spdlog::warn("{} devices match, but this command uses only one: {} ({})", chosen.size(),
                      chosen.front().label(), chosen.front().platform);
     }
-    spdlog::debug("device {}: {}, {}, driver {}", chosen.front().index, chosen.front().label(),
-                  chosen.front().platform, chosen.front().driver);
-    return std::make_unique<Device>(chosen.front(), choice.options);
+    chosen.resize(1);
+    return std::move(open_devices(chosen, choice.options).front());
 }
 
 }  // namespace nearlight::core

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nearlight/device.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
-#include "host/cl/compile/program_compiler.h"
 #include "host/cl/devices/device_list.h"
 #include "host/library/states.h"
 
@@ -50,15 +51,12 @@ std::vector<core::Device*> Devices::State::plain() const {
 Devices::Devices(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
 Devices Devices::choose(const std::string& choice, const DeviceOptions& options) {
-    const core::DeviceOptions core_options{.kernel_dir = options.kernel_dir,
-                                           .cache_dir = options.cache_dir,
-                                           .compiler = std::make_shared<core::ProgramCompiler>()};
+    const core::DeviceOptions core_options{.kernel_dir = options.kernel_dir, .cache_dir = options.cache_dir};
     auto state = std::make_shared<State>();
-    for (const core::DeviceEntry& entry :
-         core::choose_devices(core::list_devices(), choice == "auto" ? "" : choice)) {
-        state->devices.push_back(std::make_unique<core::Device>(entry, core_options));
-        state->infos.push_back(describe_entry(entry));
-    }
+    state->devices = core::open_devices(
+        core::choose_devices(core::list_devices(), choice == "auto" ? "" : choice), core_options);
+    std::ranges::transform(state->devices, std::back_inserter(state->infos),
+                           [](const auto& device) { return describe_entry(device->entry()); });
     return Devices(std::move(state));
 }
 

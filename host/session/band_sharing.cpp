@@ -190,8 +190,7 @@ void tell_failures(const Board::News& news, std::span<const BandWorker> workers)
         if (lost && &failure == &news.failures.back()) {
             std::rethrow_exception(failure.error);
         }
-        say_warning("device " + workers[failure.worker].name +
-                    " failed, and others do its part: " + message_of(failure.error));
+        say_lost_device(workers[failure.worker].name, message_of(failure.error));
     }
 }
 

@@ -7,9 +7,16 @@ namespace nearlight::core {
 
 DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : kernel_(kernel) {
     for (Device* device : devices) {
-        devices_.push_back(std::make_unique<PoolDevice>(*device, kernel));
+        try {
+            devices_.push_back(std::make_unique<PoolDevice>(*device, kernel));
+        } catch (const Error& error) {
+            if (devices_.empty() && device == devices.back()) {
+                throw;
+            }
+            say_lost_device(device->entry().label(), error.what());
+        }
     }
-    appoint_leader();
+    on_leader([](const PoolDevice&) {});  // its stages begin to compile
 }
 
 std::vector<const Device*> DevicePool::plain_devices() const {
@@ -61,14 +68,12 @@ void DevicePool::lose(std::size_t index, const Error& error) {
     if (devices_.size() == 1) {
         throw;
     }
-    say_warning("device " + devices_[index]->device().entry().label() +
-                " failed, and others do its part: " + error.what());
+    say_lost_device(devices_[index]->device().entry().label(), error.what());
     drop(index);
 }
 
 void DevicePool::drop(std::size_t index) {
     devices_.erase(devices_.begin() + static_cast<std::ptrdiff_t>(index));
-    appoint_leader();
 }
 
 void DevicePool::appoint_leader() {

@@ -51,6 +51,7 @@ class DevicePool {
     std::invoke_result_t<Work, PoolDevice&> on_leader(const Work& work) {
         for (;;) {
             try {
+                appoint_leader();
                 return work(leader());
             } catch (const Error& error) {
                 lose(0, error);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/message.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
@@ -277,13 +278,18 @@ void begin_compiling(std::span<Device* const> devices, const SessionOptions& opt
             const LocalGather local_gather(device);
         }
     };
-    begin_bands(*devices.front());
-    SamplerStages stages(*devices.front(), {.kernel = options.gather_kernel});
-    if (sampler.begin_compiling != nullptr && settings.file.empty()) {
-        sampler.begin_compiling(stages, settings.policy);
-    }
-    for (Device* device : devices.subspan(1)) {
-        begin_bands(*device);
+    for (Device* device : devices) {
+        try {
+            begin_bands(*device);
+            if (device == devices.front()) {
+                SamplerStages stages(*device, {.kernel = options.gather_kernel});
+                if (sampler.begin_compiling != nullptr && settings.file.empty()) {
+                    sampler.begin_compiling(stages, settings.policy);
+                }
+            }
+        } catch (const Error& error) {
+            say_debug("device " + device->entry().label() + " begins to compile nothing: " + error.what());
+        }
     }
 }
 

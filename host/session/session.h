@@ -99,7 +99,8 @@ class Session {
 };
 
 /// Begins to compile the programs that a render with these settings needs, so that they compile while the
-/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones.
+/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones. Nobody
+/// is told of a device that fails here, because the Session will find out too.
 void begin_compiling(std::span<Device* const> devices, const SessionOptions& options,
                      const SamplingSettings& settings);
 

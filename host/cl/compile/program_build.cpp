@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/base/hash.h"
+#include "host/base/memory.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/cl/compile/compile_worker.h"
@@ -15,12 +16,34 @@
 namespace nearlight::core {
 namespace {
 
+/// What errors of OpenCL concern.
+std::string subject_of(const ProgramRequest& request) {
+    return "kernels/" + request.file + " on device " + request.entry.name;
+}
+
 void build(const cl::Program& program, const DeviceEntry& entry, const std::string& options) {
     program.build({entry.handle}, options.c_str());
 }
 
+/// What the driver is given room for when it takes a binary, and when it compiles a source. PoCL needs about
+/// half of that.
+constexpr std::size_t kBinaryBytes = std::size_t{96} << 20;
+constexpr std::size_t kSourceBytes = std::size_t{256} << 20;
+
+/// Throws Error(ErrorKind::out_of_memory) if a limit leaves too little address space. A driver that runs out
+/// of it in the middle of a build ends the process, or keeps a lock for which others then wait forever.
+void require_address_space(const ProgramRequest& request, std::size_t bytes) {
+    if (const std::size_t left = free_address_space(); left < bytes) {
+        throw Error(ErrorKind::out_of_memory,
+                    subject_of(request) + " needs " + std::to_string(bytes >> 20) +
+                        " MiB of address space to be built, and the limit (ulimit -v) leaves " +
+                        std::to_string(left >> 20) + " MiB; raise the limit");
+    }
+}
+
 /// Makes a program of a binary. Returns nothing if the driver refuses the binary.
 std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBinary binary) {
+    require_address_space(request, kBinaryBytes);
     try {
         cl::Program program(request.context, {request.entry.handle},
                             cl::Program::Binaries{std::move(binary)});
@@ -79,12 +102,23 @@ Error make_build_error(const cl::Program& program, const ProgramRequest& request
                 first_error_line(log) + "; expanded source and log are in " + base.string() + ".cl and .log"};
 }
 
+/// Whether a build that failed with `code` tells something of the source; otherwise the device or its driver
+/// failed.
+bool is_about_the_source(cl_int code) {
+    return code == CL_BUILD_PROGRAM_FAILURE || code == CL_COMPILE_PROGRAM_FAILURE ||
+           code == CL_LINK_PROGRAM_FAILURE || code == CL_INVALID_BUILD_OPTIONS;
+}
+
 cl::Program from_source(const ProgramRequest& request, const cl::Context& context) {
+    const std::string subject = subject_of(request);
     const cl::Program program =
-        with_opencl_errors("kernels/" + request.file, [&] { return cl::Program(context, request.source); });
+        with_opencl_errors(subject, [&] { return cl::Program(context, request.source); });
     try {
         build(program, request.entry, request.options);
     } catch (const cl::Error& error) {
+        if (!is_about_the_source(error.err())) {
+            throw make_opencl_error(error, subject);
+        }
         throw make_build_error(program, request, error.err());
     }
     return program;
@@ -97,7 +131,7 @@ cl::Context compile_context(const ProgramRequest& request, CompileContexts& cont
     const auto [found, is_new] = contexts.try_emplace(request.entry.handle());
     if (is_new) {
         found->second =
-            with_opencl_errors("kernels/" + request.file, [&] { return cl::Context(request.entry.handle); });
+            with_opencl_errors(subject_of(request), [&] { return cl::Context(request.entry.handle); });
     }
     return found->second;
 }
@@ -109,6 +143,7 @@ struct Compiled {
 };
 
 Compiled compile_here(const ProgramRequest& request, CompileContexts& contexts) {
+    require_address_space(request, kSourceBytes);
     const cl::Context context = compile_context(request, contexts);
     Compiled compiled{from_source(request, context), {}};
     compiled.binary = binary_of(compiled.program);
@@ -138,14 +173,8 @@ std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& 
     return std::nullopt;
 }
 
-}  // namespace
-
-std::string ProgramRequest::key() const {
-    return entry.platform + "\n" + entry.name + "\n" + entry.version + "\n" + entry.driver + "\n" + options +
-           "\n" + hex_digits(hash128(source)) + "\n" + std::to_string(source.size());
-}
-
-cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
+/// Makes the program as build_program() does. Throws cl::Error too.
+cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
     const ProgramCache cache(request.cache_dir);
     const std::string key = request.key();
     if (auto kept = cache.find(key)) {
@@ -164,6 +193,18 @@ cl::Program build_program(const ProgramRequest& request, CompileContexts& contex
     say_debug("compiled kernels/" + request.file + " for " + request.entry.name + " in " +
               std::to_string(watch.seconds()) + " s");
     return compiled->program;
+}
+
+}  // namespace
+
+std::string ProgramRequest::key() const {
+    return entry.platform + "\n" + entry.name + "\n" + entry.version + "\n" + entry.driver + "\n" + options +
+           "\n" + hex_digits(hash128(source)) + "\n" + std::to_string(source.size());
+}
+
+cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
+    return with_opencl_errors(subject_of(request),
+                              [&] { return find_or_compile(request, contexts, worker); });
 }
 
 }  // namespace nearlight::core

@@ -33,10 +33,9 @@ std::string lower(std::string text) {
     return text;
 }
 
-DeviceEntry describe(const cl::Device& handle, const std::string& platform) {
-    DeviceEntry entry;
-    entry.handle = handle;
-    entry.platform = platform;
+/// Asks the device for its properties. Throws cl::Error.
+void describe(DeviceEntry& entry) {
+    const cl::Device& handle = entry.handle;
     entry.name = trimmed(handle.getInfo<CL_DEVICE_NAME>());
     entry.version = trimmed(handle.getInfo<CL_DEVICE_VERSION>());
     entry.driver = trimmed(handle.getInfo<CL_DRIVER_VERSION>());
@@ -59,6 +58,20 @@ DeviceEntry describe(const cl::Device& handle, const std::string& platform) {
     } else if (!handle.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) {
         entry.unusable_because = "it is big-endian";
     }
+}
+
+/// Describes a device, whose driver may fail. The device then cannot be used, and others can.
+DeviceEntry describe_if_it_answers(const cl::Device& handle, const std::string& platform) {
+    DeviceEntry entry;
+    entry.handle = handle;
+    entry.name = "a device of " + platform;
+    entry.platform = platform;
+    try {
+        describe(entry);
+    } catch (const cl::Error& error) {
+        entry.unusable_because =
+            std::string("its driver fails: ") + error.what() + " gave " + opencl_error_name(error.err());
+    }
     return entry;
 }
 
@@ -72,7 +85,7 @@ void list_platform(const cl::Platform& platform, DeviceList& list) {
             list.problems.push_back("platform '" + name + "' has no device");
         }
         for (const cl::Device& handle : handles) {
-            DeviceEntry entry = describe(handle, name);
+            DeviceEntry entry = describe_if_it_answers(handle, name);
             entry.index = static_cast<int>(list.devices.size());
             list.devices.push_back(std::move(entry));
         }
@@ -196,6 +209,36 @@ std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& 
     return chosen;
 }
 
+/// Chooses devices as choose_devices() does. Throws cl::Error too.
+std::vector<DeviceEntry> chosen_of(const DeviceList& list, const std::string& requested) {
+    if (list.devices.empty()) {
+        std::vector<std::string> reasons = list.problems;
+        std::ranges::move(drivers_that_do_not_load(), std::back_inserter(reasons));
+        const std::string why = reasons.empty() ? "no OpenCL platform" : reasons.front();
+        throw Error(ErrorKind::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
+    }
+    std::string choice = lower(requested);
+    if (const char* variable = std::getenv("NEARLIGHT_DEVICE"); choice.empty() && variable != nullptr) {
+        choice = lower(variable);
+    }
+    if (choice.empty()) {
+        return {default_device(list)};
+    }
+    std::vector<DeviceEntry> chosen;
+    std::istringstream items(choice);
+    for (std::string item; std::getline(items, item, ',');) {
+        for (DeviceEntry& entry : choose_item(list, item)) {
+            const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const DeviceEntry& other) {
+                return other.index == entry.index && other.part == entry.part;
+            });
+            if (is_new) {
+                chosen.push_back(std::move(entry));
+            }
+        }
+    }
+    return chosen;
+}
+
 }  // namespace
 
 std::string to_string(DeviceKind kind) {
@@ -238,32 +281,7 @@ DeviceList list_devices() {
 }
 
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& requested) {
-    if (list.devices.empty()) {
-        std::vector<std::string> reasons = list.problems;
-        std::ranges::move(drivers_that_do_not_load(), std::back_inserter(reasons));
-        const std::string why = reasons.empty() ? "no OpenCL platform" : reasons.front();
-        throw Error(ErrorKind::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
-    }
-    std::string choice = lower(requested);
-    if (const char* variable = std::getenv("NEARLIGHT_DEVICE"); choice.empty() && variable != nullptr) {
-        choice = lower(variable);
-    }
-    if (choice.empty()) {
-        return {default_device(list)};
-    }
-    std::vector<DeviceEntry> chosen;
-    std::istringstream items(choice);
-    for (std::string item; std::getline(items, item, ',');) {
-        for (DeviceEntry& entry : choose_item(list, item)) {
-            const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const DeviceEntry& other) {
-                return other.index == entry.index && other.part == entry.part;
-            });
-            if (is_new) {
-                chosen.push_back(std::move(entry));
-            }
-        }
-    }
-    return chosen;
+    return with_opencl_errors("choice among the OpenCL devices", [&] { return chosen_of(list, requested); });
 }
 
 }  // namespace nearlight::core

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -14,23 +15,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder in which PoCL 3 to 6 make theirs; empty if there is none, and they take one in /tmp.
-fs::path users_cache() {
-    const char* const cache = std::getenv("XDG_CACHE_HOME");
-    if (cache != nullptr && *cache != '\0') {
-        return cache;
-    }
-    const char* const home = std::getenv("HOME");
-    return home != nullptr && *home != '\0' ? fs::path(home) / ".cache" : fs::path();
+/// The value of a variable; empty if it is not set.
+fs::path path_in(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value == nullptr ? "" : value;
 }
 
-/// Whether the folder can be written, or made if it is not there.
-bool can_have_folder(fs::path folder) {
+/// The folder in which PoCL 3 to 6 keep files; empty if there is none, and they take one in /tmp.
+fs::path pocl_cache() {
+    if (const fs::path set = path_in("POCL_CACHE_DIR"); !set.empty()) {
+        return set;
+    }
+    if (const fs::path cache = path_in("XDG_CACHE_HOME"); !cache.empty()) {
+        return cache / "pocl";
+    }
+    const fs::path home = path_in("HOME");
+    return home.empty() ? home : home / ".cache" / "pocl";
+}
+
+/// What the disk must have room for: several times what all kernels of one command take.
+constexpr std::uintmax_t kMinFreeBytes = std::uintmax_t{32} << 20;
+
+/// Why PoCL cannot keep files in the folder, as the end of a sentence; empty if it can. The folder need not
+/// be there yet.
+std::string reason_not_to_keep(fs::path folder) {
     std::error_code error;
     while (!fs::exists(folder, error) && folder.has_relative_path()) {
         folder = folder.parent_path();
     }
-    return fs::is_directory(folder, error) && access(folder.c_str(), W_OK | X_OK) == 0;
+    if (!fs::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0) {
+        return "cannot be written";
+    }
+    const fs::space_info space = fs::space(folder, error);
+    return !error && space.available < kMinFreeBytes ? "is on a full disk" : "";
 }
 
 /// A folder that goes with the process which made it.
@@ -38,9 +55,12 @@ class TemporaryCache {
   public:
     TemporaryCache() {
         std::error_code error;
-        std::string name = (fs::temp_directory_path(error) / "nearlight-pocl-XXXXXX").string();
-        if (!error && mkdtemp(name.data()) != nullptr) {
-            folder_ = name;
+        for (const fs::path& place : {fs::temp_directory_path(error), fs::path("/dev/shm")}) {
+            std::string name = (place / "nearlight-pocl-XXXXXX").string();
+            if (reason_not_to_keep(place).empty() && mkdtemp(name.data()) != nullptr) {
+                folder_ = name;
+                return;
+            }
         }
     }
     TemporaryCache(const TemporaryCache&) = delete;
@@ -61,18 +81,22 @@ class TemporaryCache {
 }  // namespace
 
 void ensure_driver_cache() {
-    const fs::path cache = users_cache();
-    if (std::getenv("POCL_CACHE_DIR") != nullptr || cache.empty() ||
-        can_have_folder(fs::absolute(cache) / "pocl")) {
+    const fs::path cache = pocl_cache();
+    const std::string reason = cache.empty() ? "" : reason_not_to_keep(fs::absolute(cache));
+    if (reason.empty()) {
         return;
     }
     static const TemporaryCache temporary;
-    if (!temporary.folder().empty()) {
-        setenv("POCL_CACHE_DIR", temporary.folder().c_str(), 1);
-        say_warning("'" + cache.string() +
-                    "' cannot be written, so that PoCL keeps nothing that it compiled; set " +
-                    "XDG_CACHE_HOME to another folder");
+    const std::string fault = "'" + cache.string() + "' " + reason;
+    if (temporary.folder().empty()) {
+        say_warning(fault +
+                    ", and neither is there another folder for what PoCL compiles, so that it may fail; " +
+                    "free space on the disk");
+        return;
     }
+    setenv("POCL_CACHE_DIR", temporary.folder().c_str(), 1);
+    say_warning(fault +
+                ", so that PoCL keeps nothing that it compiled; set POCL_CACHE_DIR to another folder");
 }
 
 }  // namespace nearlight::core

@@ -25,7 +25,8 @@ fs::path registry() {
     return "/etc/OpenCL/vendors";
 }
 
-std::vector<fs::path> registered_files() {
+/// Adds to `problems` why the registry cannot be read.
+std::vector<fs::path> registered_files(std::vector<std::string>& problems) {
     const fs::path place = registry();
     std::error_code error;
     if (!fs::is_directory(place, error)) {
@@ -34,6 +35,10 @@ std::vector<fs::path> registered_files() {
     std::vector<fs::path> files;
     for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
         files.push_back(entry->path());
+    }
+    if (error) {
+        problems.push_back("cannot read '" + place.string() +
+                           "', where drivers are registered: " + error.message());
     }
     std::ranges::sort(files);
     return files;
@@ -67,7 +72,7 @@ std::string reason_not_to_load(const std::string& library) {
 
 std::vector<std::string> drivers_that_do_not_load() {
     std::vector<std::string> problems;
-    for (const fs::path& file : registered_files()) {
+    for (const fs::path& file : registered_files(problems)) {
         const std::string library = file.extension() == ".icd" ? library_in(file) : "";
         if (library.empty()) {
             continue;
