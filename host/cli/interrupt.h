@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handling of Ctrl-C: commands finish the current step, save, and exit with ExitCode::interrupted.
+// Handling of Ctrl-C and of a terminal that goes: commands finish the current step, save, and exit with ExitCode::interrupted.
 #pragma once
 
 namespace nearlight::core {
 
-/// After this call a first SIGINT or SIGTERM only makes interrupted() true; a second one ends the program. A
-/// command that calls this must check interrupted() several times a second.
+/// After this call a first SIGINT, SIGTERM or SIGHUP only makes interrupted() true; a second one ends the
+/// program. SIGHUP stays ignored if it is. A command that calls this must check interrupted() several times a
+/// second.
 void catch_interrupts();
-/// Whether a SIGINT or SIGTERM came since catch_interrupts().
+/// Whether one of these signals came since catch_interrupts().
 [[nodiscard]] bool interrupted();
 
 }  // namespace nearlight::core

@@ -17,6 +17,7 @@ void prepare_standard_streams() {
         close(file);
     }
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace nearlight::core

@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 
+#include <string>
+
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -16,10 +18,14 @@ const ImageCodec& load_codec() {
     void* const module = dlopen(kModule, RTLD_LAZY | RTLD_LOCAL);
     const void* const codec = module == nullptr ? nullptr : dlsym(module, "nearlight_image_codec");
     if (codec == nullptr) {
-        const char* const reason = dlerror();
-        throw Error(ErrorKind::failure,
+        const char* const told = dlerror();
+        const std::string reason = told == nullptr ? "it is empty" : told;
+        // The first is what glibc says where a limit (ulimit -v) leaves no room for a library.
+        const bool memory = reason.find("failed to map segment") != std::string::npos ||
+                            reason.find("annot allocate memory") != std::string::npos;
+        throw Error(memory ? ErrorKind::out_of_memory : ErrorKind::failure,
                     std::string("cannot load ") + kModule + ", which reads and writes image files: " +
-                        (reason == nullptr ? "it is empty" : reason) + "; reinstall nearlight");
+                        reason + (memory ? "; free memory" : "; reinstall nearlight"));
     }
     return *static_cast<const ImageCodec*>(codec);
 }

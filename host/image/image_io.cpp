@@ -119,6 +119,10 @@ struct ImageWriter::State {
     [[noreturn]] void fail_to_write(const std::string& reason) const {
         fail_image("cannot write image", file.target(), reason);
     }
+    /// For a file that was open already.
+    [[noreturn]] void fail_to_go_on(const std::string& reason) const {
+        fail_to_write(reason + "; is the disk full, or its folder gone?");
+    }
 };
 
 ImageWriter::State::~State() {
@@ -187,14 +191,14 @@ void ImageWriter::State::write(int row_count, const float* values) {
     }
     const int error = errno;
     if (!failed.empty() || std::ferror(stream) != 0) {
-        fail_to_write(failed.empty() ? std::strerror(error) : failed);
+        fail_to_go_on(failed.empty() ? std::strerror(error) : failed);
     }
     next_row = end;
 }
 
 void ImageWriter::State::close() {
     if (const std::string failed = encoder->close(); !failed.empty()) {
-        fail_to_write(failed);
+        fail_to_go_on(failed);
     }
     encoder.reset();
     // The last bytes leave the buffers only now, and the disk may be full.
@@ -202,7 +206,7 @@ void ImageWriter::State::close() {
     const int error = errno;
     const bool closed = std::fclose(std::exchange(stream, nullptr)) == 0;
     if (!flushed || !closed) {
-        fail_to_write(std::strerror(flushed ? errno : error));
+        fail_to_go_on(std::strerror(flushed ? errno : error));
     }
 }
 
@@ -263,7 +267,7 @@ void ImageWriter::commit(const std::map<std::string, float>& late) {
         }
     }
     if (const std::error_code error = state_->file.commit(Durability::result)) {
-        state_->fail_to_write(error.message());
+        state_->fail_to_go_on(error.message());
     }
 }
 

@@ -30,6 +30,16 @@ TEST(InterruptDeathTest, FirstSignalIsOnlyNoted) {
     EXPECT_EXIT(interrupt_once(SIGTERM), testing::ExitedWithCode(7), "");
 }
 
+[[noreturn]] void lose_terminal(void (*before)(int)) {
+    std::signal(SIGHUP, before);
+    interrupt_once(SIGHUP);
+}
+
+TEST(InterruptDeathTest, ALostTerminalInterruptsUnlessItIsIgnored) {
+    EXPECT_EXIT(lose_terminal(SIG_DFL), testing::ExitedWithCode(7), "");
+    EXPECT_EXIT(lose_terminal(SIG_IGN), testing::ExitedWithCode(8), "");  // as nohup does
+}
+
 TEST(InterruptDeathTest, SecondSignalEndsTheProcess) {
     EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
 }
