@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "host/base/printable.h"
 #include "host/cli/advice.h"
@@ -34,6 +35,13 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail("out of memory on the host; use a smaller --size or fewer --layers",
                     ExitCode::out_of_memory);
+    } catch (const std::system_error& error) {
+        if (error.code() != std::errc::resource_unavailable_try_again) {
+            return fail(error.what(), ExitCode::runtime);
+        }
+        return fail(
+            "a thread cannot be started; raise the limit of memory (ulimit -v) or of processes (ulimit -u)",
+            ExitCode::out_of_memory);
     } catch (const std::exception& error) {
         return fail(error.what(), ExitCode::runtime);
     }

@@ -261,6 +261,9 @@ void ImageWriter::commit(const std::map<std::string, float>& late) {
         state_->write(1, zeros.data());
     }
     state_->close();
+    if (std::error_code ignored; !fs::exists(state_->file.temporary(), ignored)) {
+        state_->fail_to_go_on("what was written of it is gone");
+    }
     if (state_->format == ImageFormat::exr) {
         for (const auto& [name, value] : late) {
             patch_exr_float(state_->file.temporary(), name, value);

@@ -103,8 +103,10 @@ class ProgramFaults : public testing::Test {
         const bool memory = kind.code == CL_MEM_OBJECT_ALLOCATION_FAILURE;
         exit_codes.insert(static_cast<int>(memory ? ExitCode::out_of_memory : ExitCode::runtime));
         EXPECT_TRUE(exit_codes.contains(result.exit_code)) << result.exit_code;
+        // A driver may abort when the picture is written and the program has said so.
         static const std::regex line(
-            "nearlight: error: [^\n]*[Dd](evice|river)[^\n]*; (try again|free|choose|install)[^\n]*\n");
+            "(info: [^\n]*\n)*nearlight: error: [^\n]*[Dd](evice|river)[^\n]*; (try "
+            "again|free|choose|install)[^\n]*\n");
         EXPECT_TRUE(std::regex_match(result.errors, line)) << result.errors;
     }
     /// Makes the calls fail one after another, and checks what comes of it.
@@ -119,7 +121,8 @@ class ProgramFaults : public testing::Test {
         for (const std::size_t call : choose_calls(names, per_kind, spread)) {
             SCOPED_TRACE("call " + std::to_string(call) + ", " + names[call - 1] + ", " + kind.mode);
             const ProgramResult result = run(task, kind, call);
-            EXPECT_EQ(file_text(picture()), result.exit_code == 0 ? right : "old");
+            const bool is_whole = result.exit_code == 0 || result.errors.find("wrote") != std::string::npos;
+            EXPECT_EQ(file_text(picture()), is_whole ? right : "old");
             if (result.exit_code != 0) {
                 ++errors;
                 expect_one_error(result, kind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/compile/program_build.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -21,8 +22,22 @@ std::string subject_of(const ProgramRequest& request) {
     return "kernels/" + request.file + " on device " + request.entry.name;
 }
 
+/// Calls the driver's compiler. An exception that passes through it and is no error of OpenCL, such as
+/// std::bad_alloc, has left locks behind for which other threads would wait forever. It therefore ends the
+/// process, as compilers themselves do where memory runs out.
+template <typename Action>
+auto in_compiler(const Action& action) {
+    try {
+        return action();
+    } catch (const cl::Error&) {
+        throw;
+    } catch (...) {
+        std::abort();
+    }
+}
+
 void build(const cl::Program& program, const DeviceEntry& entry, const std::string& options) {
-    program.build({entry.handle}, options.c_str());
+    in_compiler([&] { program.build({entry.handle}, options.c_str()); });
 }
 
 /// What the driver is given room for when it takes a binary, and when it compiles a source. PoCL needs about
@@ -45,8 +60,9 @@ void require_address_space(const ProgramRequest& request, std::size_t bytes) {
 std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBinary binary) {
     require_address_space(request, kBinaryBytes);
     try {
-        cl::Program program(request.context, {request.entry.handle},
-                            cl::Program::Binaries{std::move(binary)});
+        const cl::Program::Binaries binaries{std::move(binary)};
+        const cl::Program program =
+            in_compiler([&] { return cl::Program(request.context, {request.entry.handle}, binaries); });
         build(program, request.entry, request.options);
         return program;
     } catch (const cl::Error& error) {
@@ -59,7 +75,7 @@ std::optional<cl::Program> from_binary(const ProgramRequest& request, ProgramBin
 /// The binary of a program; empty if the driver gives none.
 ProgramBinary binary_of(const cl::Program& program) {
     try {
-        const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+        const auto binaries = in_compiler([&] { return program.getInfo<CL_PROGRAM_BINARIES>(); });
         return binaries.empty() ? ProgramBinary() : binaries.front();
     } catch (const cl::Error& error) {
         say_debug("the driver gives no binary to keep (" + opencl_error_name(error.err()) + ")");

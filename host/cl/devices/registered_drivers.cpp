@@ -2,6 +2,7 @@
 #include "host/cl/devices/registered_drivers.h"
 
 #include <dlfcn.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,6 +14,9 @@ namespace nearlight::core {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A limit of open files below this may keep the loader from reading the registry and from loading drivers.
+constexpr rlim_t kMinFiles = 32;
 
 /// The folder of files that name drivers, or one such file. The variables are those of ocl-icd and of
 /// Khronos's loader.
@@ -60,8 +64,8 @@ std::string library_in(const fs::path& file) {
 /// Why a library cannot be loaded; empty if it can.
 std::string reason_not_to_load(const std::string& library) {
     dlerror();
-    if (void* const handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL); handle != nullptr) {
-        dlclose(handle);
+    // A driver stays, because LLVM ends the process when it is loaded, unloaded and loaded again.
+    if (dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL) != nullptr) {
         return "";
     }
     const char* const reason = dlerror();
@@ -72,6 +76,11 @@ std::string reason_not_to_load(const std::string& library) {
 
 std::vector<std::string> drivers_that_do_not_load() {
     std::vector<std::string> problems;
+    rlimit files{};
+    if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur < kMinFiles) {
+        problems.push_back("no more than " + std::to_string(files.rlim_cur) +
+                           " files may be open at a time, which is too few for drivers (ulimit -n)");
+    }
     for (const fs::path& file : registered_files(problems)) {
         const std::string library = file.extension() == ".icd" ? library_in(file) : "";
         if (library.empty()) {
