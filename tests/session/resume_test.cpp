@@ -25,8 +25,8 @@ Scene tall_yard() {
     add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
     scene.environment = {.width = 1, .height = 1, .radiance = {{0.3f, 0.4f, 0.5f}}, .to_world = {}};
     set_camera(scene, {0.1, 0.6, -1.9}, {0, -0.5, 1}, 20);
-    scene.camera.width = 40;
-    scene.camera.height = 500;
+    scene.camera.width = 70;
+    scene.camera.height = 600;
     return scene;
 }
 
@@ -85,7 +85,7 @@ std::vector<RenderSettings> ways_to_render() {
     ways[3].error = 0.05;
     ways[4].passes.reset();
     ways[4].pass_samples = {2, 4, 3};
-    ways[4].gather.window = PixelWindow{5, 37, 30, 300};
+    ways[4].gather.window = PixelWindow{5, 37, 60, 300};
     return ways;
 }
 
