@@ -104,6 +104,29 @@ void append_second_uvs(Scene& scene, const Mesh& mesh) {
     }
 }
 
+/// Begins the objects of a mesh in the scene, whose names its own come after.
+class ObjectCopier {
+  public:
+    ObjectCopier(Scene& scene, const Mesh& mesh)
+        : scene_(scene), runs_(mesh.objects), first_name_(static_cast<uint>(scene.object_names.size())) {
+        scene.object_names.insert(scene.object_names.end(), mesh.object_names.begin(),
+                                  mesh.object_names.end());
+    }
+    /// Called before each triangle of the mesh, whether the scene gets it or not.
+    void reach(std::size_t triangle) {
+        for (; next_ < runs_.size() && runs_[next_].first_triangle <= triangle; ++next_) {
+            scene_.objects.push_back(
+                {static_cast<uint>(scene_.triangles.size()), first_name_ + runs_[next_].name});
+        }
+    }
+
+  private:
+    Scene& scene_;
+    std::span<const ObjectRun> runs_;
+    uint first_name_;
+    std::size_t next_ = 0;
+};
+
 bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
     const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
     return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
@@ -165,9 +188,11 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
     append_colors(scene, mesh);
     append_second_uvs(scene, mesh);
 
+    ObjectCopier objects(scene, mesh);
     std::size_t dropped = 0;
     make_room(scene.triangles, mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        objects.reach(i);
         Indices t = mesh.triangles[i];
         if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) {
             ++dropped;

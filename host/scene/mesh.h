@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/base/math.h"
@@ -25,8 +26,10 @@ struct Mesh {
     std::vector<std::array<float, 2>> second_uvs;  ///< for Scene::second_uvs; one a position, or empty
     std::vector<Vec3> colors;                      ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
-    bool face_normals = false;  ///< the file asks for flat facets
-    std::vector<uint> groups;   ///< one a triangle: index into MeshPlacement::materials; empty: all 0
+    bool face_normals = false;              ///< the file asks for flat facets
+    std::vector<std::string> object_names;  ///< of the objects that the file says the mesh consists of
+    std::vector<ObjectRun> objects;         ///< in the order of triangles; empty: the mesh is one object
+    std::vector<uint> groups;  ///< one a triangle: index into MeshPlacement::materials; empty: all 0
 };
 
 struct MeshPlacement {
@@ -40,7 +43,8 @@ struct MeshPlacement {
 /// the front of a triangle is the side of its vertex normals if the mesh has any, otherwise the side from
 /// which the transformed corners run counter-clockwise, even if the transform mirrors. Triangles with a NaN
 /// or infinite corner are left out, with a note. Colours of vertices are kept; vertices without one get
-/// kNoColor, which finish_vertex_colors() replaces. Throws Error(ErrorKind::file) for an index out of range.
+/// kNoColor, which finish_vertex_colors() replaces. Objects that the mesh has begin in the scene. Throws
+/// Error(ErrorKind::file) for an index out of range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
 /// Throws Error(ErrorKind::file) for an index out of range, and if normals, colours or texture coordinates

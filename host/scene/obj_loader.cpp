@@ -5,9 +5,11 @@
 
 #include <istream>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 
+#include "host/base/words.h"
 #include "host/scene/camera_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
@@ -57,6 +59,21 @@ class ObjBuilder {
         group_ = known->second;
         if (is_new) {
             obj_.materials.push_back(name);
+        }
+    }
+    /// Faces from now on belong to this object. Names come back in files that switch between objects.
+    void begin_object(const std::string& name) {
+        Mesh& mesh = obj_.mesh;
+        const auto [known, is_new] =
+            object_numbers_.try_emplace(name, static_cast<uint>(mesh.object_names.size()));
+        if (is_new) {
+            mesh.object_names.push_back(name);
+        }
+        const auto first = static_cast<uint>(mesh.triangles.size());
+        if (!mesh.objects.empty() && mesh.objects.back().first_triangle == first) {
+            mesh.objects.back().name = known->second;
+        } else {
+            mesh.objects.push_back({first, known->second});
         }
     }
     void finish() {
@@ -123,6 +140,7 @@ class ObjBuilder {
     }
 
     ObjFile& obj_;
+    std::unordered_map<std::string, uint> object_numbers_;
     std::unordered_map<Corner, uint, CornerHash> corners_;  // their vertices
     std::unordered_map<std::string, uint> groups_;
     std::size_t faces_ = 0, short_faces_ = 0;
@@ -146,6 +164,13 @@ tinyobj::callback_t make_callbacks() {
     };
     callbacks.usemtl_cb = [](void* user, const char* name, int) {
         static_cast<ObjBuilder*>(user)->use_material(trimmed(name));
+    };
+    callbacks.object_cb = [](void* user, const char* name) {
+        static_cast<ObjBuilder*>(user)->begin_object(trimmed(name));
+    };
+    callbacks.group_cb = [](void* user, const char** names, int count) {
+        const std::span<const char*> all(names, static_cast<std::size_t>(count));
+        static_cast<ObjBuilder*>(user)->begin_object(joined(all, " ", &trimmed));
     };
     return callbacks;
 }

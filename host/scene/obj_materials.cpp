@@ -10,6 +10,7 @@
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
 #include "host/scene/obj_text.h"
+#include "host/scene/scene_names.h"
 #include "host/scene/texture_loader.h"
 #include "nearlight/error.h"
 
@@ -291,10 +292,11 @@ std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& 
         }
         if (found == nullptr) {
             indices.push_back(materials.add_grey());
-            continue;
+        } else {
+            const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
+            indices.push_back(materials.add({*found, entry, line_of(found->lines, entry.name)}));
         }
-        const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
-        indices.push_back(materials.add({*found, entry, line_of(found->lines, entry.name)}));
+        name_material(scene, indices.back(), name);
     }
     return indices;
 }

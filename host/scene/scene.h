@@ -68,6 +68,12 @@ struct EnvironmentLight {
     Vec3 sun_radiance{0, 0, 0};
 };
 
+/// A run of triangles that belong to one object; it ends where the next one begins.
+struct ObjectRun {
+    uint first_triangle = 0;
+    uint name = 0;  ///< index into the names of objects
+};
+
 enum class CameraKind { perspective, orthographic };
 
 /// The camera, with what its film and the integrator say about what it shows.
@@ -101,6 +107,10 @@ struct Scene {
     std::vector<std::array<float, 2>> second_uvs;
     std::vector<Triangle> triangles;  ///< no NaN, no index out of range; zero area is allowed
     std::vector<Material> materials;  ///< children may stand before or after those that name them
+    // The names that the file has for its objects and materials; several may have the same one.
+    std::vector<std::string> object_names;
+    std::vector<ObjectRun> objects;  ///< in the order of triangles; those before the first have no name
+    std::vector<std::string> material_names;  ///< one a material; empty or missing: it has no name
     /// Rows of NEARLIGHT_CURVE_SIZE values, see Material::curve; row 0 is all ones.
     std::vector<float> transmission_curves = std::vector<float>(NEARLIGHT_CURVE_SIZE, 1.0f);
     std::vector<SceneTexture> textures;

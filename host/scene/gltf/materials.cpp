@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/scene/material_model.h"
+#include "host/scene/scene_names.h"
 #include "host/scene/texture.h"
 
 namespace nearlight::core::gltf {
@@ -133,7 +134,11 @@ uint MaterialMaker::material(const MaterialUse& use) {
         return entry->second;
     }
     if (use.index >= 0) {
-        return entry->second = make(source_of(use.index), use);
+        entry->second = make(source_of(use.index), use);
+        name_material(
+            scene_, entry->second,
+            name_or_number(source_of(use.index).name, "material", static_cast<std::size_t>(use.index) + 1));
+        return entry->second;
     }
     Material base = diffuse_material({0.5f, 0.5f, 0.5f});
     if (use.has_colors) {
@@ -191,6 +196,9 @@ std::vector<uint> MaterialMaker::shining_backs(const std::vector<uint>& fronts) 
             Material back = plain_material(NEARLIGHT_BSDF_NULL);
             back.emission = scene_.materials[front].emission;
             entry->second = add(back);
+            if (front < scene_.material_names.size()) {
+                name_material(scene_, entry->second, std::string(scene_.material_names[front]));
+            }
         }
         backs.push_back(entry->second);
     }

@@ -9,6 +9,7 @@
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/rest_pose.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/scene/scene_names.h"
 
 namespace nearlight::core::gltf {
 namespace {
@@ -282,6 +283,8 @@ void MeshMaker::add(const PlacedNode& placed) {
     }
     const tinygltf::Mesh& mesh = file_.at(file_.model.meshes, node.mesh, "mesh", "node '" + node.name + "'");
     const std::vector<Mat4> placements = placements_of(placed, node);
+    const std::string& name = node.name.empty() ? mesh.name : node.name;
+    begin_object(scene_, name_or_number(name, "node", static_cast<std::size_t>(placed.index) + 1));
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         add_primitive(node, primitive, placements);
     }

@@ -12,7 +12,7 @@ namespace nearlight::core::mitsuba {
 namespace {
 
 // Keeps only the rotation, because an environment is infinitely far away.
-Mat4 without_scale(const Mat4& m, const Location& where) {
+Mat4 turn_of_environment(const Mat4& m, const Location& where) {
     Mat4 rotation;
     for (int column = 0; column < 3; ++column) {
         const double l = std::sqrt(m(0, column) * m(0, column) + m(1, column) * m(1, column) +
@@ -73,7 +73,7 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         emitter.ignore({"cache", "gamma"});
         scene.environment =
             is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
-        scene.environment.to_world = without_scale(scene.environment.to_world, emitter.where);
+        scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where);
     } else if (emitter.type == "area") {
         fail(emitter.where, "an area light must be nested in a shape");
     } else {

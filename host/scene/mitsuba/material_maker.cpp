@@ -3,6 +3,7 @@
 
 #include "host/scene/mitsuba/optics_tables.h"
 #include "host/scene/reflectance.h"
+#include "host/scene/scene_names.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
@@ -27,14 +28,29 @@ uint MaterialMaker::index(const Object* bsdf, const Parameter& emission) {
     if (!is_new) {
         return entry->second;
     }
-    if (bsdf != nullptr && is_zero(e)) {
-        return entry->second = make(*bsdf, 0);
+    entry->second = bsdf != nullptr && is_zero(e) ? make(*bsdf, 0) : make_shining(bsdf, emission);
+    if (bsdf != nullptr) {
+        name(*bsdf, entry->second);
     }
-    const float grey = is_zero(e) ? 0.5f : 0.0f;
+    return entry->second;
+}
+
+uint MaterialMaker::make_shining(const Object* bsdf, const Parameter& emission) {
+    const float grey = is_zero(emission.value) ? 0.5f : 0.0f;
     Material material =
         bsdf == nullptr ? diffuse_material(Vec3{1, 1, 1} * grey) : scene_.materials[make(*bsdf, 0)];
     material.emission = emission;
-    return entry->second = add(material);
+    return add(material);
+}
+
+void MaterialMaker::name(const Object& bsdf, uint material) {
+    const Object* named = &bsdf;
+    for (std::vector<const Object*> inner = bsdf.nested("bsdf"); named->id.empty() && inner.size() == 1;
+         inner = named->nested("bsdf")) {
+        named = inner.front();
+    }
+    const auto [number, is_new] = numbers_.try_emplace(&bsdf, numbers_.size() + 1);
+    name_material(scene_, material, name_or_number(named->id, bsdf.type, number->second));
 }
 
 uint MaterialMaker::add(const Material& material) {

@@ -20,6 +20,9 @@ class MaterialMaker {
     uint index(const Object* bsdf, Vec3 emission) { return index(bsdf, parameter_of(emission)); }
 
   private:
+    [[nodiscard]] uint make_shining(const Object* bsdf, const Parameter& emission);
+    /// Names the material of a BSDF after its id, or that of the BSDF that it wraps.
+    void name(const Object& bsdf, uint material);
     /// The index of the material without emission; `depth` counts the BSDFs around this one.
     uint make(const Object& bsdf, int depth);
     uint make_new(const Object& bsdf, int depth);
@@ -48,6 +51,7 @@ class MaterialMaker {
     NoteSink& notes_;
     TextureMaker& textures_;
     std::map<const Object*, uint> made_;
+    std::map<const Object*, std::size_t> numbers_;  ///< of BSDFs that shapes use, in their order
     std::map<Coat, Material> plastics_;
     std::map<std::pair<const Object*, std::array<float, 4>>, uint> indices_;
 };

@@ -7,6 +7,7 @@
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/ply_loader.h"
+#include "host/scene/scene_names.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::mitsuba {
@@ -93,6 +94,7 @@ void ShapeMaker::add_instance(const Object& instance) {
         fail(instance.where, "'instance' needs a reference to a shapegroup");
     }
     const Mat4 to_world = instance.transform("to_world");
+    const std::string name = name_of(instance, ++shape_count_);
     for (const Object* shape : groups[0]->nested("shape")) {
         if (shape->type == "shapegroup" || shape->type == "instance") {
             fail(shape->where, "a shapegroup may contain only plain shapes");
@@ -101,12 +103,23 @@ void ShapeMaker::add_instance(const Object& instance) {
         if (found == group_meshes_.end()) {
             found = group_meshes_.emplace(shape, load(*shape)).first;
         }
-        add_placed(*shape, found->second, to_world * shape->transform("to_world") * local_placement(*shape));
+        add_placed(*shape, found->second, to_world * shape->transform("to_world") * local_placement(*shape),
+                   name + "/");
     }
     instance.report_unused(notes_);
 }
 
-void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world) {
+std::string ShapeMaker::name_of(const Object& shape, std::size_t number) const {
+    const Property* file = shape.find("filename");
+    const bool has_file = file != nullptr && std::holds_alternative<std::string>(file->value);
+    return name_or_number(
+        shape.id,
+        has_file ? std::filesystem::path(std::get<std::string>(file->value)).stem().string() : shape.type,
+        number);
+}
+
+void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
+                            const std::string& instance) {
     const std::vector<const Object*> bsdfs = shape.nested("bsdf");
     if (!shape.nested("medium").empty() || !shape.nested("subsurface").empty()) {
         fail(shape.where, "participating media are not supported");
@@ -115,6 +128,7 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
     const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
     const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
     const std::size_t first_triangle = scene_.triangles.size();
+    begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));
     append_mesh(scene_, mesh,
                 {.to_world = to_world,
                  .materials = {&material, 1},
@@ -170,6 +184,8 @@ Mesh ShapeMaker::load_file(const Object& shape) {
                     : shape.type == "serialized" ? read_serialized(file, shape_index(shape))
                                                  : read_ply(file);
         mesh.groups.clear();
+        mesh.objects.clear();
+        mesh.object_names.clear();
         if (!shape.boolean("flip_tex_coords", is_obj)) {
             flip_v(mesh);
         }

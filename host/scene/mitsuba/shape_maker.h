@@ -19,7 +19,10 @@ class ShapeMaker {
     void add(const Object& shape);
 
   private:
-    void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world);
+    /// Adds the shape as an object of its name, after that of the instance whose part it is.
+    void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
+                    const std::string& instance = {});
+    [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;
     void add_instance(const Object& instance);
     Mesh load(const Object& shape);
     Mesh load_file(const Object& shape);
@@ -30,6 +33,7 @@ class ShapeMaker {
     TextureMaker& textures_;
     MaterialMaker& materials_;
     std::map<const Object*, Mesh> group_meshes_;
+    std::size_t shape_count_ = 0;  ///< shapes and instances so far
 };
 
 }  // namespace nearlight::core::mitsuba
