@@ -11,7 +11,7 @@
 // light is traced at once and added up in CameraVertex. One work-item for each sample, with all its
 // branches; any work-group size. Random numbers depend on pixel and sample only.
 
-#include "lib/camera.cl"
+#include "lib/camera_sample.cl"
 #include "lib/close_range.cl"
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
@@ -19,7 +19,6 @@
 
 #define MAX_CHAIN 24
 #define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
-#define MAX_HIDDEN 256              // emitters that one camera ray looks through where they are hidden
 
 typedef struct CameraPath {
     PathRay ray;
@@ -67,7 +66,7 @@ typedef struct SurfaceNumbers {
 } SurfaceNumbers;
 
 inline SurfaceNumbers surface_numbers(uint key, uint step) {
-    const uint4 random = random_uint4((uint4)(key, step, 0x5f3759u, 0x1u));
+    const uint4 random = surface_random(key, step);
     SurfaceNumbers numbers;
     numbers.model = to_unit_float(random.x);
     numbers.part = sample_2d(0, 2 * step + 2, key).x;
@@ -184,25 +183,20 @@ inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed) {
 
 inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
                              uint branch_count, uint seed) {
-    const uint pixel = y * camera->width + x;
+    const CameraSample start = camera_sample(camera, x, y, sample, sequence_length, seed);
     CameraPath path;
-    path.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
+    path.key = start.key;
     path.sample = sample;
-    const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-    // A single sample goes through the centre of its pixel, but through any part of the lens.
-    const FilmSample film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
-                                                : middle_of_pixel(x, y);
-    const CameraRay ray = camera_ray(camera, film.position, sample_2d(sample, 1, pixel_key));
-    begin_ray(&path.ray, ray.origin, ray.direction, 0.0f);
-    path.ray.direction = ray.direction;
+    begin_ray(&path.ray, start.ray.origin, start.ray.direction, 0.0f);
+    path.ray.direction = start.ray.direction;
     path.ray.throughput = (float3)(1.0f);
     path.mode = BSDF_CAMERA;
-    path.t_min = ray.t_min;
-    path.t_max = ray.t_max;
+    path.t_min = start.ray.t_min;
+    path.t_max = start.ray.t_max;
     path.emitted = path.traced = (float3)(0.0f);
     path.undivided = branch_count > 1;
-    path.filter_weight = film.weight;
-    path.flags = film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
+    path.filter_weight = start.film.weight;
+    path.flags = start.film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
     return path;
 }
 
@@ -252,24 +246,6 @@ inline void trace_light(const SceneView* scene, const CameraLimits* limits, Came
     path->traced += response * light.indirect;
 }
 
-inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
-    return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
-}
-
-/// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
-/// planes end at the first one, as in Mitsuba.
-inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraPath* path) {
-    const float3 direction = path->ray.direction;
-    SurfaceHit hit = trace_between(scene, path->ray.origin, direction, path->t_min, path->t_max);
-    for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
-        const float passed = hit.t;
-        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
-        hit = i < MAX_HIDDEN ? trace_surface(scene, origin, direction, INFINITY) : no_surface();
-        hit.t += hit.t >= 0.0f ? passed : 0.0f;
-    }
-    return hit;
-}
-
 /// The surface that the path meets at a step. Branch 0 sets `first` to that of the first step, and branch 1
 /// takes it from there.
 inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera, const CameraPath* path,
@@ -278,7 +254,8 @@ inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera
         return trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
     }
     if (branch == 0) {
-        *first = trace_first(scene, camera, path);
+        const CameraRay ray = {path->ray.origin, path->ray.direction, path->t_min, path->t_max};
+        *first = trace_first(scene, camera, &ray);
     }
     return *first;
 }

@@ -94,6 +94,8 @@ void check_light_tracing(Device& device, CheckResult& result);
 void check_metropolis_chains(Device& device, CheckResult& result);
 /// A case is a lane: a receiver that must agree with Embree's, or one that must be absent.
 void check_camera_pass(Device& device, CheckResult& result);
+/// A case is a pixel, in whose middle the triangle must be Embree's unless the ray touches an edge.
+void check_first_surfaces(Device& device, CheckResult& result);
 
 // path_checks.cpp: stages that follow paths from receivers: bounce tracer and local lights.
 

@@ -12,12 +12,14 @@
 #include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
 #include "host/reference/gather_workload.h"
+#include "host/reference/ray_comparison.h"
 #include "host/reference/reference_gather.h"
 #include "host/reference/synthetic_scene.h"
 #include "host/reference/test_rooms.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
 #include "host/stages/close_range.h"
+#include "host/stages/first_surfaces.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/metropolis_chains.h"
 #include "host/stages/receiver_paths.h"
@@ -139,6 +141,27 @@ void check_camera_pass(Device& device, CheckResult& result) {
         compare_with_embree(scene, camera, region, receivers.download(), vertices.download());
     result.cases = comparison.receivers + comparison.absent;
     result.mismatches = comparison.mismatches;
+}
+
+void check_first_surfaces(Device& device, CheckResult& result) {
+    const Scene scene = make_sphere_room(kLightTriangles);
+    const Camera camera = make_camera(scene.camera, 150, 101);
+    const SampleBlock block{.width = camera.width, .row_count = camera.height};
+    const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
+    Buffer<uint> found(device, block.size());
+    FirstSurfaces(device).run(on_device, Buffer<Camera>(device, std::span(&camera, 1)), block, 1, found);
+    const EmbreeScene embree(scene);
+    const float extent = max_component(bounds(scene).size());
+    uint pixel = 0;
+    for (const uint triangle : found.download()) {
+        const RayQuery ray = pixel_ray(camera, pixel % camera.width, pixel / camera.width);
+        const BvhHit hit = embree.closest_hit(ray.origin, ray.direction, ray.t_min, ray.t_max);
+        const auto touches_edge = [&](uint of) {
+            return of != ~0u && distance_to_triangle_edges(scene, of, ray, extent) <= kEdgeTolerance * extent;
+        };
+        result.expect(triangle == hit.triangle || touches_edge(hit.triangle) || touches_edge(triangle));
+        ++pixel;
+    }
 }
 
 }  // namespace nearlight::core

@@ -37,6 +37,7 @@ std::vector<NamedCheck> all_checks() {
             {"metropolis chains", check_metropolis_chains},
             {"local lights", check_local_lights},
             {"camera pass", check_camera_pass},
+            {"first surfaces", check_first_surfaces},
             {"film", check_film}};
 }
 

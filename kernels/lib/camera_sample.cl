@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sample of a pixel: where its path begins, the first surface on its way, and the random numbers there.
+#ifndef NEARLIGHT_LIB_CAMERA_SAMPLE
+#define NEARLIGHT_LIB_CAMERA_SAMPLE
+
+#include "lib/camera.cl"
+#include "lib/scene.cl"
+
+#define MAX_HIDDEN 256  // emitters that one camera ray looks through where they are hidden
+
+typedef struct CameraSample {
+    FilmSample film;
+    CameraRay ray;
+    uint key;  // of the random numbers of the path
+} CameraSample;
+
+/// Sample number `sample` of pixel (x, y), of the `sequence_length` samples that have the seed.
+inline CameraSample camera_sample(const global Camera* camera, uint x, uint y, uint sample,
+                                  uint sequence_length, uint seed) {
+    const uint pixel = y * camera->width + x;
+    CameraSample start;
+    start.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
+    const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
+    // A single sample goes through the centre of its pixel, but through any part of the lens.
+    start.film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
+                                     : middle_of_pixel(x, y);
+    start.ray = camera_ray(camera, start.film.position, sample_2d(sample, 1, pixel_key));
+    return start;
+}
+
+/// Random numbers of a path at surface number `step`. The first of them decides at masks and blends.
+inline uint4 surface_random(uint key, uint step) {
+    return random_uint4((uint4)(key, step, 0x5f3759u, 0x1u));
+}
+
+inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
+    return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
+}
+
+/// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
+/// planes end at the first one, as in Mitsuba.
+inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraRay* ray) {
+    SurfaceHit hit = trace_between(scene, ray->origin, ray->direction, ray->t_min, ray->t_max);
+    for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
+        const float passed = hit.t;
+        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
+        hit = i < MAX_HIDDEN ? trace_surface(scene, origin, ray->direction, INFINITY) : no_surface();
+        hit.t += hit.t >= 0.0f ? passed : 0.0f;
+    }
+    return hit;
+}
+
+#endif
