@@ -12,6 +12,7 @@
 #include "host/samplers/sampler_stages.h"
 #include "host/session/band_renderer.h"
 #include "host/session/band_sharing.h"
+#include "host/stages/first_surfaces.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -24,7 +25,8 @@ struct PoolDevice {
 
     BandStages bands;
     DeviceScene scene{};
-    std::optional<SamplerStages> samplers{};  ///< only the leader has them
+    std::optional<SamplerStages> samplers{};        ///< only the leader has them
+    std::optional<FirstSurfaces> first_surfaces{};  ///< made when mattes are first asked for
 };
 
 /// The devices that have not failed, at least one. The first device leads: views and VPLs are made on it. A

@@ -258,6 +258,37 @@ std::vector<LightShare> Session::light_shares(Vec3 point, Vec3 normal, const Vie
     });
 }
 
+std::vector<uint> Session::see_first(const Camera& camera, const SampleBlock& block, uint seed) {
+    return pool_.on_leader([&](PoolDevice& leader) {
+        Device& device = leader.device();
+        if (!leader.first_surfaces) {
+            leader.first_surfaces.emplace(device);
+        }
+        const Buffer<Camera> own_camera(device, std::span(&camera, 1));
+        Buffer<uint> triangles(device, block.size());
+        leader.first_surfaces->run(leader.scene, own_camera, block, seed, triangles);
+        return triangles.download();
+    });
+}
+
+void Session::mattes(const Camera& camera, const std::optional<PixelWindow>& wanted,
+                     std::span<const MattePass> passes, std::span<const NamedKind> kinds,
+                     const MatteSink& sink) {
+    const PixelWindow window = window_of(camera.width, camera.height, wanted);
+    MatteCounter counter(scene_, kinds);
+    for (const PixelWindow& band : matte_bands(window, passes)) {
+        counter.begin(std::size_t{band.width} * band.height);
+        for (const MattePass& pass : passes) {
+            for (const SampleBlock& block : sample_blocks(band, pass)) {
+                counter.add(see_first(camera, block, pass.seed));
+            }
+        }
+        if (!sink(counter.rows())) {
+            return;
+        }
+    }
+}
+
 double Session::new_compile_seconds() {
     const double all = pool_.leader().device().compiler().busy_seconds();
     return all - std::exchange(told_compile_seconds_, all);

@@ -12,6 +12,7 @@
 
 #include "host/samplers/sampler.h"
 #include "host/session/device_pool.h"
+#include "host/session/mattes.h"
 #include "host/session/view.h"
 #include "nearlight/light_share.h"
 #include "nearlight/settings.h"
@@ -79,6 +80,12 @@ class Session {
     std::vector<LightShare> light_shares(Vec3 point, Vec3 normal, const View& view, const VplSet& vpls,
                                          uint seed);
 
+    /// Counts what the camera sees first, straight and through the holes of masks: which part of each pixel
+    /// each object or material covers, in the window, or in the whole picture if it is empty. The samples are
+    /// those of all passes. Works on the leading device.
+    void mattes(const Camera& camera, const std::optional<PixelWindow>& window,
+                std::span<const MattePass> passes, std::span<const NamedKind> kinds, const MatteSink& sink);
+
     /// The seconds of getting ready. A second call returns zeros, so that only one picture counts them.
     [[nodiscard]] SessionSeconds take_seconds() { return std::exchange(seconds_, {}); }
     /// The seconds in which anything was compiled or loaded, since the last call or else since the device was
@@ -90,6 +97,7 @@ class Session {
     [[nodiscard]] const DeviceScene& device_scene() const { return pool_.leader().scene; }
 
   private:
+    std::vector<uint> see_first(const Camera& camera, const SampleBlock& block, uint seed);
     VplSet read_vpls(const View& view, const std::filesystem::path& file);
 
     const Scene& scene_;
