@@ -17,6 +17,7 @@
 #include "host/cli/scene_options.h"
 #include "host/cli/screen_options.h"
 #include "host/cli/stored_reference.h"
+#include "host/image/exposure_meter.h"
 #include "host/image/image_io.h"
 #include "host/reference/path_tracer.h"
 
