@@ -10,24 +10,37 @@
 #include <numeric>
 #include <optional>
 
+#include "host/base/words.h"
 #include "host/cli/log.h"
+#include "host/cli/matte_layers.h"
 #include "host/scene/camera.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The names of the layers, separated by commas; only those with the rule `files`, if it is given.
-std::string listed(std::span<const FilmLayer> layers, std::optional<FileRule> files = std::nullopt) {
-    std::string list;
+/// The names of the layers with the rule `files`, or of all if there is none.
+std::vector<std::string> names_of(std::span<const FilmLayer> layers,
+                                  std::optional<FileRule> files = std::nullopt) {
+    std::vector<std::string> names;
     for (const FilmLayer& layer : layers) {
         if (!files || layer.files == *files) {
-            list += (list.empty() ? "" : ", ") + std::string(layer.name);
+            names.emplace_back(layer.name);
         }
     }
-    return list;
+    return names;
 }
 
-/// The layers of the rows that are written, in their order.
+/// The names, and those of layers of mattes if the options offer them.
+std::vector<std::string> with_mattes(std::vector<std::string> names, const PictureOptions& options) {
+    for (const MatteLayer& layer : kMatteLayers) {
+        if (options.offers_mattes) {
+            names.emplace_back(layer.name);
+        }
+    }
+    return names;
+}
+
+/// The layers of the rows that are written, without mattes, in their order.
 std::vector<FilmLayer> layers_of(const PictureOptions& options) {
     std::vector<FilmLayer> layers(kFilmLayers.begin(), kFilmLayers.end());
     if (options.denoise) {
@@ -36,8 +49,13 @@ std::vector<FilmLayer> layers_of(const PictureOptions& options) {
     return layers;
 }
 
-std::size_t channel_count(const PictureOptions& options) {
+/// The number of channels of the rows before those of mattes.
+std::size_t first_matte_channel(const PictureOptions& options) {
     return NEARLIGHT_LAYER_CHANNELS + (options.denoise ? kRawLayer.channel_count : 0);
+}
+
+std::size_t channel_count(const PictureOptions& options) {
+    return first_matte_channel(options) + kMatteChannels * matte_layers(options.layers).size();
 }
 
 /// The layers besides the beauty, which every picture has.
@@ -64,6 +82,10 @@ std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::stri
         if (layer.is_beauty() || (takes_more && wanted)) {
             chosen.push_back(layer);
         }
+    }
+    if (takes_more) {
+        std::ranges::move(parts_of(matte_layers(options.layers), first_matte_channel(options)),
+                          std::back_inserter(chosen));
     }
     return chosen;
 }
@@ -96,11 +118,12 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->type_name("OUT")
         ->allow_extra_args(false);
     command
-        .add_option("--layers,--aov", options.layers,
-                    fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
-                                "request: {}; with --denoise also raw",
-                                listed(optional_layers(), FileRule::always),
-                                listed(optional_layers(), FileRule::asked)))
+        .add_option(
+            "--layers,--aov", options.layers,
+            fmt::format("Layers of EXR pictures besides beauty, comma-separated (default: {}); on "
+                        "request: {}; with --denoise also raw",
+                        joined(names_of(optional_layers(), FileRule::always), ", "),
+                        joined(with_mattes(names_of(optional_layers(), FileRule::asked), options), ", ")))
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -151,12 +174,18 @@ void check_writable(const std::string& file) {
 }
 
 void check_outputs(const PictureOptions& options) {
-    const std::vector<FilmLayer> known = layers_of(options);
+    const std::vector<std::string> known = with_mattes(names_of(layers_of(options)), options);
     for (const std::string& layer : options.layers) {
-        if (std::ranges::find(known, layer, &FilmLayer::name) == known.end()) {
+        if (std::ranges::find(known, layer) == known.end()) {
             throw Error(ErrorKind::invalid_argument,
-                        "unknown layer '" + layer + "'; choose from: " + listed(known));
+                        "unknown layer '" + layer + "'; choose from: " + joined(known, ", "));
         }
+    }
+    if (const std::vector<MatteLayer> mattes = matte_layers(options.layers);
+        !mattes.empty() && options.compression == ExrCompression::dwaa) {
+        throw Error(ErrorKind::invalid_argument,
+                    fmt::format("the layer {} would not survive the compression dwaa; use zip or piz",
+                                mattes.front().name));
     }
     check_screen_options(options.screen);
     for (const std::string& file : options.outputs) {
@@ -221,7 +250,8 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
         }
         const bool is_screen = extension_of(file) == ".png";
         const ImageWriterOptions writer_options =
-            is_screen ? screen_writer_options(look_, *look_.exposure, metadata_) : exr_options(layers);
+            is_screen ? screen_writer_options(look_, *look_.exposure, without_matte_attributes(metadata_))
+                      : exr_options(layers);
         files_.push_back(
             {file, ImageWriter(file, width, height, std::move(names), writer_options), std::move(layers)});
     }
@@ -238,7 +268,7 @@ void PictureFiles::write_waiting(bool quiet) {
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
             ImageWriter writer(file, width_, height_, {"R", "G", "B"},
-                               screen_writer_options(look_, exposure, metadata_));
+                               screen_writer_options(look_, exposure, without_matte_attributes(metadata_)));
             writer.write_rows(waiting_);
             writer.commit();
         }

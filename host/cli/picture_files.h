@@ -22,8 +22,9 @@ struct PictureOptions {
     ScreenOptions screen;             ///< look of PNG files
     bool is_full_precision = false;   ///< all numbers of EXR files are 32-bit floats
     ExrCompression compression = ExrCompression::zip;
-    bool denoise = false;       ///< the beauty is denoised, and rows end in the layer `raw`
-    bool denoise_fast = false;  ///< less well, in a tenth of the time
+    bool offers_mattes = false;  ///< --layers may ask for those of kMatteLayers
+    bool denoise = false;        ///< the beauty is denoised, and rows end in the layer `raw`
+    bool denoise_fast = false;   ///< less well, in a tenth of the time
 };
 
 /// The layer after all others in the rows of a denoised picture: the beauty as it was rendered.
@@ -57,7 +58,8 @@ class PictureFiles {
     /// `place` says which part of a larger picture this is, if it is one.
     void open(int width, int height, const Metadata& metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);
-    /// Writes rows with the channels of layer_channels(), and those of kRawLayer if it is denoised.
+    /// Writes rows with the channels of layer_channels(), then those of kRawLayer if the picture is denoised,
+    /// and then those of the mattes that the options ask for.
     void write_rows(std::span<const float> rows);
     /// Completes the files; missing rows become black. Logs what became of them, unless it is `quiet`.
     void commit(double render_seconds, bool quiet = false);

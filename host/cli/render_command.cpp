@@ -13,6 +13,7 @@
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
+#include "host/cli/matte_layers.h"
 #include "host/cli/method_options.h"
 #include "host/cli/output.h"
 #include "host/cli/pass_options.h"
@@ -138,6 +139,7 @@ struct RenderRun {
     std::vector<std::unique_ptr<Device>> devices{};
 
     [[nodiscard]] ScreenLook look() const { return screen_look(options.picture.screen, *scene); }
+    [[nodiscard]] std::vector<MatteLayer> mattes() const { return matte_layers(options.picture.layers); }
     [[nodiscard]] Metadata metadata(const RenderReport& report, const View& view) const {
         Metadata metadata =
             render_metadata(hash.get(), options.scene, settings, report, view, devices, global.command_line);
@@ -170,14 +172,31 @@ RenderRun get_ready(const RenderOptions& options, const GlobalOptions& global, c
     return run;
 }
 
+/// The mattes of all passes that the report counts.
+MatteSource mattes_of(Session& session, const RenderRun& run, const RenderReport& report,
+                      const Camera& camera) {
+    std::vector<MattePass> passes;
+    for (const uint samples : report.pass_samples) {
+        const uint number = run.options.checkpoint.first_pass + static_cast<uint>(passes.size());
+        passes.push_back({.seed = pass_seed(run.settings.seed, number), .samples_per_pixel = samples});
+    }
+    return [&session, &run, &camera, passes = std::move(passes)](const MatteSink& sink) {
+        session.mattes(camera, run.settings.gather.window, passes, kinds_of(run.mattes()), sink);
+    };
+}
+
 /// Where finished rows go, and when the first of them came.
 struct RowSinks {
     RenderedPicture picture;
     TevPicture tev;
     FirstRows first_rows{};
+    Camera camera{};  ///< of the picture
 
     void open(const RenderRun& run, const RenderReport& report, const View& view) {
-        picture.open(report.width, report.height, run.metadata(report, view), run.look(),
+        camera = view.camera;
+        Metadata metadata = run.metadata(report, view);
+        add_matte_attributes(run.mattes(), *run.scene, metadata);
+        picture.open(report.width, report.height, std::move(metadata), run.look(),
                      place_of(run.settings.gather, view));
         tev.open(report.width, report.height);
     }
@@ -199,8 +218,8 @@ ForecastSink tell_once(ProgressBar& bar, const RenderSettings& settings) {
 }
 
 /// Keeps the picture and the checkpoint on disk up to date.
-PictureKeeper make_keeper(const RenderRun& run, const CheckpointFacts& facts, RowSinks& sinks,
-                          ProgressBar& bar, const Stopwatch& total) {
+PictureKeeper make_keeper(Session& session, const RenderRun& run, const CheckpointFacts& facts,
+                          RowSinks& sinks, ProgressBar& bar, const Stopwatch& total) {
     return {run.options.checkpoint.file,
             run.options.checkpoint.seconds,
             {.facts =
@@ -215,7 +234,7 @@ PictureKeeper make_keeper(const RenderRun& run, const CheckpointFacts& facts, Ro
                  [&](const PassesSoFar& so_far) {
                      sinks.open(run, so_far.report, so_far.view);
                      so_far.average.send([&](std::span<const float> rows) { sinks.add_rows(rows, total); });
-                     sinks.picture.commit(total, true);
+                     sinks.picture.commit(total, true, mattes_of(session, run, so_far.report, sinks.camera));
                  },
              .warn =
                  [&](const std::string& why) {
@@ -268,7 +287,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     catch_interrupts();
     ProgressBar bar("gathering", global);
     Session session(plain(run.devices), *run.scene, options.session);
-    PictureKeeper keeper = make_keeper(run, facts, sinks, bar, total);
+    PictureKeeper keeper = make_keeper(session, run, facts, sinks, bar, total);
     const RenderReport report = render(
         session, run.settings,
         [&](const RenderReport& started, const View& view, const VplSet& vpls) {
@@ -283,7 +302,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         tell_once(bar, run.settings), std::move(start),
         [&](const PassesSoFar& so_far) { keeper.watch(so_far); });
     bar.clear();
-    sinks.picture.commit(total);
+    sinks.picture.commit(total, false, mattes_of(session, run, report, sinks.camera));
     keeper.check();
     tell_outcome(run, report, sinks, total);
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
@@ -326,6 +345,7 @@ void add_render_command(CommandLine& line) {
             return run_render(*options, global);
         });
     add_preview_option(command, *options);
+    options->picture.offers_mattes = true;
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
     add_size_option(command, options->size);

@@ -166,7 +166,9 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
                        {"gather", report.seconds.gather},
                        {"first_rows", first_rows.seconds},
                        {"denoise", picture.denoising_seconds()},
-                       {"total", load_seconds + report.seconds.total + picture.denoising_seconds()}};
+                       {"mattes", picture.matte_seconds()},
+                       {"total", load_seconds + report.seconds.total + picture.denoising_seconds() +
+                                     picture.matte_seconds()}};
     json["processor_seconds"] = {{"first_rows", first_rows.processor_seconds}};
     json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
     json["outputs"] = outputs;

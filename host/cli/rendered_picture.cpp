@@ -9,7 +9,9 @@ constexpr std::size_t kDenoisedPixelFloats = NEARLIGHT_LAYER_CHANNELS + kRawLaye
 }  // namespace
 
 RenderedPicture::RenderedPicture(const PictureOptions& options, int threads)
-    : is_fast_(options.denoise_fast), files_(options) {
+    : is_fast_(options.denoise_fast),
+      matte_floats_(kMatteChannels * matte_layers(options.layers).size()),
+      files_(options) {
     if (options.denoise) {
         denoiser_.emplace(threads);
     }
@@ -31,8 +33,12 @@ void RenderedPicture::open(int width, int height, Metadata metadata, const Scree
 }
 
 void RenderedPicture::add_rows(std::span<const float> rows) {
-    if (!denoiser_) {
+    if (!denoiser_ && matte_floats_ == 0) {
         files_.write_rows(rows);
+        return;
+    }
+    if (!denoiser_) {
+        rows_.insert(rows_.end(), rows.begin(), rows.end());
         return;
     }
     for (std::size_t first = 0; first < rows.size(); first += NEARLIGHT_LAYER_CHANNELS) {
@@ -62,9 +68,36 @@ void RenderedPicture::denoise() {
     denoising_seconds_ = watch.seconds();
 }
 
-void RenderedPicture::commit(const Stopwatch& since_begin, bool quiet) {
-    if (!rows_.empty()) {
+std::size_t RenderedPicture::pixel_floats() const {
+    return denoiser_ ? kDenoisedPixelFloats : NEARLIGHT_LAYER_CHANNELS;
+}
+
+/// Writes the rows that there are, each pixel of which goes on with its mattes.
+void RenderedPicture::write_with(const MatteSource& mattes) {
+    const Stopwatch watch;
+    std::span<const float> rest = rows_;
+    std::vector<float> both;
+    mattes([&](std::span<const float> matte_rows) {
+        both.clear();
+        for (; !matte_rows.empty() && !rest.empty(); matte_rows = matte_rows.subspan(matte_floats_)) {
+            both.insert(both.end(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(pixel_floats()));
+            both.insert(both.end(), matte_rows.begin(),
+                        matte_rows.begin() + static_cast<std::ptrdiff_t>(matte_floats_));
+            rest = rest.subspan(pixel_floats());
+        }
+        files_.write_rows(both);
+        return !rest.empty();
+    });
+    matte_seconds_ = watch.seconds();
+}
+
+void RenderedPicture::commit(const Stopwatch& since_begin, bool quiet, const MatteSource& mattes) {
+    if (denoiser_ && !rows_.empty()) {
         denoise();
+    }
+    if (matte_floats_ > 0) {
+        write_with(mattes);
+    } else if (!rows_.empty()) {
         files_.write_rows(rows_);
     }
     files_.commit(since_begin.seconds(), quiet);

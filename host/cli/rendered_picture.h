@@ -2,16 +2,21 @@
 // Takes the rows of a picture while it is rendered and writes its files, denoised if that is wanted.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "host/base/stopwatch.h"
+#include "host/cli/matte_layers.h"
 #include "host/cli/picture_files.h"
 #include "host/image/denoiser.h"
 
 namespace nearlight::core {
+
+/// Sends the mattes of a picture that was rendered, as Session::mattes() does.
+using MatteSource = std::function<void(const MatteSink& sink)>;
 
 class RenderedPicture {
   public:
@@ -24,24 +29,30 @@ class RenderedPicture {
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Takes rows with the channels of layer_channels().
     void add_rows(std::span<const float> rows);
-    /// Denoises what rows there are, and completes the files. `since_begin` is for their attribute of the
-    /// time. `quiet` is PictureFiles::commit()'s.
-    void commit(const Stopwatch& since_begin, bool quiet = false);
+    /// Denoises what rows there are, joins them with mattes if the options ask for them, and completes the
+    /// files. `since_begin` is for their attribute of the time. `quiet` is PictureFiles::commit()'s.
+    void commit(const Stopwatch& since_begin, bool quiet = false, const MatteSource& mattes = {});
 
     /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N)",
     /// or "none".
     [[nodiscard]] std::string denoiser() const;
     [[nodiscard]] double denoising_seconds() const { return denoising_seconds_; }
+    [[nodiscard]] double matte_seconds() const { return matte_seconds_; }
 
   private:
     void denoise();
+    void write_with(const MatteSource& mattes);
+    [[nodiscard]] std::size_t pixel_floats() const;
 
     std::optional<Denoiser> denoiser_;
     bool is_fast_;
+    std::size_t matte_floats_;  ///< of a pixel's mattes
     PictureFiles files_;
     int width_ = 0;
-    std::vector<float> rows_;  ///< rows that wait to be denoised, with the channels of kRawLayer at the end
+    /// Rows that wait to be denoised, with the channels of kRawLayer at the end, or for mattes.
+    std::vector<float> rows_;
     double denoising_seconds_ = 0.0;
+    double matte_seconds_ = 0.0;
 };
 
 }  // namespace nearlight::core
