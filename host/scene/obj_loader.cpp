@@ -5,9 +5,11 @@
 
 #include <istream>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "host/base/words.h"
 #include "host/scene/camera_choice.h"
@@ -44,6 +46,9 @@ class ObjBuilder {
             ++faces_;
             return;
         }
+        if (next_object_) {
+            add_object(*std::exchange(next_object_, std::nullopt));
+        }
         const uint first = vertex(corners[0]);
         uint previous = vertex(corners[1]);
         for (int i = 2; i < count; ++i) {
@@ -61,21 +66,8 @@ class ObjBuilder {
             obj_.materials.push_back(name);
         }
     }
-    /// Faces from now on belong to this object. Names come back in files that switch between objects.
-    void begin_object(const std::string& name) {
-        Mesh& mesh = obj_.mesh;
-        const auto [known, is_new] =
-            object_numbers_.try_emplace(name, static_cast<uint>(mesh.object_names.size()));
-        if (is_new) {
-            mesh.object_names.push_back(name);
-        }
-        const auto first = static_cast<uint>(mesh.triangles.size());
-        if (!mesh.objects.empty() && mesh.objects.back().first_triangle == first) {
-            mesh.objects.back().name = known->second;
-        } else {
-            mesh.objects.push_back({first, known->second});
-        }
-    }
+    /// Faces from now on belong to this object.
+    void begin_object(std::string name) { next_object_ = std::move(name); }
     void finish() {
         if (!any_normal_) {
             obj_.mesh.normals.clear();
@@ -90,6 +82,17 @@ class ObjBuilder {
     [[nodiscard]] std::size_t short_faces() const { return short_faces_; }
 
   private:
+    /// Adds an object that has faces. Names come back in files that switch between objects.
+    void add_object(const std::string& name) {
+        Mesh& mesh = obj_.mesh;
+        const auto [known, is_new] =
+            object_numbers_.try_emplace(name, static_cast<uint>(mesh.object_names.size()));
+        if (is_new) {
+            mesh.object_names.push_back(name);
+        }
+        mesh.objects.push_back({static_cast<uint>(mesh.triangles.size()), known->second});
+    }
+
     struct Corner {
         uint position, uv, normal;
         bool operator==(const Corner&) const = default;
@@ -141,6 +144,7 @@ class ObjBuilder {
 
     ObjFile& obj_;
     std::unordered_map<std::string, uint> object_numbers_;
+    std::optional<std::string> next_object_;                // that faces have yet to begin
     std::unordered_map<Corner, uint, CornerHash> corners_;  // their vertices
     std::unordered_map<std::string, uint> groups_;
     std::size_t faces_ = 0, short_faces_ = 0;

@@ -37,6 +37,16 @@ void check_geometry(const Scene& scene) {
             "all vertices have second texture coordinates, or none");
 }
 
+void check_names(const Scene& scene) {
+    require(std::ranges::is_sorted(scene.objects, {}, &ObjectRun::first_triangle),
+            "objects are in the order of their triangles");
+    for (const ObjectRun& object : scene.objects) {
+        require(object.name < scene.object_names.size() && object.first_triangle <= scene.triangles.size(),
+                "objects have names and triangles");
+    }
+    require(scene.material_names.size() <= scene.materials.size(), "names are those of materials");
+}
+
 void check_looks(const Scene& scene) {
     for (const SceneTexture& texture : scene.textures) {
         require(texture.image == -1 || is_in(texture.image, scene.images.size()),
@@ -62,6 +72,7 @@ void load_and_check(const std::filesystem::path& file) {
     try {
         const Scene scene = load_scene(file);
         check_geometry(scene);
+        check_names(scene);
         check_looks(scene);
         check_camera(scene.camera);
     } catch (const Error&) {
