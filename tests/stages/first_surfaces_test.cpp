@@ -14,8 +14,8 @@ namespace {
 
 using namespace small_scenes;
 
-constexpr uint kWidth = 37;
-constexpr uint kHeight = 29;
+constexpr uint kColumns = 37;
+constexpr uint kRows = 29;
 constexpr uint kSeed = 1;
 
 /// A floor, a wall and two boards, one of which is a mirror, open on one side.
@@ -33,7 +33,7 @@ Scene boards() {
 
 std::vector<uint> see(Device& device, const Scene& scene, const SampleBlock& block, uint seed = kSeed) {
     const test::SceneOnDevice on_device(device, scene);
-    const Camera camera = make_camera(scene.camera, kWidth, kHeight);
+    const Camera camera = make_camera(scene.camera, kColumns, kRows);
     const Buffer<Camera> cameras(device, std::span(&camera, 1));
     Buffer<uint> triangles(device, block.size());
     FirstSurfaces(device).run(on_device.buffers, cameras, block, seed, triangles);
@@ -41,23 +41,23 @@ std::vector<uint> see(Device& device, const Scene& scene, const SampleBlock& blo
 }
 
 SampleBlock whole_picture(uint samples) {
-    return {.width = kWidth, .row_count = kHeight, .sample_count = samples, .samples_per_pixel = samples};
+    return {.width = kColumns, .row_count = kRows, .sample_count = samples, .samples_per_pixel = samples};
 }
 
 class FirstSurfacesTest : public test::DeviceTest {};
 
 TEST_F(FirstSurfacesTest, PixelCentresSeeWhatBruteForceSees) {
     const Scene scene = boards();
-    const Camera camera = make_camera(scene.camera, kWidth, kHeight);
+    const Camera camera = make_camera(scene.camera, kColumns, kRows);
     on_each_ray_tree([&](Device& device) {
         const std::vector<uint> found = see(device, scene, whole_picture(1));
         std::vector<std::size_t> seen(scene.triangles.size());
         for (uint i = 0; i < found.size(); ++i) {
             const Vec3 direction =
-                normalize(camera.corner + camera.step_x * (static_cast<float>(i % kWidth) + 0.5f) +
-                          camera.step_y * (static_cast<float>(i / kWidth) + 0.5f));
+                normalize(camera.corner + camera.step_x * (static_cast<float>(i % kColumns) + 0.5f) +
+                          camera.step_y * (static_cast<float>(i / kColumns) + 0.5f));
             const BvhHit hit = brute_force_closest_hit(scene, {}, camera.origin, direction, 0.0f, 1e9f);
-            EXPECT_EQ(found[i], hit.triangle) << i % kWidth << ", " << i / kWidth;
+            EXPECT_EQ(found[i], hit.triangle) << i % kColumns << ", " << i / kColumns;
             if (found[i] != ~0u) {
                 ++seen.at(found[i]);
             }
@@ -76,12 +76,12 @@ TEST_F(FirstSurfacesTest, SamplesAreThoseOfTheCameraPass) {
     constexpr uint kSamples = 6;
     on_each_ray_tree([&](Device& device) {
         const std::vector<uint> found = see(device, scene, whole_picture(kSamples));
-        test::Shooting shooting(device, scene, kWidth, kHeight);
+        test::Shooting shooting(device, scene, kColumns, kRows);
         const test::GBuffer buffer = shooting.shoot_all(kSamples, 1, kSeed);
-        const PacketOrder order{tiles_across(kWidth), kSamples, 1, 1, 1, 1, 1};
+        const PacketOrder order{tiles_across(kColumns), kSamples, 1, 1, 1, 1, 1};
         uint compared = 0;
         for (uint i = 0; i < found.size(); ++i) {
-            const uint pixel = i / kSamples, x = pixel % kWidth, y = pixel / kWidth;
+            const uint pixel = i / kSamples, x = pixel % kColumns, y = pixel / kColumns;
             const uint packet =
                 packet_at(order, x / NEARLIGHT_TILE_SIZE, y / NEARLIGHT_TILE_SIZE, i % kSamples, 0);
             const uint lane = y % NEARLIGHT_TILE_SIZE * NEARLIGHT_TILE_SIZE + x % NEARLIGHT_TILE_SIZE;
@@ -122,7 +122,7 @@ TEST_F(FirstSurfacesTest, WindowsAndBlocksOfSamplesDoNotChangeABit) {
         ASSERT_EQ(part.size(), block.size());
         for (uint i = 0; i < part.size(); ++i) {
             const uint pixel = i / 3, x = 11 + pixel % 9, y = 7 + pixel / 9;
-            ASSERT_EQ(part[i], whole[(y * kWidth + x) * kSamples + 2 + i % 3]) << x << ", " << y;
+            ASSERT_EQ(part[i], whole[(y * kColumns + x) * kSamples + 2 + i % 3]) << x << ", " << y;
         }
     });
 }
@@ -141,7 +141,8 @@ TEST_F(FirstSurfacesTest, HolesOfMasksLetSamplesThrough) {
         const std::vector<uint> found = see(device, scene, whole_picture(4));
         const auto of_mask = [](uint triangle) { return triangle == 2 || triangle == 3; };
         const auto of_wall = [](uint triangle) { return triangle == 0 || triangle == 1; };
-        const double share = static_cast<double>(std::ranges::count_if(found, of_mask)) / static_cast<double>(found.size());
+        const double share =
+            static_cast<double>(std::ranges::count_if(found, of_mask)) / static_cast<double>(found.size());
         EXPECT_NEAR(share, 0.3, 0.035);  // five standard deviations of 4292 samples
         EXPECT_EQ(std::ranges::count_if(found, of_mask) + std::ranges::count_if(found, of_wall),
                   static_cast<long>(found.size()));
