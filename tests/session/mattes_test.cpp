@@ -117,8 +117,8 @@ TEST(MatteBands, HoldEachSampleOnce) {
     }
 }
 
-constexpr std::size_t kWidth = 48;
-constexpr std::size_t kHeight = 32;
+constexpr std::size_t kMatteWidth = 48;
+constexpr std::size_t kMatteHeight = 32;
 constexpr std::size_t kPixelFloats = kBoth.size() * kMatteChannels;
 
 /// Five boards side by side before the sky.
@@ -142,8 +142,8 @@ class MattesOfPicture {
   public:
     MattesOfPicture(Device& device, const Scene& scene) : session_(device, scene) {
         RenderSettings settings;
-        settings.view.width = kWidth;
-        settings.view.height = kHeight;
+        settings.view.width = kMatteWidth;
+        settings.view.height = kMatteHeight;
         settings.sampling.vpl_count = 20;
         settings.gather.samples_per_pixel = 4;
         settings.passes = 3;
@@ -185,9 +185,9 @@ TEST_F(Mattes, CoverWhatSurfacesCover) {
     on_each_device([&](Device& device) {
         MattesOfPicture picture(device, scene);
         const std::vector<float> all = picture.mattes(std::nullopt);
-        ASSERT_EQ(all.size(), kWidth * kHeight * kPixelFloats);
+        ASSERT_EQ(all.size(), kMatteWidth * kMatteHeight * kPixelFloats);
         std::size_t partly = 0;
-        for (std::size_t i = 0; i < kBoth.size() * kWidth * kHeight; ++i) {
+        for (std::size_t i = 0; i < kBoth.size() * kMatteWidth * kMatteHeight; ++i) {
             float covered = 0.0f;
             for (const auto& [id, part] :
                  coverage(std::span(all).subspan(i * kMatteChannels, kMatteChannels))) {
@@ -209,10 +209,10 @@ TEST_F(Mattes, OfAPartHaveTheBitsOfTheWhole) {
         const std::vector<float> part = picture.mattes(PixelWindow{9, 5, 20, 17});
         ASSERT_EQ(part.size(), 20 * 17 * kPixelFloats);
         for (std::size_t row = 0; row < 17; ++row) {
-            EXPECT_EQ(
-                std::memcmp(&part[row * 20 * kPixelFloats], &all[((row + 5) * kWidth + 9) * kPixelFloats],
-                            20 * kPixelFloats * sizeof(float)),
-                0)
+            EXPECT_EQ(std::memcmp(&part[row * 20 * kPixelFloats],
+                                  &all[((row + 5) * kMatteWidth + 9) * kPixelFloats],
+                                  20 * kPixelFloats * sizeof(float)),
+                      0)
                 << row;
         }
     });
