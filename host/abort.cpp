@@ -15,8 +15,7 @@ extern "C" void abort() noexcept {
     using nearlight::core::ExitCode;
     constexpr std::string_view kMessage =
         "nearlight: error: aborted, as OpenCL drivers do where memory, or the disk of their cache, is full; "
-        "free "
-        "some, or use another device (--device)\n";
+        "free some, or use another device (--device)\n";
     static_cast<void>(!write(STDERR_FILENO, kMessage.data(), kMessage.size()));
     rlimit limit{};
     const bool is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
