@@ -79,6 +79,8 @@ TEST_F(FileFaults, FewDescriptors) {
         const ProgramResult result = run_program(task(), "prlimit --nofile=" + std::to_string(count));
         if (result.exit_code == 0) {
             EXPECT_EQ(hash_in(result), right);
+        } else if (result.exit_code == 127) {
+            EXPECT_LT(count, 12);  // ld.so has too few for the program's libraries
         } else {
             EXPECT_LT(count, 20);
             expect_error(result, {1, 3, 4}, "ulimit -n");

@@ -260,12 +260,12 @@ TEST_F(LibrarySession, WarningsGoToTheSink) {
         }
     });
     const std::filesystem::path dark =
-        std::filesystem::temp_directory_path() / "nearlight-library-test-empty.obj";
-    std::ofstream(dark) << "v 0 0 0\n";
+        std::filesystem::temp_directory_path() / "nearlight-library-test-dark.xml";
+    std::ofstream(dark) << "<scene version='3.0.0'><shape type='rectangle'/></scene>";
     Scene::load(dark);
     set_message_sink({});
     std::filesystem::remove(dark);
-    EXPECT_THAT(warnings, testing::Contains(HasSubstr("has no light")));
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("nothing in the scene emits light")));
 }
 
 TEST(LibraryScene, CameraAndLightCanBeReplaced) {
