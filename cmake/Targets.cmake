@@ -53,16 +53,20 @@ function(nearlight_library name)
   endif()
 endfunction()
 
-# nearlight_test(NAME SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest binary, of
-# which each case is a test of ctest.
+# nearlight_test(NAME [ALONE] SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest
+# binary, of which each case is a test of ctest. With ALONE no other test runs beside them.
 function(nearlight_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   set(environment "")
   if(ARG_ENVIRONMENT)
     set(environment ENVIRONMENT "${ARG_ENVIRONMENT}")
+  endif()
+  set(alone "")
+  if(ARG_ALONE)
+    set(alone RUN_SERIAL TRUE)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   nearlight_compile_together(${name})
@@ -71,5 +75,5 @@ function(nearlight_test name)
   target_compile_definitions(${name} PRIVATE
     NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}."
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${environment})
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${environment} ${alone})
 endfunction()

@@ -2,6 +2,7 @@
 #include "host/scene/file_text.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 
 #include "host/base/files.h"
@@ -14,7 +15,9 @@ std::string read_file_text(const std::filesystem::path& file) {
         throw Error(ErrorKind::file, file.string() + ": " + reason);
     }
     std::error_code ignored;
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
+    const bool has_too_many_open = !stream && errno == EMFILE;
     std::string text;
     const auto size = std::filesystem::file_size(file, ignored);
     if (stream && !ignored) {
@@ -22,7 +25,8 @@ std::string read_file_text(const std::filesystem::path& file) {
         stream.read(text.data(), static_cast<std::streamsize>(size));
     }
     if (!stream) {
-        throw Error(ErrorKind::file, file.string() + ": cannot be read");
+        throw Error(ErrorKind::file, file.string() + ": cannot be read" +
+                                         (has_too_many_open ? ": too many files are open (ulimit -n)" : ""));
     }
     return text;
 }
