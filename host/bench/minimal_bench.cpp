@@ -153,8 +153,9 @@ bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
         [](const std::string&, double) { return true; });
     const bool good = finite && sum > 0.0;
     std::printf("picture by %s: %s, %zu close and %zu distant VPLs, %.2f s, mean %.5f, hash %s\n",
-                to_string(sampler).c_str(), good ? "good" : "BAD", report.close_vpls, report.distant_vpls,
-                report.seconds.total, sum / (3.0 * 128 * 128), hex_digits(report.image_hash).c_str());
+                to_string(sampler).c_str(), good ? "good" : "BAD", report.totals.close_vpls,
+                report.totals.distant_vpls, report.seconds.total, sum / (3.0 * 128 * 128),
+                hex_digits(report.image_hash).c_str());
     return good;
 }
 

@@ -85,7 +85,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
 
 void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs{}, {:.1f} s", report.width, report.height,
-                 report.close_vpls, report.distant_vpls,
+                 report.totals.close_vpls, report.totals.distant_vpls,
                  report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
     tell_limits(options.passes, report, min_pass_samples(options.settings.gather), seconds);
     tell_shares(report);

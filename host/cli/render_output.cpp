@@ -59,7 +59,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     if (!settings.sampling.file.empty()) {
         metadata["nearlight:vplFile"] = settings.sampling.file.string();
     }
-    metadata["nearlight:vpls"] = static_cast<int>(report.close_vpls + report.distant_vpls);
+    metadata["nearlight:vpls"] = static_cast<int>(report.totals.close_vpls + report.totals.distant_vpls);
     metadata["nearlight:vplsAsked"] = static_cast<int>(settings.sampling.vpl_count);
     metadata["nearlight:cuts"] = settings.sampling.cuts ? "on" : "off";
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
@@ -120,13 +120,11 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["pass_spp"] = pass_list_text(report.pass_samples);
     json["relative_error"] = report.error ? nlohmann::ordered_json(*report.error) : nullptr;
     json["relative_error_asked"] = settings.error ? nlohmann::ordered_json(*settings.error) : nullptr;
-    json["vpls"] = {{"requested", settings.sampling.vpl_count},
-                    {"set", settings.sampling.set_count_or_auto()},
-                    {"close", report.close_vpls},
-                    {"distant", report.distant_vpls},
-                    {"sparse", report.sparse_vpls},
-                    {"candidates", report.candidates},
-                    {"local_lights", report.local_lights}};
+    json["vpls"] = {
+        {"requested", settings.sampling.vpl_count},  {"set", settings.sampling.set_count_or_auto()},
+        {"close", report.totals.close_vpls},         {"distant", report.totals.distant_vpls},
+        {"sparse", report.totals.sparse_vpls},       {"candidates", report.totals.candidates},
+        {"local_lights", report.totals.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
     json["clamp_radius"] = report.ray_budget.clamp_radius;

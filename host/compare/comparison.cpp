@@ -138,9 +138,9 @@ class SceneRun {
         const std::optional<Shot> shot = bench_.shoot(id.method, id.vpls, id.seed, progress);
         const RenderReport& report = shot->report;
         const Cell cell{.id = id,
-                        .close_vpls = report.close_vpls,
-                        .distant_vpls = report.distant_vpls,
-                        .sparse_vpls = report.sparse_vpls,
+                        .close_vpls = report.totals.close_vpls,
+                        .distant_vpls = report.totals.distant_vpls,
+                        .sparse_vpls = report.totals.sparse_vpls,
                         .error = picture_error(shot->indirect, reference),
                         .generate_seconds = report.seconds.generate,
                         .gather_seconds = report.seconds.gather,

@@ -200,7 +200,7 @@ Picture Session::render(const RenderSettings& settings, const Progress& progress
         [&](std::span<const float> rows) { fill(rows); },
         [&](const std::string&, double fraction) { return !progress || progress(fraction); });
     picture.passes = report.passes;
-    picture.vpl_count = report.close_vpls + report.distant_vpls;
+    picture.vpl_count = report.totals.close_vpls + report.totals.distant_vpls;
     picture.interrupted = report.interrupted;
     picture.pass_samples = report.pass_samples;
     picture.error = report.error;

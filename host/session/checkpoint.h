@@ -33,9 +33,9 @@ struct PassChoice {
 struct PassTotals {
     std::size_t close_vpls = 0;
     std::size_t distant_vpls = 0;
-    std::size_t sparse_vpls = 0;
-    std::size_t candidates = 0;
-    std::size_t local_lights = 0;
+    std::size_t sparse_vpls = 0;   ///< VPLs that only lit other VPLs
+    std::size_t candidates = 0;    ///< candidates that VPLs were chosen from; 0: there was no choice
+    std::size_t local_lights = 0;  ///< local lights of all tiles
 };
 
 /// How far the passes are.

@@ -40,13 +40,8 @@ struct RenderReport {
     /// What relative_error() says of the picture; empty unless RenderSettings::error asked for it and a
     /// pass is whole.
     std::optional<double> error;
-    // The next five count all passes together.
-    std::size_t close_vpls = 0;
-    std::size_t distant_vpls = 0;
-    std::size_t sparse_vpls = 0;   ///< VPLs that only lit other VPLs
-    std::size_t candidates = 0;    ///< candidates that VPLs were chosen from; 0: there was no choice
-    std::size_t local_lights = 0;  ///< local lights of all tiles
-    float close_fraction = 0;      ///< share of close-range VPLs in the first pass
+    PassTotals totals{};       ///< of all passes together
+    float close_fraction = 0;  ///< share of close-range VPLs in the first pass
     RenderSeconds seconds;
     std::vector<BandShare> shares;  ///< the part that each device had in the picture
     std::size_t device_bytes = 0;   ///< peak allocation, all devices together

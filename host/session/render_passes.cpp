@@ -25,14 +25,6 @@ struct Passes {
     PassTotals totals{};         ///< of whole passes
 };
 
-PassTotals totals_of(const RenderReport& report) {
-    return {.close_vpls = report.close_vpls,
-            .distant_vpls = report.distant_vpls,
-            .sparse_vpls = report.sparse_vpls,
-            .candidates = report.candidates,
-            .local_lights = report.local_lights};
-}
-
 PassChoice choice_of(const Prepared& pass, const RenderSettings& settings) {
     return {.range = pass.view.close_range.range,
             .ray_budget = budget_of(pass.view, pass.vpls, settings.gather)};
@@ -65,11 +57,7 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
     report.passes = static_cast<uint>(samples.size());
     report.pass_samples = samples;
     report.close_fraction = record.close_fraction;
-    report.close_vpls = record.totals.close_vpls;
-    report.distant_vpls = record.totals.distant_vpls;
-    report.sparse_vpls = record.totals.sparse_vpls;
-    report.candidates = record.totals.candidates;
-    report.local_lights = record.totals.local_lights;
+    report.totals = record.totals;
     passes.totals = record.totals;
     passes.choice = record.choice;
     passes.begun_rows = record.begun_rows;
@@ -133,7 +121,7 @@ void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& pass
               const RenderReport& report) {
     passes.schedule.believe_after(passes.average->telling_passes());
     passes.schedule.end(settings.error ? std::optional(passes.average->error()) : std::nullopt);
-    passes.totals = totals_of(report);
+    passes.totals = report.totals;
     if (!passes.choice) {
         passes.choice = choice_of(pass, settings);
     }

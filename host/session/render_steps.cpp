@@ -26,10 +26,10 @@ void note_pass(const Prepared& pass, RenderReport& report) {
         report.close_fraction = pass.vpls.close_fraction;
     }
     report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
-    report.close_vpls += pass.vpls.close_count;
-    report.distant_vpls += pass.vpls.distant_count;
-    report.sparse_vpls += pass.vpls.sparse_count;
-    report.candidates += pass.vpls.candidate_count;
+    report.totals.close_vpls += pass.vpls.close_count;
+    report.totals.distant_vpls += pass.vpls.distant_count;
+    report.totals.sparse_vpls += pass.vpls.sparse_count;
+    report.totals.candidates += pass.vpls.candidate_count;
 }
 
 /// The settings of the view, without a pilot that has nothing to decide: all passes but the first have the
@@ -67,7 +67,7 @@ void gather(Session& session, const Prepared& pass, const RowSink& sink, const G
     const GatherOutcome outcome =
         session.gather(pass.view, pass.vpls, pass.settings.gather, pass.settings.seed, sink, progress);
     report.seconds.gather += watch.seconds();
-    report.local_lights += outcome.local_lights;
+    report.totals.local_lights += outcome.local_lights;
     report.interrupted = outcome.interrupted;
     report.device_bytes = std::max(report.device_bytes, session.peak_bytes());
     add_shares(outcome.shares, report.shares);

@@ -56,7 +56,7 @@ TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {
                 const auto [image, report] =
                     test::render_image(session, settings_of(sampler, budget, 50u + seed));
                 sum += indirect_mean(image);
-                most = std::max(most, report.close_vpls + report.distant_vpls);
+                most = std::max(most, report.totals.close_vpls + report.totals.distant_vpls);
             }
             return sum / seeds;
         };
@@ -93,7 +93,7 @@ TEST_F(EdgeCases, WithoutLightThereIsNone) {
         for (const SamplerKind sampler : kSamplers) {
             const auto [image, report] = test::render_image(device, scene, settings_of(sampler, 50, 1));
             EXPECT_EQ(indirect_mean(image), 0.0) << to_string(sampler);
-            EXPECT_EQ(report.distant_vpls, 0u);
+            EXPECT_EQ(report.totals.distant_vpls, 0u);
         }
     });
 }

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "tests/session/rendering.h"
+#include "tests/session/yard_scene.h"
 #include "tests/support/device_fixture.h"
-#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -17,20 +17,8 @@ using namespace small_scenes;
 
 class Passes : public test::DeviceTest {};
 
-/// A floor and a wall under a lamp and a sky.
 Scene yard() {
-    Scene scene;
-    const uint grey = add_material(scene, lambertian({0.6f, 0.5f, 0.4f}));
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{5, 5, 6});
-    add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, grey);
-    add_quad(scene, {-2, -1, 1}, {0, 2, 0}, {4, 0, 0}, grey);
-    add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
-    scene.environment = {.width = 1, .height = 1, .radiance = {{0.3f, 0.4f, 0.5f}}, .to_world = {}};
-    set_camera(scene, {0.1, 0.6, -1.9}, {0, -0.5, 1}, 70);
-    scene.camera.width = 40;
-    scene.camera.height = 24;
-    return scene;
+    return test::yard({40, 24, 70});
 }
 
 RenderSettings with_passes(RenderSettings settings, uint passes) {
@@ -112,7 +100,7 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
                     settings.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
                 }
                 const test::Rendering single = test::render_image(session, settings);
-                vpls += single.report.close_vpls + single.report.distant_vpls;
+                vpls += single.report.totals.close_vpls + single.report.totals.distant_vpls;
                 if (pass == 0) {
                     expected = single.image;
                     EXPECT_GT(largest_differences(expected, averaged.image).light, 1e-3);
@@ -129,7 +117,7 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
             EXPECT_LT(differences.light, 1e-5) << to_string(sampler);
             EXPECT_EQ(differences.geometry, 0.0) << to_string(sampler);
             EXPECT_EQ(averaged.report.passes, kPasses);
-            EXPECT_EQ(averaged.report.close_vpls + averaged.report.distant_vpls, vpls);
+            EXPECT_EQ(averaged.report.totals.close_vpls + averaged.report.totals.distant_vpls, vpls);
             EXPECT_FALSE(averaged.report.interrupted);
         }
     });

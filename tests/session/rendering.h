@@ -2,6 +2,7 @@
 // Rendering into an Image, for tests.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "host/image/image.h"
@@ -24,7 +25,8 @@ inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
 
 inline Rendering render_image(
     Session& session, const RenderSettings& settings,
-    const RenderProgress& progress = [](const std::string&, double) { return true; }) {
+    const RenderProgress& progress = [](const std::string&, double) { return true; },
+    PassStart pass_start = {}, const PassWatcher& watcher = {}) {
     Rendering rendering;
     rendering.report = render(
         session, settings,
@@ -34,7 +36,7 @@ inline Rendering render_image(
         [&](std::span<const float> rows) {
             rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
         },
-        progress);
+        progress, {}, std::move(pass_start), watcher);
     return rendering;
 }
 inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {

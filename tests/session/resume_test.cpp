@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/session/rendering.h"
+#include "tests/session/yard_scene.h"
 #include "tests/support/device_fixture.h"
-#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -14,35 +14,15 @@ using Moment = PassesSoFar::Moment;
 
 class Resume : public test::DeviceTest {};
 
-/// A floor and a wall under a lamp and a sky, in a picture of several bands.
+/// In a picture of several bands.
 Scene tall_yard() {
-    Scene scene;
-    const uint grey = add_material(scene, lambertian({0.6f, 0.5f, 0.4f}));
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{5, 5, 6});
-    add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, grey);
-    add_quad(scene, {-2, -1, 1}, {0, 2, 0}, {4, 0, 0}, grey);
-    add_quad(scene, {-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
-    scene.environment = {.width = 1, .height = 1, .radiance = {{0.3f, 0.4f, 0.5f}}, .to_world = {}};
-    set_camera(scene, {0.1, 0.6, -1.9}, {0, -0.5, 1}, 20);
-    scene.camera.width = 70;
-    scene.camera.height = 600;
-    return scene;
+    return test::yard({70, 600, 20});
 }
 
 test::Rendering render_from(Session& session, const RenderSettings& settings, PassStart start,
                             const PassWatcher& watcher = {}) {
-    test::Rendering rendering;
-    rendering.report = render(
-        session, settings,
-        [&](const RenderReport& report, const View&, const VplSet&) {
-            rendering.image = {report.width, report.height, layer_channels(), {}};
-        },
-        [&](std::span<const float> rows) {
-            rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
-        },
-        [](const std::string&, double) { return true; }, {}, std::move(start), watcher);
-    return rendering;
+    return test::render_image(
+        session, settings, [](const std::string&, double) { return true; }, std::move(start), watcher);
 }
 
 struct Watched {
@@ -69,7 +49,8 @@ void expect_same(const test::Rendering& a, const test::Rendering& b) {
     EXPECT_EQ(a.report.range, b.report.range);
     EXPECT_EQ(a.report.ray_budget, b.report.ray_budget);
     EXPECT_EQ(a.report.max_depth, b.report.max_depth);
-    EXPECT_EQ(a.report.close_vpls + a.report.distant_vpls, b.report.close_vpls + b.report.distant_vpls);
+    EXPECT_EQ(a.report.totals.close_vpls + a.report.totals.distant_vpls,
+              b.report.totals.close_vpls + b.report.totals.distant_vpls);
     EXPECT_EQ(a.report.error, b.report.error);
 }
 

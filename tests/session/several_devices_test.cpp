@@ -88,7 +88,7 @@ TEST_F(SeveralDevices, GiveTheBitsOfOne) {
         const test::Rendering two = render_on({&device(0), &device(1)}, test::few_vpls(sampler));
         EXPECT_EQ(two.report.image_hash, one.report.image_hash) << to_string(sampler);
         EXPECT_EQ(two.image.values, one.image.values) << "in a layer other than the beauty";
-        EXPECT_EQ(two.report.local_lights, one.report.local_lights);
+        EXPECT_EQ(two.report.totals.local_lights, one.report.totals.local_lights);
         EXPECT_EQ(one.report.shares.size(), 1u);
         ASSERT_EQ(two.report.shares.size(), 2u);
         EXPECT_GT(two.report.shares[0].bands, 0u);

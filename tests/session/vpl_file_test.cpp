@@ -10,6 +10,7 @@
 #include "host/base/files.h"
 #include "host/base/packed_direction.h"
 #include "tests/image/temporary_folder.h"
+#include "tests/session/corner_scene.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/error_matchers.h"
@@ -19,22 +20,9 @@ namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
+using test::corner;
 using test::few_vpls;
 using test::render_image;
-
-/// Two walls and a lamp.
-Scene corner() {
-    Scene scene;
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{5, 5, 6});
-    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.7f, 0.5f, 0.4f})));
-    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.4f, 0.5f, 0.7f})));
-    add_quad(scene, {-0.3f, 1.5f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
-    set_camera(scene, {0, 1, -2.5}, {0, 0.5, 1}, 60);
-    scene.camera.width = 40;
-    scene.camera.height = 30;
-    return scene;
-}
 
 const std::string kHeader =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
@@ -93,7 +81,7 @@ TEST_F(VplFiles, LightTheSceneForOtherCameras) {
         set_camera(scene, {0.5, 1.2, -2}, {0, 0.5, 1}, 40);
         Session other(device, scene);
         const test::Rendering rendering = render_image(other, with_file(few_vpls()));
-        EXPECT_EQ(rendering.report.close_vpls + rendering.report.distant_vpls,
+        EXPECT_EQ(rendering.report.totals.close_vpls + rendering.report.totals.distant_vpls,
                   read_vpl_file(file_).vpls.size());
     });
 }
