@@ -226,15 +226,12 @@ void set_weights(std::span<Reference> references, const SpatialSplitter& splitte
 
 SahTree build_sah_tree(const Scene& scene, std::span<const uint> ids, const BvhConfig& config) {
     const bool splits = config.quality == BvhQuality::quality;
-    const auto spare = splits ? static_cast<std::size_t>(static_cast<double>(ids.size()) *
-                                                         std::clamp(config.max_duplication, 0.0f, 4.0f))
-                              : std::size_t{0};
+    const auto wanted = splits ? static_cast<std::size_t>(static_cast<double>(ids.size()) *
+                                                          std::clamp(config.max_duplication, 0.0f, 4.0f))
+                               : std::size_t{0};
+    check_triangle_count(ids.size());
+    const std::size_t spare = std::min(wanted, kMaxSceneTriangles - ids.size());
     const std::size_t capacity = ids.size() + spare;
-    if (capacity > NEARLIGHT_LEAF_FIRST_MASK) {
-        throw Error(ErrorKind::out_of_memory,
-                    "scene has " + std::to_string(ids.size()) + " triangles, but a tree holds only " +
-                        std::to_string(NEARLIGHT_LEAF_FIRST_MASK) + "; simplify the scene");
-    }
     UnsetVector<Reference> references = make_references(scene, ids, capacity);
     SahTree tree;
     tree.slots.resize(capacity - 1);

@@ -176,6 +176,7 @@ void check_mesh(const Mesh& mesh) {
 
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes) {
     check_mesh(mesh);
+    check_triangle_count(scene.triangles.size() + mesh.triangles.size());
     std::vector<Vec3> positions;
     positions.reserve(mesh.positions.size());
     for (const Vec3 p : mesh.positions) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nearlight/error.h"
+
 namespace nearlight::core {
 
 std::string to_string(const Note& note) {
@@ -12,6 +14,14 @@ std::string to_string(const Note& note) {
         text += std::to_string(note.line);
     }
     return text += ": " + note.text;
+}
+
+void check_triangle_count(std::size_t count) {
+    if (count > kMaxSceneTriangles) {
+        throw Error(ErrorKind::out_of_memory,
+                    "scene has at least " + std::to_string(count) + " triangles, but a tree holds only " +
+                        std::to_string(kMaxSceneTriangles) + "; simplify the scene");
+    }
 }
 
 Aabb bounds(const Scene& scene) {

@@ -129,6 +129,11 @@ struct Scene {
     std::vector<Note> notes;  ///< approximations and oddities
 };
 
+/// How many triangles a tree can hold.
+inline constexpr std::size_t kMaxSceneTriangles = NEARLIGHT_LEAF_FIRST_MASK;
+/// Throws Error(ErrorKind::out_of_memory) if that is less than `count`.
+void check_triangle_count(std::size_t count);
+
 /// The box of all vertices that triangles use.
 Aabb bounds(const Scene& scene);
 

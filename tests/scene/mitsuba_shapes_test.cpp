@@ -67,6 +67,35 @@ float total_area(const Scene& scene) {
     return area;
 }
 
+/// Many spheres share a few million triangles in proportion to their radii, and keep their areas.
+TEST(MitsubaShape, ManySpheresHaveFewerFacets) {
+    const auto sphere_at = [](int x, double radius) {
+        return shape("sphere", "<point name='center' x='" + std::to_string(x) +
+                                   "' y='0' z='0'/><float name='radius' value='" + std::to_string(radius) +
+                                   "'/>");
+    };
+    std::string group = "<shape type='shapegroup' id='group'>" + sphere_at(0, 1) + "</shape>";
+    std::string instances;
+    for (int i = 0; i < 1999; ++i) {
+        instances += "<shape type='instance'><ref id='group'/></shape>";
+    }
+    const SceneFiles files;
+    const Scene few = files.load_xml(group + sphere_at(0, 4));
+    const auto says_so = [](const Scene& scene) {
+        return std::ranges::count(
+            scene.notes, "spheres have fewer than 16128 facets each, because there are so many", &Note::text);
+    };
+    EXPECT_EQ(says_so(few), 0);
+    EXPECT_EQ(few.triangles.size(), 16128u);
+    const Scene many = files.load_xml(group + instances + sphere_at(0, 4));
+    EXPECT_EQ(says_so(many), 1);
+    // A sphere of 4 times the radius has 4 times the triangles, about.
+    const std::size_t small = (many.triangles.size() - 7568) / 1999;
+    EXPECT_EQ(small, 1848u);                                // 22 · 21 · 4
+    EXPECT_EQ(many.triangles.size(), 1999 * small + 7568);  // 44 · 43 · 4
+    EXPECT_NEAR(total_area(many) / (4 * kPi * (1999 + 16)), 1.0f, 1e-3f);
+}
+
 TEST(MitsubaShape, RoundShapesHaveTheirAreaAndFaceOutwards) {
     const SceneFiles files;
     const Scene sphere = files.load_xml(

@@ -6,6 +6,8 @@
 #include <functional>
 #include <set>
 
+#include "tests/support/error_matchers.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -148,6 +150,13 @@ TEST(Scene, HashDoesNotKnowNamesNotesPaddingAndWhatIsFilledInLater) {
 // and the default camera and integrator.
 TEST(Scene, HashOfAnEmptySceneDoesNotChange) {
     EXPECT_EQ(scene_hash(Scene{}), 17858498626875445678ull);
+}
+
+TEST(Scene, MoreTrianglesThanATreeHoldsAreRefused) {
+    check_triangle_count(kMaxSceneTriangles);
+    const Error error = test::error_of([] { check_triangle_count(kMaxSceneTriangles + 1); });
+    EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
+    EXPECT_TRUE(test::mentions(error, "only 134217727"));
 }
 
 }  // namespace

@@ -14,8 +14,7 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// The maximum number of triangles that the instances of one mesh may have.
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 28u;
+/// The maximum number of instances that one mesh may have.
 constexpr std::size_t kMaxInstances = std::size_t{1} << 20u;
 
 std::vector<Vec3> to_vectors(const std::vector<float>& numbers) {
@@ -254,7 +253,7 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
     const Mesh mesh = read_mesh(node, primitive, data);
     const Mat4 world;  // where joints stand
     const std::span<const Mat4> placed = node.skin >= 0 ? std::span(&world, 1) : std::span(placements);
-    if (!mesh.triangles.empty() && placed.size() > kMaxTriangles / mesh.triangles.size()) {
+    if (!mesh.triangles.empty() && placed.size() > kMaxSceneTriangles / mesh.triangles.size()) {
         file_.fail("node '" + node.name + "' has " + std::to_string(placed.size()) + " instances of " +
                    std::to_string(mesh.triangles.size()) + " triangles, which are too many");
     }

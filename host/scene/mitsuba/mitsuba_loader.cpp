@@ -41,9 +41,7 @@ void translate(const Object& root, const std::string& camera, Scene& scene, Note
     for (const Object* medium : root.nested("medium")) {
         fail(medium->where, "participating media are not supported");
     }
-    for (const Object* shape : root.nested("shape")) {
-        shapes.add(*shape);
-    }
+    shapes.add_all(root.nested("shape"));
     for (const Object* emitter : root.nested("emitter")) {
         add_emitter(*emitter, scene, textures, notes);
     }

@@ -19,12 +19,6 @@ void flip_v(Mesh& mesh) {
     }
 }
 
-Mat4 sphere_placement(const Object& shape) {
-    const Triple center = shape.triple("center", {0, 0, 0});
-    const double radius = shape.number("radius", 1.0);
-    return translation(center[0], center[1], center[2]) * scaling(radius, radius, radius);
-}
-
 // Places the cylinder between the points p0 and p1.
 Mat4 cylinder_placement(const Object& shape) {
     const Triple p0 = shape.triple("p0", {0, 0, 0});
@@ -69,6 +63,18 @@ bool turns_inside_out(const Object& shape, const Mat4& to_world) {
 }
 
 }  // namespace
+
+void ShapeMaker::add_all(const std::vector<const Object*>& shapes) {
+    spheres_ = SphereDetail(shapes);
+    if (spheres_.is_reduced()) {
+        notes_.remark(scene_.source, 0,
+                      "spheres have fewer than " + std::to_string(sphere_triangle_count(kFinestStacks)) +
+                          " facets each, because there are so many");
+    }
+    for (const Object* shape : shapes) {
+        add(*shape);
+    }
+}
 
 void ShapeMaker::add(const Object& shape) {
     if (shape.type == "shapegroup") {
@@ -162,7 +168,7 @@ Mesh ShapeMaker::load(const Object& shape) {
         return cube_mesh();
     }
     if (type == "sphere") {
-        return sphere_mesh();
+        return sphere_mesh(spheres_.stacks(shape));
     }
     if (type == "disk") {
         return disk_mesh();

@@ -6,6 +6,7 @@
 
 #include "host/scene/mesh.h"
 #include "host/scene/mitsuba/material_maker.h"
+#include "host/scene/mitsuba/sphere_detail.h"
 
 namespace nearlight::core::mitsuba {
 
@@ -14,11 +15,12 @@ class ShapeMaker {
     ShapeMaker(Scene& scene, NoteSink& notes, TextureMaker& textures, MaterialMaker& materials)
         : scene_(scene), notes_(notes), textures_(textures), materials_(materials) {}
 
-    /// Adds the shape to the scene. A `shapegroup` alone adds nothing; each `instance` adds a copy of its
-    /// shapes.
-    void add(const Object& shape);
+    /// Adds the shapes to the scene. A `shapegroup` alone adds nothing; each `instance` adds a copy of its
+    /// shapes. Call it once.
+    void add_all(const std::vector<const Object*>& shapes);
 
   private:
+    void add(const Object& shape);
     /// Adds the shape as an object of its name, after that of the instance whose part it is.
     void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                     const std::string& instance = {});
@@ -32,6 +34,7 @@ class ShapeMaker {
     NoteSink& notes_;
     TextureMaker& textures_;
     MaterialMaker& materials_;
+    SphereDetail spheres_{{}};
     std::map<const Object*, Mesh> group_meshes_;
     std::size_t shape_count_ = 0;  ///< shapes and instances so far
 };

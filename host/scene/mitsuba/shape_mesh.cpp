@@ -7,8 +7,7 @@ namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr uint kSlices = 128;
-constexpr uint kStacks = 64;
+constexpr uint kSlices = 128;  // of disks and cylinders
 
 // Adds a vertex, with u and v as Mitsuba gives them.
 void add_vertex(Mesh& mesh, Vec3 position, Vec3 normal, double u, double v) {
@@ -21,16 +20,16 @@ Vec3 to_vec3(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-double slice_angle(uint slice) {
-    return kTwoPi * slice / kSlices;
+double slice_angle(uint slice, uint slices = kSlices) {
+    return kTwoPi * slice / slices;
 }
 
-// Adds the triangles of a grid of (rows + 1) × (kSlices + 1) vertices, which are already there.
-void add_grid(Mesh& mesh, uint rows) {
+// Adds the triangles of a grid of (rows + 1) × (slices + 1) vertices, which are already there.
+void add_grid(Mesh& mesh, uint rows, uint slices) {
     for (uint row = 0; row < rows; ++row) {
-        for (uint slice = 0; slice < kSlices; ++slice) {
-            const uint a = row * (kSlices + 1) + slice;
-            const uint b = a + kSlices + 1;
+        for (uint slice = 0; slice < slices; ++slice) {
+            const uint a = row * (slices + 1) + slice;
+            const uint b = a + slices + 1;
             mesh.triangles.push_back({a, b, b + 1});
             mesh.triangles.push_back({a, b + 1, a + 1});
         }
@@ -42,11 +41,11 @@ double disk_radius() {
     return std::sqrt(kTwoPi / (kSlices * std::sin(kTwoPi / kSlices)));
 }
 
-Vec3 sphere_point(uint stack, uint slice) {
-    const double theta = std::numbers::pi * stack / kStacks;
-    const double phi = slice_angle(slice % kSlices);
+Vec3 sphere_point(uint stack, uint slice, uint stacks) {
+    const double theta = std::numbers::pi * stack / stacks;
+    const double phi = slice_angle(slice % (2 * stacks), 2 * stacks);
     // The radius of the ring is exactly zero at the poles.
-    const double ring = stack == 0 || stack == kStacks ? 0.0 : std::sin(theta);
+    const double ring = stack == 0 || stack == stacks ? 0.0 : std::sin(theta);
     return to_vec3(ring * std::cos(phi), ring * std::sin(phi), std::cos(theta));
 }
 
@@ -112,16 +111,16 @@ Mesh disk_mesh() {
     return mesh;
 }
 
-Mesh sphere_mesh() {
+Mesh sphere_mesh(uint stacks) {
     Mesh mesh;
-    for (uint stack = 0; stack <= kStacks; ++stack) {
-        for (uint slice = 0; slice <= kSlices; ++slice) {
-            const Vec3 p = sphere_point(stack, slice);
-            add_vertex(mesh, p, p, static_cast<double>(slice) / kSlices,
-                       static_cast<double>(stack) / kStacks);
+    const uint slices = 2 * stacks;
+    for (uint stack = 0; stack <= stacks; ++stack) {
+        for (uint slice = 0; slice <= slices; ++slice) {
+            const Vec3 p = sphere_point(stack, slice, stacks);
+            add_vertex(mesh, p, p, static_cast<double>(slice) / slices, static_cast<double>(stack) / stacks);
         }
     }
-    add_grid(mesh, kStacks);
+    add_grid(mesh, stacks, slices);
     // The first and last row have a triangle of no area in each cell.
     std::erase_if(mesh.triangles, [&](const auto& t) {
         const Vec3 a = mesh.positions[t[0]];
@@ -145,7 +144,7 @@ Mesh cylinder_mesh() {
                        to_vec3(std::cos(phi), std::sin(phi), 0), phi / kTwoPi, z);
         }
     }
-    add_grid(mesh, 1);
+    add_grid(mesh, 1, kSlices);
     return mesh;
 }
 
