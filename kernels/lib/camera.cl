@@ -9,6 +9,7 @@
 #ifndef NEARLIGHT_LIB_CAMERA
 #define NEARLIGHT_LIB_CAMERA
 
+#include "lib/angle.cl"
 #include "lib/math.cl"
 #include "lib/random.cl"
 
@@ -101,8 +102,8 @@ inline float2 square_to_disc(float2 u) {
     }
     const bool is_wide = fabs(p.x) > fabs(p.y);
     const float r = is_wide ? p.x : p.y;
-    const float phi = is_wide ? 0.25f * M_PI_F * (p.y / p.x) : 0.5f * M_PI_F - 0.25f * M_PI_F * (p.x / p.y);
-    return (float2)(r * cos(phi), r * sin(phi));
+    const float turns = is_wide ? 0.125f * (p.y / p.x) : 0.25f - 0.125f * (p.x / p.y);
+    return r * circle_point(turns);
 }
 
 /// The ray through a film position, from the place on the lens that the random point `lens` stands for.

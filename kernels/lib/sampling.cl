@@ -3,6 +3,7 @@
 #ifndef NEARLIGHT_LIB_SAMPLING
 #define NEARLIGHT_LIB_SAMPLING
 
+#include "lib/angle.cl"
 #include "lib/math.cl"
 
 /// The smallest index with u < cdf[index], or the last one if rounding leaves u above all entries.
@@ -43,18 +44,14 @@ inline CdfStep choose_step(const global float* cdf, uint count, float u) {
 
 /// A direction about +Z with the density cosθ/π.
 inline float3 square_to_cosine_hemisphere(float2 u) {
-    const float r = sqrt(u.x);
-    const float phi = 2.0f * M_PI_F * u.y;
-    return (float3)(r * cos(phi), r * sin(phi), sqrt(fmax(0.0f, 1.0f - u.x)));
+    return (float3)(sqrt(u.x) * circle_point(u.y), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
 /// A direction within the angle of cosine `cos_max` about +Z, with the density 1 / (2π(1 − cos_max)). A
 /// cosine of −1 gives the whole sphere.
 inline float3 square_to_cone(float2 u, float cos_max) {
     const float z = 1.0f - u.x * (1.0f - cos_max);
-    const float r = sqrt(fmax(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * M_PI_F * u.y;
-    return (float3)(r * cos(phi), r * sin(phi), z);
+    return (float3)(sqrt(fmax(0.0f, 1.0f - z * z)) * circle_point(u.y), z);
 }
 
 /// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that points that are

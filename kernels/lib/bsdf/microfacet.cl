@@ -6,6 +6,7 @@
 #ifndef NEARLIGHT_LIB_BSDF_MICROFACET
 #define NEARLIGHT_LIB_BSDF_MICROFACET
 
+#include "lib/angle.cl"
 #include "lib/bsdf/bsdf_types.cl"
 
 typedef struct Microfacets {
@@ -109,9 +110,7 @@ inline float3 sample_visible_facet(const Microfacets* facets, float3 wo, float2 
     // Half vectors with a uniform cap of the sphere. [Dupuy & Benyoub, Sampling Visible GGX Normals with
     // Spherical Caps, 2023]
     const float z = (1.0f - u.x) * (1.0f + stretched.z) - stretched.z;
-    const float r = sqrt(fmax(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * M_PI_F * u.y;
-    const float3 h = stretched + (float3)(r * cos(phi), r * sin(phi), z);
+    const float3 h = stretched + (float3)(sqrt(fmax(0.0f, 1.0f - z * z)) * circle_point(u.y), z);
     return normalize((float3)(h.xy * facets->alpha, fmax(h.z, 1e-7f)));
 }
 

@@ -218,9 +218,7 @@ inline float3 sample_clearcoat_facet(const Bsdf* bsdf, float2 v) {
     const float alpha = mix(0.1f, 0.001f, bsdf->clearcoat_gloss);
     const float a2 = alpha * alpha;
     const float cos2 = clamp((1.0f - pow(a2, 1.0f - v.x)) / (1.0f - a2), 0.0f, 1.0f);
-    const float r = sqrt(1.0f - cos2);
-    const float phi = 2.0f * M_PI_F * v.y;
-    return (float3)(r * cos(phi), r * sin(phi), sqrt(cos2));
+    return (float3)(sqrt(1.0f - cos2) * circle_point(v.y), sqrt(cos2));
 }
 
 inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {

@@ -35,9 +35,8 @@ inline EmittedParticle emit_from_round_light(const SceneView* scene, const globa
                                              float2 u_position, float2 u_direction) {
     const bool is_sphere = emitter->type == NEARLIGHT_EMITTER_SPHERE;
     const float3 axis = load3(emitter->direction);
-    const float phi = 2.0f * M_PI_F * u_position.y;
     const float3 normal = is_sphere ? square_to_cone(u_position, -1.0f)
-                                    : to_world_frame((float3)(cos(phi), sin(phi), 0.0f), axis);
+                                    : to_world_frame((float3)(circle_point(u_position.y), 0.0f), axis);
     const float3 center =
         load3(emitter->position) + (is_sphere ? (float3)(0.0f) : u_position.x * emitter->length * axis);
     EmittedParticle particle;
@@ -60,10 +59,8 @@ inline EmittedParticle emit_from_round_light(const SceneView* scene, const globa
 /// the light.
 inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
     const float radius = scene->environment->scene_radius;
-    const float r = radius * sqrt(u.x);
-    const float phi = 2.0f * M_PI_F * u.y;
     return load3(scene->environment->scene_center) + radius * from +
-           to_world_frame((float3)(r * cos(phi), r * sin(phi), 0.0f), from);
+           to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
 }
 
 inline float entry_area(const SceneView* scene) {

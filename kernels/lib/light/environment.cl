@@ -19,8 +19,8 @@ inline float3 rotate_to_world(const global float* m, float3 v) {
 /// frame the direction is (sinφ·sinθ, cosθ, −cosφ·sinθ), with φ = 2π·column/width and θ = π·row/height.
 inline float2 map_place(const SceneView* scene, float3 direction) {
     const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
-    const float turn = atan2(d.x, -d.z) * (0.5f / M_PI_F);
-    return (float2)(turn - floor(turn), acos(clamp(d.y, -1.0f, 1.0f)) / M_PI_F);
+    const float turn = turns_of_point(-d.z, d.x);
+    return (float2)(turn - floor(turn), 2.0f * turns_of_cosine(d.y));
 }
 
 inline uint2 pixel_at(const SceneView* scene, float2 place) {
@@ -80,9 +80,7 @@ inline float sun_pdf(const SceneView* scene, float3 direction) {
 /// A direction that is uniform over the sun's disc.
 inline float3 sample_sun(const SceneView* scene, float2 u) {
     const float height = scene->environment->sun_height * u.x;
-    const float r = sqrt(height * (2.0f - height));
-    const float phi = 2.0f * M_PI_F * u.y;
-    return to_world_frame((float3)(r * cos(phi), r * sin(phi), 1.0f - height),
+    return to_world_frame((float3)(sqrt(height * (2.0f - height)) * circle_point(u.y), 1.0f - height),
                           load3(scene->environment->sun_direction));
 }
 
@@ -195,11 +193,11 @@ inline MapSample sample_map(const SceneView* scene, float2 u) {
     const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));
     const float turn =
         mix((float)region.first.x, (float)region.end.x, u.x) / (float)scene->environment->width;
-    const float phi = 2.0f * M_PI_F * turn;
+    const float2 around = circle_point(turn);
     MapSample sample;
     sample.direction = rotate_to_world(scene->environment->world_to_local,
-                                       (float3)(sin(phi) * sine, cosine, -cos(phi) * sine));
-    sample.place = (float2)(turn, acos(cosine) / M_PI_F);
+                                       (float3)(around.y * sine, cosine, -around.x * sine));
+    sample.place = (float2)(turn, 2.0f * turns_of_cosine(cosine));
     sample.pdf = region_pdf(scene, &region);
     return sample;
 }

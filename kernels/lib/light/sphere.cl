@@ -56,13 +56,11 @@ inline RoundSample sample_sphere(const global Emitter* emitter, float3 x, float2
     const float distance = sqrt(seen.squared);
     const float height = seen.cone_height * u.x;
     const float squared_sine = height * (2.0f - height);
-    const float sine = sqrt(squared_sine);
-    const float phi = 2.0f * M_PI_F * u.y;
     const float outer = emitter->outer_radius;
     RoundSample sample;
     sample.pdf = cone_density(&seen);
     sample.direction = seen.squared > 0.0f
-                           ? to_world_frame((float3)(sine * cos(phi), sine * sin(phi), 1.0f - height),
+                           ? to_world_frame((float3)(sqrt(squared_sine) * circle_point(u.y), 1.0f - height),
                                             seen.to_center / distance)
                            : (float3)(0.0f, 0.0f, 1.0f);
     const float within = sqrt(fmax(0.0f, outer * outer - seen.squared * squared_sine));

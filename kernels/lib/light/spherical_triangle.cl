@@ -6,6 +6,7 @@
 #ifndef NEARLIGHT_LIB_LIGHT_SPHERICAL_TRIANGLE
 #define NEARLIGHT_LIB_LIGHT_SPHERICAL_TRIANGLE
 
+#include "lib/angle.cl"
 #include "lib/math.cl"
 
 /// A triangle seen from a point.
@@ -30,7 +31,7 @@ inline SphericalTriangle seen_triangle(float3 a, float3 edge1, float3 edge2, flo
     seen.determinant = -dot(seen.v0, cross(edge1, edge2)) * inverse1 * inverse2;
     const float denominator = 1.0f + dot(seen.v0, seen.v1) + dot(seen.v1, seen.v2) + dot(seen.v2, seen.v0);
     seen.solid_angle = seen.determinant > 0.0f && isfinite(seen.determinant)
-                           ? 2.0f * atan2(seen.determinant, denominator)
+                           ? 4.0f * M_PI_F * turns_of_point(denominator, seen.determinant)
                            : 0.0f;
     return seen;
 }
@@ -39,12 +40,11 @@ inline SphericalTriangle seen_triangle(float3 a, float3 edge1, float3 edge2, flo
 inline float3 sample_spherical_triangle(const SphericalTriangle* seen, float2 u) {
     // The point q of the arc from v0 to v2 for which (v0, v1, q) has the share u.x of the solid angle: v0 is
     // mirrored at the direction `half_way` to q.
-    const float angle = 0.5f * seen->solid_angle * u.x;
-    const float sine = sin(angle);
+    const float2 turned = circle_point(seen->solid_angle * u.x * (0.25f / M_PI_F));
     const float3 half_way =
-        (seen->determinant * cos(angle) - (dot(seen->v0, seen->v2) + dot(seen->v1, seen->v2)) * sine) *
+        (seen->determinant * turned.x - (dot(seen->v0, seen->v2) + dot(seen->v1, seen->v2)) * turned.y) *
             seen->v0 +
-        ((1.0f + dot(seen->v0, seen->v1)) * sine) * seen->v2;
+        ((1.0f + dot(seen->v0, seen->v1)) * turned.y) * seen->v2;
     const float squared = dot(half_way, half_way);
     const float3 q =
         squared > 0.0f ? half_way * (2.0f * dot(seen->v0, half_way) / squared) - seen->v0 : seen->v0;
