@@ -27,6 +27,10 @@ constexpr std::array kColumns{"x",   "y",     "z",    "nx",    "ny",    "nz",
 constexpr std::size_t kNeeded = 9;  ///< of them; other programs may leave out the others
 using Row = std::array<double, kColumns.size()>;
 
+/// What the options of the same names take at most.
+constexpr float kMaxClampRadius = 1e9f;
+constexpr uint kMaxLightSamples = 1'000'000;
+
 template <typename Number>
 std::string decimal(Number number) {
     std::array<char, 32> text{};
@@ -87,8 +91,13 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                      .close_count = number_of<std::size_t>(file, header, "close"),
                      .asked_count = number_of<std::size_t>(file, header, "asked")};
     if (!value_of(header, "clamp_radius").empty()) {
-        origin.ray_budget = {.clamp_radius = number_of<float>(file, header, "clamp_radius"),
-                             .light_samples_per_pixel = number_of<uint>(file, header, "light_samples")};
+        const float radius = number_of<float>(file, header, "clamp_radius");
+        const uint samples = number_of<uint>(file, header, "light_samples");
+        if (!(radius >= 0.0f && radius <= kMaxClampRadius) || samples < 1 || samples > kMaxLightSamples) {
+            fail_ply(file, "the header's clamp radius must be from 0 to " + decimal(kMaxClampRadius) +
+                               " and its light samples from 1 to " + decimal(kMaxLightSamples));
+        }
+        origin.ray_budget = {.clamp_radius = radius, .light_samples_per_pixel = samples};
     }
     return origin;
 }

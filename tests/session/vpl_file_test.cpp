@@ -180,9 +180,23 @@ TEST(VplFile, BrokenFilesAreErrors) {
     std::string many = header;
     many.replace(many.find("vertex 1"), 8, "vertex 99999999999");
     fails(many, "truncated");
-    fails("ply\nformat ascii 1.0\ncomment nearlight virtual point lights, version 1\n" +
-              header.substr(std::string("ply\nformat ascii 1.0\n").size()) + "0 0 0 0 0 1 1 1 1\n",
-          "no number `scene`");
+    const std::string format = "ply\nformat ascii 1.0\n";
+    const auto titled = [&](const std::string& comments) {
+        return format + "comment nearlight virtual point lights, version 1\n" + comments +
+               header.substr(format.size()) + "0 0 0 0 0 1 1 1 1\n";
+    };
+    fails(titled(""), "no number `scene`");
+    for (const auto& [radius, samples] : {std::pair{"nan", "16"},
+                                          {"inf", "16"},
+                                          {"-1", "16"},
+                                          {"1e10", "16"},
+                                          {"0.5", "0"},
+                                          {"0.5", "1000001"},
+                                          {"0.5", "4294967295"}}) {
+        fails(titled(std::string("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n") +
+                     "comment clamp_radius " + radius + "\ncomment light_samples " + samples + "\n"),
+              "clamp radius must be from 0");
+    }
     VplFile odd{.vpls = {Vpl{}}};
     odd.vpls[0].flags = 7u << NEARLIGHT_VPL_CURVE_SHIFT;
     expect_error([&] { check_vpls(odd, corner(), 8, "odd.ply"); }, ErrorKind::file, "transmission curve");
