@@ -7,13 +7,15 @@
 
 #include "lib/bsdf/bsdf.cl"
 #include "lib/camera_sample.cl"
+#include "lib/light/triangle.cl"
 
 #define MAX_ABSENT 24  // surfaces that are not there, on one ray
 
-/// Whether a surface is not there for the path that begins with `start`. What shines can be seen.
+/// Whether a surface is not there for the path that begins with `start`. What shines there can be seen.
 inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, const CameraSample* start, uint step) {
     const uint model = scene->materials[hit->material].model;
-    if (is_emitter(scene, hit) || (model < NEARLIGHT_BSDF_MASK && model != NEARLIGHT_BSDF_NULL)) {
+    if ((model < NEARLIGHT_BSDF_MASK && model != NEARLIGHT_BSDF_NULL) ||
+        max_component(emitted_radiance(scene, hit, start->ray.direction)) > 0.0f) {
         return false;
     }
     const float u = to_unit_float(surface_random(start->key, step).x);

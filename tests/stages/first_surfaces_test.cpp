@@ -149,6 +149,46 @@ TEST_F(FirstSurfacesTest, HolesOfMasksLetSamplesThrough) {
     });
 }
 
+/// A mask like a chessboard, whose light is `emission`, before a wall; its front or its back is seen.
+Scene shining_mask(const Parameter& opacity, const Parameter& emission, bool is_front) {
+    Scene scene;
+    SceneTexture checkerboard;
+    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
+    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
+    checkerboard.parameters.color0 = parameter_of(1.0f);
+    checkerboard.parameters.color1 = parameter_of(0.0f);
+    scene.textures.push_back(checkerboard);
+    const uint grey = add_material(scene, lambertian({0.5f, 0.5f, 0.5f}));
+    Material mask = mask_material(opacity, grey);
+    mask.emission = emission;
+    const Vec3 up{0, 18, 0}, across{18, 0, 0};
+    add_quad(scene, {-9, -9, 4}, up, across, grey);
+    add_quad(scene, {-9, -9, 3}, is_front ? up : across, is_front ? across : up, add_material(scene, mask));
+    for (Vertex& vertex : scene.vertices) {
+        vertex.u = vertex.position.x;
+        vertex.v = vertex.position.y;
+    }
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, 60);
+    return scene;
+}
+
+TEST_F(FirstSurfacesTest, MasksAreSeenInTheirHolesOnlyWhereTheyShine) {
+    const Parameter dark = parameter_of(0.0f), light = parameter_of(2.0f);
+    const Parameter half = parameter_of(0.5f), chequered = textured(0);
+    on_each_ray_tree([&](Device& device) {
+        const auto seen = [&](const Parameter& opacity, const Parameter& emission, bool is_front) {
+            return see(device, shining_mask(opacity, emission, is_front), whole_picture(4));
+        };
+        const std::vector<uint> holes = seen(chequered, dark, true);
+        EXPECT_GT(std::ranges::count_if(holes, [](uint triangle) { return triangle < 2; }), 100);
+        EXPECT_GT(std::ranges::count_if(holes, [](uint triangle) { return triangle >= 2; }), 100);
+        EXPECT_EQ(seen(chequered, chequered, true), holes) << "the holes do not shine";
+        EXPECT_EQ(seen(half, light, false), seen(half, dark, false)) << "only the front shines";
+        EXPECT_EQ(std::ranges::count_if(seen(half, light, true), [](uint triangle) { return triangle < 2; }),
+                  0);
+    });
+}
+
 TEST_F(FirstSurfacesTest, EmittersAreSeenUnlessTheyAreHidden) {
     Scene scene = boards();
     Material lamp = lambertian({0, 0, 0});
