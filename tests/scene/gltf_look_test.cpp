@@ -89,6 +89,28 @@ TEST_F(GltfLook, AnisotropyStretchesReflectionsAlongU) {
     expect_note(turned, "KHR_materials_anisotropy is left out");
 }
 
+TEST_F(GltfLook, AnisotropyDoesNotFrostGlass) {
+    gltf_.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 0.25}};
+    extension("KHR_materials_volume") = {{"thicknessFactor", 1}};
+    extension("KHR_materials_anisotropy") = {{"anisotropyStrength", 0.5}};
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+    const Scene glass = load();
+    EXPECT_FLOAT_EQ(top_material(glass).roughness.value.x, 0.0625f);
+    expect_note(glass, "KHR_materials_anisotropy is left out of glass");
+    extension("KHR_materials_transmission")["transmissionFactor"] = 0.5;
+    const Scene blend = load();
+    const Material top = top_material(blend);
+    ASSERT_EQ(top.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_FLOAT_EQ(blend.materials.at(top.child[1]).roughness.value.x, 0.0625f);
+    Material opaque = blend.materials.at(top.child[0]);
+    while (opaque.model >= NEARLIGHT_BSDF_MASK) {
+        opaque = blend.materials.at(opaque.child[0]);
+    }
+    EXPECT_NEAR(alphas_of(opaque)[0], 0.0625 + 0.9375 * 0.25, 1e-6);
+    EXPECT_NEAR(alphas_of(opaque)[1], 0.0625, 1e-6);
+    expect_note(blend, "KHR_materials_anisotropy is left out of glass");
+}
+
 TEST_F(GltfLook, UnlitSurfacesShineWithTheirColour) {
     gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}};
     extension("KHR_materials_unlit") = json::object();

@@ -54,7 +54,7 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     Material material = principled_material(scene_, surface.index);
     material.reflectance = surface.color;
     material.metallic = surface.metallic;
-    material.roughness = surface.roughness;
+    material.roughness = surface.stretched_roughness;
     material.clearcoat = surface.clearcoat;
     material.clearcoat_gloss = parameter_of(clearcoat_gloss(surface.clearcoat_roughness));
     material.sheen = surface.sheen;
@@ -111,9 +111,8 @@ uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& us
     const SurfaceContext context{file_,          textures_,     notes_, texture_sets(use.index),
                                  use.has_colors, use.has_alphas};
     const SurfaceModel surface = read_surface(source, context);
-    const bool is_glass = surface.transmission.texture < 0 && surface.transmission.value.x >= 1.0f;
-    uint made = is_glass ? add_glass(surface) : add_opaque(surface);
-    if (surface.transmits() && !is_glass) {
+    uint made = surface.is_glass() ? add_glass(surface) : add_opaque(surface);
+    if (surface.transmits() && !surface.is_glass()) {
         made = add(blend_material(surface.transmission, made, add_glass(surface)));
     }
     if (has_normal_map(use.index) && !surface.is_unlit) {

@@ -203,7 +203,14 @@ void read_anisotropy(const tinygltf::Material& source, const SurfaceContext& con
     constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
     const double strength =
         std::clamp(number_of(source.extensions, kAnisotropy, "anisotropyStrength", 0), 0.0, 1.0);
+    surface.stretched_roughness = surface.roughness;
     if (strength == 0.0) {
+        return;
+    }
+    if (surface.transmits()) {
+        context.approximate(std::string(kAnisotropy) + " is left out of glass");
+    }
+    if (surface.is_glass()) {
         return;
     }
     const double turn = number_of(source.extensions, kAnisotropy, "anisotropyRotation", 0);
@@ -222,9 +229,9 @@ void read_anisotropy(const tinygltf::Material& source, const SurfaceContext& con
     }
     surface.anisotropic = static_cast<float>(std::min(anisotropic, 1.0));
     if (surface.roughness.texture >= 0) {
-        surface.roughness.value *= static_cast<float>(std::pow(along / across, 0.25));
+        surface.stretched_roughness.value *= static_cast<float>(std::pow(along / across, 0.25));
     } else {
-        surface.roughness = parameter_of(static_cast<float>(std::pow(along * across, 0.25)));
+        surface.stretched_roughness = parameter_of(static_cast<float>(std::pow(along * across, 0.25)));
     }
 }
 
@@ -235,7 +242,6 @@ void read_metallic_roughness(const tinygltf::Material& source, const SurfaceCont
                                                     {.channel = 2}, context.sets);
     surface.roughness = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.roughnessFactor),
                                                      {.channel = 1}, context.sets);
-    read_anisotropy(source, context, surface);
     read_reflections(source, context, surface);
 }
 
@@ -332,6 +338,7 @@ SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext
         read_metallic_roughness(source, context, surface);
     }
     read_glass(source, context, surface);
+    read_anisotropy(source, context, surface);
     read_layers(source, context, surface);
     return surface;
 }

@@ -21,7 +21,9 @@ struct SurfaceModel {
     Parameter sheen = parameter_of(0.0f);
     double index = kUsualIndex;
     double clearcoat_roughness = 0;
-    float anisotropic = 0;     ///< of the principled model, along u
+    float anisotropic = 0;  ///< of the principled model, along u
+    /// The roughness with which that model makes the stretched reflections.
+    Parameter stretched_roughness = parameter_of(1.0f);
     Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
     bool is_thin = true;
     bool reflects = true;
@@ -30,6 +32,8 @@ struct SurfaceModel {
     /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
     [[nodiscard]] bool is_diffuse() const;
     [[nodiscard]] bool transmits() const { return transmission.value.x > 0.0f; }
+    /// Whether none of it is opaque.
+    [[nodiscard]] bool is_glass() const { return transmission.texture < 0 && transmission.value.x >= 1.0f; }
 };
 
 /// What the reader of a material works with.
