@@ -46,6 +46,11 @@ double norm(std::array<double, 3> v) {
     return std::hypot(v[0], v[1], v[2]);
 }
 
+std::array<double, 3> unit(const std::array<double, 3>& v) {
+    const double length = norm(v);
+    return {v[0] / length, v[1] / length, v[2] / length};
+}
+
 [[noreturn]] void refuse_pose(const std::string& reason) {
     throw Error(ErrorKind::invalid_argument, "the camera cannot be placed: " + reason, "camera");
 }
@@ -62,20 +67,36 @@ std::array<double, 3> doubles(nearlight::Vec3 v) {
 
 }  // namespace
 
-CameraPose pose_of(const SceneCamera& camera) {
-    const auto vector = [](std::array<double, 3> v) {
-        return nearlight::Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-    };
-    const auto unit = [](std::array<double, 3> v) {
-        const double length = norm(v);
-        return std::array<double, 3>{v[0] / length, v[1] / length, v[2] / length};
-    };
+SceneCamera with_field_of_view(SceneCamera camera, double fov_x_degrees) {
+    if (!(fov_x_degrees > 0.0 && fov_x_degrees < 180.0)) {
+        refuse_pose("its field of view is " + std::to_string(fov_x_degrees) +
+                    " degrees; it must be between 0 and 180");
+    }
+    for (int axis = 0; camera.kind == CameraKind::orthographic && axis < 3; ++axis) {
+        const std::array<double, 3> direction = unit(column(camera.to_world, axis));
+        for (int row = 0; row < 3; ++row) {
+            camera.to_world(row, axis) = direction[static_cast<std::size_t>(row)];
+        }
+    }
+    camera.kind = CameraKind::perspective;
+    camera.fov_x_degrees = fov_x_degrees;
+    return camera;
+}
+
+ExactPose exact_pose_of(const SceneCamera& camera) {
     const std::array<double, 3> origin = column(camera.to_world, 3);
     const std::array<double, 3> forward = unit(column(camera.to_world, 2));
-    CameraPose pose{
-        .origin = vector(origin),
-        .target = vector({origin[0] + forward[0], origin[1] + forward[1], origin[2] + forward[2]}),
-        .up = vector(unit(column(camera.to_world, 1)))};
+    return {.origin = origin,
+            .target = {origin[0] + forward[0], origin[1] + forward[1], origin[2] + forward[2]},
+            .up = unit(column(camera.to_world, 1))};
+}
+
+CameraPose pose_of(const SceneCamera& camera) {
+    const auto vector = [](const std::array<double, 3>& v) {
+        return nearlight::Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    };
+    const ExactPose exact = exact_pose_of(camera);
+    CameraPose pose{.origin = vector(exact.origin), .target = vector(exact.target), .up = vector(exact.up)};
     if (camera.kind == CameraKind::perspective) {
         pose.fov_x_degrees = camera.fov_x_degrees;
     }
@@ -83,23 +104,28 @@ CameraPose pose_of(const SceneCamera& camera) {
 }
 
 SceneCamera posed(SceneCamera camera, const CameraPose& pose) {
-    const std::array<double, 3> origin = doubles(pose.origin);
-    const std::array<double, 3> target = doubles(pose.target);
-    const std::array<double, 3> up = pose.up ? doubles(*pose.up) : column(camera.to_world, 1);
-    refuse_not_finite(origin, "origin");
-    refuse_not_finite(target, "target");
-    refuse_not_finite(up, "vector `up`");
-    const Mat4 frame = look_at(origin, target, up);
+    if (pose.fov_x_degrees) {
+        camera = with_field_of_view(camera, *pose.fov_x_degrees);
+    }
+    return posed(camera, {.origin = doubles(pose.origin),
+                          .target = doubles(pose.target),
+                          .up = pose.up ? doubles(*pose.up) : column(camera.to_world, 1)});
+}
+
+SceneCamera posed(SceneCamera camera, const ExactPose& pose) {
+    refuse_not_finite(pose.origin, "origin");
+    refuse_not_finite(pose.target, "target");
+    refuse_not_finite(pose.up, "vector `up`");
+    const Mat4 frame = look_at(pose.origin, pose.target, pose.up);
     if (!(norm(column(frame, 2)) > 0.5)) {
         refuse_pose("its target is its origin");
     }
     if (!(norm(column(frame, 0)) > 0.5)) {
         refuse_pose("it looks along its vector `up`; give another one");
     }
-    const bool loses_scale = pose.fov_x_degrees && camera.kind == CameraKind::orthographic;
     const double side = linear_determinant(camera.to_world) < 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double length = loses_scale ? 1.0 : norm(column(camera.to_world, axis));
+        const double length = norm(column(camera.to_world, axis));
         const double scale = axis == 0 ? side * length : length;
         for (int row = 0; row < 3; ++row) {
             camera.to_world(row, axis) = frame(row, axis) * scale;
@@ -107,14 +133,6 @@ SceneCamera posed(SceneCamera camera, const CameraPose& pose) {
     }
     for (int row = 0; row < 3; ++row) {
         camera.to_world(row, 3) = frame(row, 3);
-    }
-    if (pose.fov_x_degrees) {
-        if (!(*pose.fov_x_degrees > 0.0 && *pose.fov_x_degrees < 180.0)) {
-            refuse_pose("its field of view is " + std::to_string(*pose.fov_x_degrees) +
-                        " degrees; it must be between 0 and 180");
-        }
-        camera.kind = CameraKind::perspective;
-        camera.fov_x_degrees = *pose.fov_x_degrees;
     }
     return camera;
 }

@@ -2,6 +2,7 @@
 // Converts the scene's camera to the struct that ray generation uses.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "host/scene/scene.h"
@@ -26,12 +27,28 @@ PictureWindow picture_window(const SceneCamera& camera, int width, int height);
 /// or a field of view that is not between 0 and 180 degrees.
 Camera make_camera(const SceneCamera& camera, int width, int height);
 
+/// The camera with this horizontal field of view of its film, as a perspective one, which keeps no scale.
+/// Throws Error(ErrorKind::invalid_argument) if it is not between 0 and 180 degrees.
+SceneCamera with_field_of_view(SceneCamera camera, double fov_x_degrees);
+
+/// Where a camera stands and looks, to more digits than a CameraPose has: far from the origin, directions
+/// between points need them.
+struct ExactPose {
+    std::array<double, 3> origin{};  ///< m
+    std::array<double, 3> target{};  ///< a point in the middle of the film, m
+    std::array<double, 3> up{};
+};
+
+/// Where the camera stands and looks: a target at the distance 1.
+ExactPose exact_pose_of(const SceneCamera& camera);
 /// Where the camera stands and looks: a target at the distance 1, and a field of view if it is perspective.
 CameraPose pose_of(const SceneCamera& camera);
 /// Moves the camera and keeps the rest: film, lens and clips, whether it mirrors, and the scale of an
-/// orthographic one. Throws Error(ErrorKind::invalid_argument) if a number is not finite, if the target lies at
-/// the origin or in the direction of `up` from there, or if the field of view is not between 0 and 180 degrees.
+/// orthographic one. Throws Error(ErrorKind::invalid_argument) if a number is not finite, if the target lies
+/// at the origin or in the direction of `up` from there, or if the field of view is not between 0 and 180
+/// degrees.
 SceneCamera posed(SceneCamera camera, const CameraPose& pose);
+SceneCamera posed(SceneCamera camera, const ExactPose& pose);
 
 /// The ray through the centre of a pixel, and of the lens; the direction has unit length.
 RayQuery pixel_ray(const Camera& camera, uint x, uint y);

@@ -40,50 +40,41 @@ void check(const SceneOverrides& overrides) {
     }
 }
 
-nearlight::Vec3 public_vector(const std::array<double, 3>& v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 /// The axis of the world that is nearest to the camera's up, unless the pose looks along it.
-nearlight::Vec3 upward_axis(const SceneCamera& camera, const CameraPose& pose) {
-    const std::array<float, 3> view{pose.target.x - pose.origin.x, pose.target.y - pose.origin.y,
-                                    pose.target.z - pose.origin.z};
+std::array<double, 3> upward_axis(const SceneCamera& camera, const ExactPose& pose) {
+    const std::array<double, 3> view{pose.target[0] - pose.origin[0], pose.target[1] - pose.origin[1],
+                                     pose.target[2] - pose.origin[2]};
     int up = 1;
     for (int axis = 0; axis < 3; ++axis) {
         up = std::abs(camera.to_world(axis, 1)) > std::abs(camera.to_world(up, 1)) + 1e-6 ? axis : up;
     }
     const double sign = camera.to_world(up, 1) < 0 ? -1 : 1;
-    if (std::abs(view[static_cast<std::size_t>(up)]) > 0.9999f * std::hypot(view[0], view[1], view[2])) {
+    if (std::abs(view[static_cast<std::size_t>(up)]) > 0.9999 * std::hypot(view[0], view[1], view[2])) {
         up = up == 2 ? 1 : 2;  // straight up or down
     }
     std::array<double, 3> axis{0, 0, 0};
     axis[static_cast<std::size_t>(up)] = sign;
-    return public_vector(axis);
+    return axis;
 }
 
 void apply_camera(Scene& scene, const SceneOverrides& overrides) {
-    const bool turns = overrides.origin || overrides.target || overrides.up;
-    if (!turns && !overrides.fov_degrees) {
-        return;
-    }
-    CameraPose pose = pose_of(scene.camera);
-    pose.fov_x_degrees = overrides.fov_degrees;
-    if (overrides.origin) {
-        const Vec3 middle = bounds(scene).center();
-        pose.origin = public_vector(*overrides.origin);
-        pose.target = {middle.x, middle.y, middle.z};
-    }
-    if (overrides.target) {
-        pose.target = public_vector(*overrides.target);
-    }
-    if (turns) {
-        pose.up = overrides.up ? public_vector(*overrides.up) : upward_axis(scene.camera, pose);
-    }
-    scene.camera = posed(scene.camera, pose);
     if (overrides.fov_degrees) {  // that of the picture, whatever part of the film it was
+        scene.camera = with_field_of_view(scene.camera, *overrides.fov_degrees);
         scene.camera.center_x = scene.camera.center_y = 0.0;
         scene.camera.film_part = 1.0;
     }
+    if (!overrides.origin && !overrides.target && !overrides.up) {
+        return;
+    }
+    ExactPose pose = exact_pose_of(scene.camera);
+    if (overrides.origin) {
+        const Vec3 middle = bounds(scene).center();
+        pose.origin = *overrides.origin;
+        pose.target = {double{middle.x}, double{middle.y}, double{middle.z}};
+    }
+    pose.target = overrides.target.value_or(pose.target);
+    pose.up = overrides.up.value_or(upward_axis(scene.camera, pose));
+    scene.camera = posed(scene.camera, pose);
 }
 
 /// The colour that the text names as R,G,B, as one number, or as #rrggbb.

@@ -63,6 +63,32 @@ TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
     EXPECT_EQ(load({.fov_degrees = 179.95}).camera.fov_x_degrees, 179.95);
 }
 
+TEST_F(Overrides, TurnNoCameraFarAwayThatOnlyGetsAnotherLens) {
+    const auto frame = [&](const SceneOverrides& overrides) {
+        LoadOptions options;
+        options.overrides = overrides;
+        return files_
+            .load_xml(
+                "<shape type='rectangle'/><sensor type='perspective'><transform name='to_world'>"
+                "<lookat origin='100000,3,-100000' target='100000.3,3.2,-100000.7' up='0,1,0'/>"
+                "</transform></sensor>",
+                options)
+            .camera.to_world;
+    };
+    const Mat4 own = frame({});
+    const Mat4 wide = frame({.fov_degrees = 80});
+    const Mat4 turned = frame({.up = std::array{0.0, 1.0, 0.0}});
+    const Mat4 moved = frame(
+        {.origin = std::array{100000.0, 3.0, -100000.0}, .target = std::array{100000.3, 3.2, -100000.7}});
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            EXPECT_EQ(wide(row, column), own(row, column));
+            EXPECT_NEAR(turned(row, column), own(row, column), 1e-9);
+            EXPECT_NEAR(moved(row, column), own(row, column), 1e-9);
+        }
+    }
+}
+
 /// The scale of an orthographic camera is half the width of what it sees, of which a lens knows nothing.
 TEST_F(Overrides, OrthographicCamerasStaySoWithoutAFieldOfView) {
     const auto camera = [&](const SceneOverrides& overrides) {
