@@ -92,9 +92,7 @@ void add_default_camera(Scene& scene, NoteSink& notes) {
 }
 
 void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes) {
-    const bool is_lit = scene.environment.width > 0 || !scene.delta_emitters.empty() ||
-                        (surfaces_are_lamps && has_emitting_surface(scene));
-    if (!is_lit) {
+    if (!has_light(scene, surfaces_are_lamps)) {
         scene.environment = neutral_sky();
         notes.remark(scene.source, 0, "the file has no light; a neutral sky is added");
     }

@@ -44,11 +44,13 @@ Vec3 interpolated_radiance(const MapShape& map, Vec3 local, const RadianceOf& ra
     const double left = std::floor(x);
     const double top = std::min(std::floor(y), std::max(height - 2.0, 0.0));
     Vec3 sum{0, 0, 0};
-    for (const double column : {left, left + 1.0}) {
-        for (const double row : {top, std::min(top + 1.0, height - 1.0)}) {
-            const double weight_x = column == left ? 1.0 - (x - left) : x - left;
-            const double weight_y = row == top ? 1.0 - (y - top) : y - top;
+    for (const double right : {0.0, 1.0}) {
+        for (const double below : {0.0, 1.0}) {
+            const double weight_x = right > 0.0 ? x - left : 1.0 - (x - left);
+            const double weight_y = below > 0.0 ? y - top : 1.0 - (y - top);
+            const double column = left + right;
             const double wrapped = column < 0.0 ? width - 1.0 : (column >= width ? 0.0 : column);
+            const double row = std::min(top + below, height - 1.0);
             sum += radiance_of(MapPixel{static_cast<uint>(wrapped), static_cast<uint>(row)}) *
                    static_cast<float>(weight_x * weight_y);
         }

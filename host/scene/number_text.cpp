@@ -4,16 +4,37 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <locale>
+#include <sstream>
 
 #include "host/scene/texture.h"
 
 namespace nearlight::core {
 
+namespace {
+
+/// What is nearest to a number that no double has, in the form that from_chars() takes: zero or infinity.
+double beyond_doubles(const std::string& text) {
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    double value = 0.0;
+    stream >> value;
+    return std::abs(value) < 1.0 ? 0.0 : std::copysign(HUGE_VAL, value);
+}
+
+}  // namespace
+
 std::optional<double> number_in(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n+");
+    std::size_t first = text.find_first_not_of(" \t\r\n");
     const std::size_t last = text.find_last_not_of(" \t\r\n");
     if (first == std::string::npos) {
         return std::nullopt;
+    }
+    if (text[first] == '+') {
+        ++first;
+        if (text[first] == '-') {
+            return std::nullopt;
+        }
     }
     double value = 0.0;
     const char* const end = text.data() + last + 1;
@@ -22,9 +43,7 @@ std::optional<double> number_in(const std::string& text) {
         return std::nullopt;
     }
     if (error == std::errc::result_out_of_range) {
-        const std::size_t exponent = text.find_first_of("eE");
-        const bool is_tiny = exponent != std::string::npos && text.find('-', exponent) != std::string::npos;
-        return is_tiny ? 0.0 : HUGE_VAL;
+        return beyond_doubles(text.substr(first, last + 1 - first));
     }
     return error == std::errc() ? std::optional(value) : std::nullopt;
 }

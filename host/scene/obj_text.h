@@ -70,10 +70,13 @@ inline std::unordered_map<std::string, TextLine> lines_by_value(std::string_view
 }
 
 /// The number of the line `word … value` in the block that begins at `first` and goes on to the next line
-/// with the word that `first` has; 0 if there is none. Blocks are short, so that all searches in a file read
-/// it about once.
+/// with the word that `first` has; 0 if there is none, or no such block. Blocks are short, so that all
+/// searches in a file read it about once.
 inline int find_in_block(std::string_view text, TextLine first, std::string_view block, std::string_view word,
                          std::string_view value) {
+    if (first.number == 0) {
+        return 0;
+    }
     int found = 0;
     for_each_line(text.substr(first.begin), [&](int number, std::string_view line) {
         if (starts_with_word(line, word) && line.find(value) != std::string_view::npos) {

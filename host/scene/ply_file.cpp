@@ -165,7 +165,7 @@ void PlyReader::skip(const PlyProperty& property) {
 
 void PlyReader::check_size_of(const PlyElement& element) const {
     // Each row has a property that takes at least one byte, so larger counts are of a broken header.
-    if (element.properties.empty() || element.count > data_.size()) {
+    if (element.count > (element.properties.empty() ? 0 : data_.size())) {
         fail_ply(file_, "PLY file is truncated, or its header is broken: it promises " +
                             std::to_string(element.count) + " times '" + element.name + "'");
     }

@@ -50,6 +50,11 @@ bool has_emitting_surface(const Scene& scene) {
     });
 }
 
+bool has_light(const Scene& scene, bool surfaces_are_lamps) {
+    return scene.environment.width > 0 || !scene.delta_emitters.empty() ||
+           (surfaces_are_lamps && has_emitting_surface(scene));
+}
+
 float triangle_area(const Scene& scene, const Triangle& triangle) {
     const Vec3 v0 = scene.vertices[triangle.v0].position;
     const Vec3 a = scene.vertices[triangle.v1].position - v0;

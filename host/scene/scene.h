@@ -146,6 +146,8 @@ struct Sphere {
 Sphere bounding_sphere(const Scene& scene);
 /// Whether a triangle shines.
 bool has_emitting_surface(const Scene& scene);
+/// Whether anything shines. Surfaces count only if `surfaces_are_lamps` is set.
+bool has_light(const Scene& scene, bool surfaces_are_lamps = true);
 /// The area of a triangle, m².
 float triangle_area(const Scene& scene, const Triangle& triangle);
 /// A hash of everything that shapes the picture; equal scenes have equal hashes on all little-endian

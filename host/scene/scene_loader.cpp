@@ -52,10 +52,6 @@ void finish_second_uvs(Scene& scene) {
     }
 }
 
-bool has_light(const Scene& scene) {
-    return scene.environment.width > 0 || !scene.delta_emitters.empty() || has_emitting_surface(scene);
-}
-
 // Adds remarks for scenes that are odd, although their black picture is correct.
 void remark_emptiness(const Scene& scene, NoteSink& notes) {
     if (scene.triangles.empty()) {

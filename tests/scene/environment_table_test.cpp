@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "host/scene/environment_map.h"
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
@@ -141,6 +143,22 @@ TEST(EnvironmentTable, PixelsAndFrame) {
     const float* m = table.parameters.world_to_local;  // takes world +X to local +Z
     EXPECT_NEAR(m[0], 0.0f, 1e-6f);
     EXPECT_NEAR(m[6], 1.0f, 1e-6f);
+}
+
+TEST(EnvironmentMap, OfFewPixelsHasTheirRadiance) {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {4u, 1u}, {1u, 3u}, {4u, 3u}}) {
+        const MapShape shape{.width = width, .height = height, .is_interpolated = true};
+        for (const Vec3 direction :
+             {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0.6f, 0, -0.8f}, Vec3{0.6f, 0.8f, 0}}) {
+            const Vec3 radiance = map_radiance(shape, direction, [&](const MapPixel& pixel) {
+                EXPECT_LT(pixel.column, width);
+                EXPECT_LT(pixel.row, height);
+                return Vec3{1, 2, 3};
+            });
+            EXPECT_NEAR(radiance.x, 1.0f, 1e-6f) << width << "x" << height;
+            EXPECT_NEAR(radiance.z, 3.0f, 3e-6f) << width << "x" << height;
+        }
+    }
 }
 
 TEST(EnvironmentTable, WithoutEnvironmentThereIsOneBlackPixel) {

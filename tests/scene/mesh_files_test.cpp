@@ -4,6 +4,7 @@
 
 #include "host/scene/mesh.h"
 #include "host/scene/obj_loader.h"
+#include "host/scene/obj_text.h"
 #include "host/scene/ply_loader.h"
 #include "tests/scene/scene_files.h"
 
@@ -56,6 +57,15 @@ TEST(Ply, ReadsAsciiAndBothByteOrders) {
                                           "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n")));
     expect_square(read_ply(files.write("l.ply", binary_ply(false))));
     expect_square(read_ply(files.write("b.ply", binary_ply(true))));
+}
+
+TEST(Ply, MayHaveElementsThatSayNothing) {
+    const SceneFiles files;
+    const std::string start = "ply\nformat ascii 1.0\n";
+    const std::string rest = kPlyHeader + "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n";
+    expect_square(read_ply(files.write("a.ply", start + "element foo 0\n" + rest)));
+    const auto file = files.write("b.ply", start + "element foo 1\n" + rest);
+    EXPECT_TRUE(mentions(file_error([&] { read_ply(file); }), "1 times 'foo'"));
 }
 
 TEST(Ply, EveryTruncationIsAnError) {
@@ -235,6 +245,17 @@ TEST(Obj, LinesOfWhatIsLeftOut) {
     EXPECT_EQ(line_of("gone.mtl"), 2);
     EXPECT_EQ(line_of("'d' is not defined"), 11);
     EXPECT_EQ(line_of("no.png"), 5);
+}
+
+TEST(Obj, LinesOfABlockThatIsNotThere) {
+    const std::string text = "newmtl a\nillum 2\nnewmtl b\nillum 4\n";
+    const auto line = [&](const TextLine& first, const std::string& value) {
+        return find_in_block(text, first, "newmtl", "illum", value);
+    };
+    const auto blocks = lines_by_value(text, "newmtl");
+    EXPECT_EQ(line(blocks.at("b"), "4"), 4);
+    EXPECT_EQ(line(blocks.at("a"), "4"), 0) << "it is in the next block";
+    EXPECT_EQ(line({}, "2"), 0);
 }
 
 TEST(Mesh, SmoothNormalsAreWeightedByAngle) {

@@ -16,9 +16,13 @@ TEST(NumberText, NumbersAreTheWholeText) {
     EXPECT_EQ(number_in("-0.25"), -0.25);
     EXPECT_EQ(number_in("1e-999"), 0.0);
     EXPECT_EQ(number_in("1e999"), HUGE_VAL);
+    EXPECT_EQ(number_in("-1e999"), -HUGE_VAL);
+    EXPECT_EQ(number_in("0." + std::string(330, '0') + "1"), 0.0);
+    EXPECT_EQ(number_in("-" + std::string(330, '9')), -HUGE_VAL);
+    EXPECT_EQ(number_in(std::string(400, '9') + "e-9"), HUGE_VAL);
     EXPECT_EQ(number_in("inf"), HUGE_VAL);
     EXPECT_TRUE(std::isnan(number_in("nan").value_or(0)));
-    for (const char* text : {"", " ", "+", "1x", "x1", "1 2", "1,2", "0x10"}) {
+    for (const char* text : {"", " ", "+", "++5", "+-5", "-+5", "+ 5", "1x", "x1", "1 2", "1,2", "0x10"}) {
         EXPECT_FALSE(number_in(text)) << text;
     }
 }
