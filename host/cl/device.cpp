@@ -111,8 +111,12 @@ void Device::finish() {
 }
 
 void Device::add_allocated(std::size_t bytes) {
-    allocated_bytes_ += bytes;
-    peak_bytes_ = std::max(peak_bytes_, allocated_bytes_);
+    const std::size_t allocated = allocated_bytes_ += bytes;
+    for (std::size_t peak = peak_bytes_; peak < allocated;) {
+        if (peak_bytes_.compare_exchange_weak(peak, allocated)) {
+            return;
+        }
+    }
 }
 
 }  // namespace nearlight::core

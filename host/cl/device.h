@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <atomic>
 #include <filesystem>
 #include <future>
 #include <map>
@@ -73,7 +74,8 @@ class Device {
     /// Waits for all enqueued work. Throws errors of that work too.
     void finish();
 
-    /// Counts the bytes of a new Buffer, and keeps the maximum for peak_bytes().
+    /// Counts the bytes of a new Buffer, and keeps the maximum for peak_bytes(). Buffers may end in any
+    /// thread, so all three are for several threads at a time.
     void add_allocated(std::size_t bytes);
     void remove_allocated(std::size_t bytes) { allocated_bytes_ -= bytes; }
     /// The maximum total size of all live Buffers so far, in bytes.
@@ -87,8 +89,8 @@ class Device {
     cl::CommandQueue queue_;
     Profiler profiler_;
     std::map<std::string, std::shared_future<cl::Program>> programs_;  ///< by their keys, for start_build()
-    std::size_t allocated_bytes_ = 0;
-    std::size_t peak_bytes_ = 0;
+    std::atomic<std::size_t> allocated_bytes_ = 0;
+    std::atomic<std::size_t> peak_bytes_ = 0;
 };
 
 /// Opens one or more devices, which share options.compiler, or a new one if that is null. Devices that do not

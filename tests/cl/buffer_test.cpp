@@ -110,6 +110,28 @@ TEST_F(BufferTest, MovingHandsOverTheMemoryAndItsAccount) {
     });
 }
 
+TEST_F(BufferTest, CountsMemoryThatEndsInOtherThreads) {
+    on_each_device([](Device& device) {
+        const std::size_t before = device.peak_bytes();
+        {
+            std::vector<std::jthread> threads;
+            for (int i = 0; i < 4; ++i) {
+                threads.emplace_back([&] {
+                    for (int round = 0; round < 50'000; ++round) {
+                        device.add_allocated(1);
+                        device.remove_allocated(1);
+                    }
+                });
+            }
+        }
+        EXPECT_LE(device.peak_bytes(), before + 4);
+        const std::size_t more = before + 1000;
+        device.add_allocated(more);
+        EXPECT_EQ(device.peak_bytes(), more) << "all that was added is gone";
+        device.remove_allocated(more);
+    });
+}
+
 TEST_F(BufferTest, LivesOnForKernelsThatWaitToRun) {
     on_each_device([](Device& shared) {
         test::KernelProbe add(shared,

@@ -112,11 +112,7 @@ ProgramBinary compile_here(const DeviceList& list, const ProgramRequest& request
         if (!device) {
             return {};
         }
-        const auto [context, is_new] = contexts.try_emplace((*device)());
-        if (is_new) {
-            context->second = cl::Context(*device);
-        }
-        const cl::Program program(context->second, request.source);
+        const cl::Program program(context_of(*device, contexts), request.source);
         program.build({*device}, request.options.c_str());
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
         return binaries.empty() ? ProgramBinary() : binaries.front();

@@ -126,14 +126,12 @@ bool is_about_the_source(cl_int code) {
 }
 
 cl::Program from_source(const ProgramRequest& request, const cl::Context& context) {
-    const std::string subject = subject_of(request);
-    const cl::Program program =
-        with_opencl_errors(subject, [&] { return cl::Program(context, request.source); });
+    const cl::Program program(context, request.source);
     try {
         build(program, request.entry, request.options);
     } catch (const cl::Error& error) {
         if (!is_about_the_source(error.err())) {
-            throw make_opencl_error(error, subject);
+            throw;
         }
         throw make_build_error(program, request, error.err());
     }
@@ -141,15 +139,8 @@ cl::Program from_source(const ProgramRequest& request, const cl::Context& contex
 }
 
 cl::Context compile_context(const ProgramRequest& request, CompileContexts& contexts) {
-    if (request.entry.kind != DeviceKind::cpu) {
-        return request.context;
-    }
-    const auto [found, is_new] = contexts.try_emplace(request.entry.handle());
-    if (is_new) {
-        found->second =
-            with_opencl_errors(subject_of(request), [&] { return cl::Context(request.entry.handle); });
-    }
-    return found->second;
+    return request.entry.kind == DeviceKind::cpu ? context_of(request.entry.handle, contexts)
+                                                 : request.context;
 }
 
 /// A compiled program in request.context, and its binary.
@@ -216,6 +207,12 @@ cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& cont
 std::string ProgramRequest::key() const {
     return entry.platform + "\n" + entry.name + "\n" + entry.version + "\n" + entry.driver + "\n" + options +
            "\n" + hex_digits(hash128(source)) + "\n" + std::to_string(source.size());
+}
+
+cl::Context context_of(const cl::Device& device, CompileContexts& contexts) {
+    const auto found = contexts.find(device());
+    return found != contexts.end() ? found->second
+                                   : contexts.emplace(device(), cl::Context(device)).first->second;
 }
 
 cl::Program build_program(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {

@@ -28,6 +28,10 @@ struct ProgramRequest {
 /// The contexts that one compiling thread uses, by device. They are made when they are first needed.
 using CompileContexts = std::map<cl_device_id, cl::Context>;
 
+/// The context of a device, which is new if `contexts` have none of it yet. Throws cl::Error, and leaves them
+/// as they were.
+cl::Context context_of(const cl::Device& device, CompileContexts& contexts);
+
 using ProgramBinary = std::vector<unsigned char>;
 
 class CompileWorker;

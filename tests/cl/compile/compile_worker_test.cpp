@@ -156,5 +156,13 @@ TEST_F(CompileWorkerTest, AProgramNobodyWaitsForDoesNotDelayTheEnd) {
     EXPECT_THROW(built.get(), std::exception) << "stopped, or never begun";
 }
 
+TEST(CompileContexts, KeepNoneThatCouldNotBeMade) {
+    CompileContexts contexts;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        EXPECT_THROW(context_of(cl::Device(), contexts), cl::Error);
+        EXPECT_TRUE(contexts.empty());
+    }
+}
+
 }  // namespace
 }  // namespace nearlight::core
