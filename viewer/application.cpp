@@ -130,7 +130,7 @@ void Application::take_frame() {
     dots_.reset();
     // Small pictures would replace whole ones in tev by pictures of another size.
     if (tev_ && frame_->divisor == 1) {
-        tev_->send(frame_);
+        tev_->send(with_file_layers(frame_->image));
     }
 }
 
@@ -320,9 +320,7 @@ void Application::end_if_wanted() {
     if (task_.frames == 0) {
         return;
     }
-    if (const std::string error = renderer_.error(); !error.empty()) {
-        throw Error(ErrorKind::failure, error);
-    }
+    renderer_.rethrow_error();
     if (!frame_ || frame_->samples == 0 || (frame_->samples < task_.frames && !renderer_.is_done())) {
         return;
     }

@@ -137,9 +137,7 @@ class Hand {
     /// Whether there is a new frame. Throws what the renderer could not do.
     bool take_frame() {
         renderer_.rethrow_failure();
-        if (const std::string error = renderer_.error(); !error.empty()) {
-            throw Error(ErrorKind::failure, error);
-        }
+        renderer_.rethrow_error();
         std::shared_ptr<const Frame> frame = renderer_.frame();
         const bool is_new = frame && frame != frame_;
         frame_ = std::move(frame);

@@ -111,7 +111,14 @@ void Renderer::rethrow_failure() const {
 
 std::string Renderer::error() const {
     const std::lock_guard lock(mutex_);
-    return error_;
+    return error_text_;
+}
+
+void Renderer::rethrow_error() const {
+    const std::lock_guard lock(mutex_);
+    if (error_) {
+        std::rethrow_exception(error_);
+    }
 }
 
 void Renderer::run(const Devices& devices, const std::function<Scene()>& load) {
@@ -155,7 +162,8 @@ std::optional<Renderer::Job> Renderer::next_job() {
 }
 
 void Renderer::do_job(Session& session, const Job& job) {
-    std::string error;
+    std::exception_ptr error;
+    std::string text;
     try {
         if (job.inspected) {
             const InspectionJob& at = *job.inspected;
@@ -166,13 +174,15 @@ void Renderer::do_job(Session& session, const Job& job) {
         }
         render(session, job);
     } catch (const std::exception& exception) {
-        error = exception.what();
+        error = std::current_exception();
+        text = exception.what();
     }
     const std::lock_guard lock(mutex_);
-    if (!error.empty()) {
+    if (error) {
         refinement_.give_up(job.step);
     }
     error_ = std::move(error);
+    error_text_ = std::move(text);
 }
 
 void Renderer::render(Session& session, const Job& job) {

@@ -62,6 +62,8 @@ class Renderer {
     void rethrow_failure() const;
     /// The error of the latest step, as a line; empty if it succeeded.
     [[nodiscard]] std::string error() const;
+    /// Rethrows that error, if there is one.
+    void rethrow_error() const;
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -101,7 +103,8 @@ class Renderer {
     std::shared_ptr<const Frame> frame_;
     std::shared_ptr<const Inspection> inspection_;
     std::exception_ptr failure_;
-    std::string error_;
+    std::exception_ptr error_;
+    std::string error_text_;
 
     const std::function<void()> on_news_;
     // Only the renderer's thread uses the following members.

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "viewer/channels.h"
-
 namespace nearlight::viewer {
 
 TevSender::TevSender(const std::string& address, std::string name)
@@ -12,10 +10,10 @@ TevSender::TevSender(const std::string& address, std::string name)
       name_(std::move(name)),
       thread_([this](const std::stop_token& stopping) { run(stopping); }) {}
 
-void TevSender::send(std::shared_ptr<const Frame> frame) {
+void TevSender::send(Image image) {
     {
         const std::lock_guard lock(mutex_);
-        waiting_ = std::move(frame);
+        waiting_ = std::move(image);
     }
     changed_.notify_one();
 }
@@ -27,12 +25,12 @@ std::string TevSender::error() const {
 
 void TevSender::run(const std::stop_token& stopping) {
     std::unique_lock lock(mutex_);
-    while (changed_.wait(lock, stopping, [this] { return waiting_ != nullptr; })) {
-        const std::shared_ptr<const Frame> frame = std::exchange(waiting_, nullptr);
+    while (changed_.wait(lock, stopping, [this] { return waiting_.has_value(); })) {
+        const Image image = *std::exchange(waiting_, std::nullopt);
         lock.unlock();
         std::string error;
         try {
-            link_.show(name_, with_file_layers(frame->image));
+            link_.show(name_, image);
         } catch (const std::exception& exception) {
             error = exception.what();
         }

@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends frames to the image viewer tev in a thread of its own, because the network may be slow.
+// Sends pictures to the image viewer tev in a thread of its own, because the network may be slow.
 #pragma once
 
 #include <condition_variable>
-#include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
 
+#include "nearlight/image.h"
 #include "nearlight/tev.h"
-#include "viewer/frame.h"
 
 namespace nearlight::viewer {
 
 /// All functions are for the thread that made it.
 class TevSender {
   public:
-    /// Connects to a tev at "HOST:PORT", which will show frames under this name. Throws as TevLink does.
+    /// Connects to a tev at "HOST:PORT", which will show pictures under this name. Throws as TevLink does.
     TevSender(const std::string& address, std::string name);
-    /// Sends the latest frame before it ends.
+    /// Sends the latest picture before it ends.
     ~TevSender() = default;
     TevSender(const TevSender&) = delete;
     TevSender& operator=(const TevSender&) = delete;
 
-    /// Sends the layers that files get, not smoothed. While an earlier frame is on its way, only the latest
-    /// one waits.
-    void send(std::shared_ptr<const Frame> frame);
+    /// Sends a picture. While an earlier one is on its way, only the latest one waits.
+    void send(Image image);
     /// Why nothing is sent any more; empty if all is well.
     [[nodiscard]] std::string error() const;
 
@@ -38,7 +37,7 @@ class TevSender {
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     // The mutex guards the next two.
-    std::shared_ptr<const Frame> waiting_;
+    std::optional<Image> waiting_;
     std::string error_;
     std::jthread thread_;  ///< declared last, because it uses the others
 };

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "nearlight/error.h"
+#include "tests/support/error_matchers.h"
 #include "tests/support/face_device_fixture.h"
 #include "viewer/vectors.h"
 #include "viewer/vpl_dots.h"
@@ -278,10 +279,12 @@ TEST_F(RendererTest, BadSettingsAreToldAndForgotten) {
     bad.view.camera = CameraPose{.origin = {0, 0, 1}, .target = {0, 0, 1}};
     renderer.show(bad, Change::camera);
     ASSERT_TRUE(comes_true([&] { return !renderer.error().empty(); }));
+    EXPECT_EQ(core::test::error_of([&] { renderer.rethrow_error(); }).kind(), ErrorKind::invalid_argument);
     const std::uint64_t state = renderer.frame()->state;
     renderer.show(few_samples(), Change::camera);
     ASSERT_TRUE(comes_true([&] { return renderer.frame()->state > state && renderer.is_done(); }));
     EXPECT_EQ(renderer.error(), "");
+    renderer.rethrow_error();
 }
 
 }  // namespace
