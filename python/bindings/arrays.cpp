@@ -6,14 +6,9 @@ namespace nearlight::python {
 FloatArray to_floats(const char* name, const py::object& values) {
     const py::array given = py::array::ensure(values);
     if (!given || std::string_view("fiu").find(given.dtype().kind()) == std::string_view::npos) {
-        PyErr_Clear();
         fail_type(name, "an array of real numbers", given ? py::object(given.dtype()) : values);
     }
-    auto floats = FloatArray::ensure(given);
-    if (!floats) {
-        throw py::error_already_set();
-    }
-    return floats;
+    return FloatArray(given);
 }
 
 }  // namespace nearlight::python

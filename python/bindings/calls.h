@@ -26,18 +26,25 @@ void deliver_messages();
 template <typename Work>
 auto with_messages(Work&& work) {
     using Result = std::invoke_result_t<Work>;
-    std::optional<Result> result;
-    std::exception_ptr failure;
-    try {
-        result.emplace(work());
-    } catch (...) {
-        failure = std::current_exception();
+    if constexpr (std::is_void_v<Result>) {
+        with_messages([&] {
+            work();
+            return true;
+        });
+    } else {
+        std::optional<Result> result;
+        std::exception_ptr failure;
+        try {
+            result.emplace(work());
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        deliver_messages();
+        if (failure) {
+            std::rethrow_exception(failure);
+        }
+        return std::move(*result);
     }
-    deliver_messages();
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
-    return std::move(*result);
 }
 
 /// The same without the GIL.

@@ -89,10 +89,7 @@ std::shared_ptr<PyVplSet> sample(PySession& self, const PyView& view, const py::
 
 void save_vpls(PySession& self, const PyVplSet& vpls, const py::object& file) {
     const std::filesystem::path path = to_path(file);
-    in_turn(*self.turns(), [&] {
-        self.get().save_vpls(vpls.get(), path);
-        return true;  // in_turn() needs a result
-    });
+    in_turn(*self.turns(), [&] { self.get().save_vpls(vpls.get(), path); });
 }
 
 SharedPicture gather(PySession& self, const PyView& view, const PyVplSet& vpls, const py::object& settings,
