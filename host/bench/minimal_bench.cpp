@@ -165,7 +165,7 @@ bool run_on(const DeviceEntry& entry, const Workload& work) {
                 entry.driver.c_str());
     bool good = true;
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        std::printf("gather kernel %s\n", kernel == GatherKernel::packets ? "packets" : "rays");
+        std::printf("gather kernel %s\n", to_string(kernel));
         Gatherer gatherer(device, {.kernel = kernel});
         good = check_pairs(device, work, gatherer) && good;
         time_gather(device, work, gatherer);

@@ -21,7 +21,7 @@ struct BenchGatherOptions {
     ImageSize size{512, 512};
     std::size_t vpls = 128;
     int repeats = 11;
-    std::string kernel = "all";
+    GatherKernel kernel = GatherKernel::automatic;  ///< all that there are
     bool rendered = false;
     float roulette = 0.0f;
     BvhQuality bvh = BvhQuality::quality;
@@ -36,12 +36,6 @@ GatherSegments make_segments(const BenchGatherOptions& options, Device& device) 
     const auto [width, height] = options.size;
     return options.rendered ? make_rendered_segments(device, scene, bvh, options.vpls, width, height)
                             : make_camera_segments(scene, bvh, options.vpls, width, height);
-}
-
-GatherKernel kernel_of(const std::string& name) {
-    return name == "packets" ? GatherKernel::packets
-           : name == "rays"  ? GatherKernel::rays
-                             : GatherKernel::automatic;
 }
 
 nlohmann::ordered_json to_json(const Vec3& v) {
@@ -122,9 +116,9 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
         spdlog::info("wrote {}", options.dump.string());
     }
     const Bvh bvh = build_scene_bvh(segments.geometry, {.quality = options.bvh});
-    const GatherBenchResult result = bench_gather(
-        *device, segments, bvh,
-        {.repeats = options.repeats, .kernel = kernel_of(options.kernel), .roulette = options.roulette});
+    const GatherBenchResult result =
+        bench_gather(*device, segments, bvh,
+                     {.repeats = options.repeats, .kernel = options.kernel, .roulette = options.roulette});
     if (global.json) {
         print_json(to_json(segments.geometry.name, options.bvh, result));
     } else {
@@ -156,9 +150,11 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
     command.add_option("--repeats", options->repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--kernel", options->kernel, "Gather kernels of nearlight that take part")
-        ->check(CLI::IsMember({"all", "packets", "rays"}))
-        ->capture_default_str();
+    std::map<std::string, GatherKernel> kernels{kGatherKernels.begin(), kGatherKernels.end()};
+    kernels.erase(to_string(GatherKernel::automatic));
+    kernels.emplace("all", GatherKernel::automatic);
+    add_choice(command, "--kernel", options->kernel, kernels, "Gather kernels of nearlight that take part")
+        ->default_str("all");
     command.add_flag("--rendered", options->rendered,
                      "Use the VPLs of a render instead of those of plain light walks");
     command

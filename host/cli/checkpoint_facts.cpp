@@ -6,8 +6,11 @@
 #include <tuple>
 
 #include "host/base/hash.h"
+#include "host/base/words.h"
 #include "host/bvh/bvh.h"
 #include "host/cli/log.h"
+#include "host/samplers/sampler.h"
+#include "host/stages/device_tree.h"
 #include "kernels/embedded.h"
 
 namespace nearlight::core {
@@ -35,7 +38,6 @@ Facts or_auto(const std::optional<Value>& value) {
 
 Facts settings_facts(const Scene& scene, const RenderSettings& settings) {
     const auto& [view, sampling, gather] = std::tie(settings.view, settings.sampling, settings.gather);
-    const bool has_policy = sampling.sampler == SamplerKind::close_range;
     const auto on_off = [](bool is_on) { return is_on ? "on" : "off"; };
     Facts facts;
     facts["--size"] = fmt::format("{}x{}", view.width.value_or(scene.camera.width),
@@ -45,8 +47,8 @@ Facts settings_facts(const Scene& scene, const RenderSettings& settings) {
                                               gather.window->x, gather.window->y))
                           : Facts("none");
     facts["--max-depth"] = or_auto(view.max_depth);
-    facts["--sampler"] = to_string(sampling.sampler);
-    facts[kPolicy] = has_policy ? to_string(sampling.policy) : "none";
+    facts["--sampler"] = sampler_name(sampling);
+    facts[kPolicy] = policy_name(sampling).value_or("none");
     facts["--vpls"] = sampling.vpl_count;
     facts["--cuts"] = on_off(sampling.cuts);
     facts["--vpl-set"] = sampling.set_count_or_auto();
@@ -71,7 +73,7 @@ std::string device_kinds(const std::vector<std::unique_ptr<Device>>& devices) {
     for (const auto& device : devices) {
         kinds.insert(fmt::format("'{}', driver {}", device->entry().name, device->entry().driver));
     }
-    return fmt::format("{}", fmt::join(kinds, " and "));
+    return joined(kinds, " and ");
 }
 
 std::string shown(const Facts& value) {
@@ -99,9 +101,7 @@ CheckpointFacts checkpoint_facts(const Scene& scene, std::uint64_t scene_hash, c
     facts.scene_hash = scene_hash;
     facts.settings = settings_facts(scene, settings);
     facts.maker["--device"] = device_kinds(devices);
-    facts.maker["--gather"] = options.gather_kernel == GatherKernel::packets ? "packets"
-                              : options.gather_kernel == GatherKernel::rays  ? "rays"
-                                                                             : "auto";
+    facts.maker["--gather"] = to_string(options.gather_kernel);
     facts.maker["--bvh"] = to_string(options.bvh_quality);
     facts.maker["--kernel-dir"] = devices.front()->options().kernel_dir.string();
     return facts;

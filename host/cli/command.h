@@ -13,8 +13,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 
+#include "host/base/words.h"
 #include "host/cli/command_facts.h"
 #include "host/cli/exit_code.h"
 #include "nearlight/error.h"
@@ -80,12 +82,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
     const auto choose = [option, &value, choices](const std::string& text) {
         const auto found = choices.find(text);
         if (found == choices.end()) {
-            std::string names;
-            for (const auto& [name, choice] : choices) {
-                names += (names.empty() ? "" : ", ") + name;
-            }
             throw Error(ErrorKind::invalid_argument,
-                        "unknown " + option + " '" + text + "'; choose one of: " + names);
+                        "unknown " + option + " '" + text +
+                            "'; choose one of: " + joined(std::views::keys(choices), ", "));
         }
         value = found->second;
     };

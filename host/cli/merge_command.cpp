@@ -9,6 +9,7 @@
 
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
+#include "host/base/words.h"
 #include "host/cli/checkpoint_facts.h"
 #include "host/cli/checkpoint_file.h"
 #include "host/cli/checkpoint_options.h"
@@ -164,11 +165,9 @@ std::vector<uint> all_samples(const PassRecord& record) {
 
 /// Ranges as text, such as "seed 0: 0-7, seed 5: 0-3".
 std::string ranges_text(const PassRecord& record) {
-    std::vector<std::string> texts;
-    for (const PassRange& range : record.whole) {
-        texts.push_back(fmt::format("seed {}: {}-{}", range.seed, range.first, range.end() - 1));
-    }
-    return fmt::format("{}", fmt::join(texts, ", "));
+    return joined(record.whole, ", ", [](const PassRange& range) {
+        return fmt::format("seed {}: {}-{}", range.seed, range.first, range.end() - 1);
+    });
 }
 
 /// The relative error, unless the picture has a single sample per pixel, which says nothing about it.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <future>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "host/base/stopwatch.h"
@@ -28,6 +27,7 @@
 #include "host/session/passes.h"
 #include "host/session/picture_window.h"
 #include "host/session/render.h"
+#include "host/stages/device_tree.h"
 
 namespace nearlight::core {
 namespace {
@@ -46,9 +46,6 @@ struct RenderOptions {
     std::string tev;
     int threads = 0;  ///< 0: one per core
 };
-
-const std::map<std::string, GatherKernel> kGatherKernels{
-    {"auto", GatherKernel::automatic}, {"packets", GatherKernel::packets}, {"rays", GatherKernel::rays}};
 
 /// Maximum number of pixels. With 2^30 pixels and all layers a file has up to 64 GiB, or 96 GiB with
 /// --exr-precision float; a larger size is probably a typing error.
@@ -327,9 +324,10 @@ void add_preview_option(CLI::App& command, RenderOptions& options) {
 }
 
 void add_session_options(CLI::App& command, SessionOptions& session) {
-    add_choice(command, "--gather", session.gather_kernel, kGatherKernels,
-               "Gather kernel: packets (for CPUs), rays (for GPUs) or auto")
-        ->default_str("auto");
+    add_choice<GatherKernel>(command, "--gather", session.gather_kernel,
+                             {kGatherKernels.begin(), kGatherKernels.end()},
+                             "Gather kernel: packets (for CPUs), rays (for GPUs) or auto")
+        ->default_str(to_string(session.gather_kernel));
     add_bvh_option(command, session.bvh_quality);
 }
 

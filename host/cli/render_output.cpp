@@ -36,15 +36,6 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
     return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
 }
 
-/// The sampler, or what stands for it.
-std::string sampler_name(const SamplingSettings& sampling) {
-    return sampling.file.empty() ? to_string(sampling.sampler) : "file";
-}
-
-bool has_policy(const SamplingSettings& sampling) {
-    return sampling.file.empty() && sampling.sampler == SamplerKind::close_range;
-}
-
 }  // namespace
 
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
@@ -54,8 +45,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     Metadata metadata = camera_metadata(view.scene_camera);
     metadata["nearlight:version"] = std::string(NEARLIGHT_VERSION);
     metadata["nearlight:sampler"] = sampler_name(settings.sampling);
-    metadata["nearlight:policy"] =
-        has_policy(settings.sampling) ? to_string(settings.sampling.policy) : "none";
+    metadata["nearlight:policy"] = policy_name(settings.sampling).value_or("none");
     if (!settings.sampling.file.empty()) {
         metadata["nearlight:vplFile"] = settings.sampling.file.string();
     }
@@ -108,8 +98,8 @@ nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<
     json["width"] = report.width;
     json["height"] = report.height;
     json["sampler"] = sampler_name(settings.sampling);
-    json["policy"] =
-        has_policy(settings.sampling) ? nlohmann::ordered_json(to_string(settings.sampling.policy)) : nullptr;
+    const std::optional<std::string> policy = policy_name(settings.sampling);
+    json["policy"] = policy ? nlohmann::ordered_json(*policy) : nullptr;
     json["vpl_file"] = settings.sampling.file.empty()
                            ? nlohmann::ordered_json()
                            : nlohmann::ordered_json(settings.sampling.file.string());

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "host/base/files.h"
+#include "host/base/words.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -133,20 +134,18 @@ void set_look(const ScreenOptions& screen, viewer::ViewerTask& task) {
 
 /// The place among the layers that files get unless others are asked for.
 std::size_t layer_index(const std::string& name) {
-    std::string names;
-    std::size_t index = 0;
+    std::vector<std::string_view> names;
     for (const FilmLayer& layer : kFilmLayers) {
-        if (layer.files != FileRule::always) {
-            continue;
+        if (layer.files == FileRule::always) {
+            names.push_back(layer.name);
         }
-        if (layer.name == name) {
-            return index;
-        }
-        names += (index > 0 ? ", " : "") + std::string(layer.name);
-        ++index;
     }
-    throw Error(ErrorKind::invalid_argument,
-                fmt::format("unknown layer '{}'; choose one of: {}", name, names));
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) {
+        throw Error(ErrorKind::invalid_argument,
+                    fmt::format("unknown layer '{}'; choose one of: {}", name, joined(names, ", ")));
+    }
+    return static_cast<std::size_t>(found - names.begin());
 }
 
 RenderSettings settled(const ViewOptions& options) {

@@ -63,6 +63,14 @@ std::string to_string(Policy policy) {
     return std::ranges::find(kPolicies, policy, &PolicyEntry::policy)->name;
 }
 
+std::string sampler_name(const SamplingSettings& settings) {
+    return settings.file.empty() ? to_string(settings.sampler) : "file";
+}
+std::optional<std::string> policy_name(const SamplingSettings& settings) {
+    const bool has_policy = settings.file.empty() && settings.sampler == SamplerKind::close_range;
+    return has_policy ? std::optional(to_string(settings.policy)) : std::nullopt;
+}
+
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task) {
     if (task.vpl_count == 0 || task.bounce_count == 0 || task.scene.host_info.emitter_count == 0) {
         return {.vpls = VplBuffer(stages.device, {})};

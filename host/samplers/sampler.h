@@ -20,6 +20,11 @@ namespace nearlight::core {
 std::string to_string(SamplerKind kind);
 std::string to_string(Policy policy);
 
+/// The sampler, or "file" if the VPLs come from one.
+std::string sampler_name(const SamplingSettings& settings);
+/// The policy; nothing if the VPLs are made without one.
+std::optional<std::string> policy_name(const SamplingSettings& settings);
+
 struct SamplingTask {
     const DeviceScene& scene;
     const PilotView& view;  ///< the pilot view, a small sample of the picture's receivers

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/device_tree.h"
 
+#include "host/base/names.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -25,6 +27,10 @@ DeviceTree upload(Device& device, const Bvh& bvh, const TreeShapes& shapes) {
 }
 
 }  // namespace
+
+const char* to_string(GatherKernel kernel) {
+    return name_in(kGatherKernels, kernel);
+}
 
 GatherKernel choose_kernel(GatherKernel kernel, const Device& device) {
     if (kernel == GatherKernel::automatic) {

@@ -2,11 +2,21 @@
 // A tree in device memory, in the shapes that kernels traverse.
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "host/bvh/shaped_bvh.h"
 #include "host/cl/buffer.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {
+
+/// The names of all gather kernels.
+inline constexpr std::array kGatherKernels{std::pair{"auto", GatherKernel::automatic},
+                                           std::pair{"packets", GatherKernel::packets},
+                                           std::pair{"rays", GatherKernel::rays}};
+
+const char* to_string(GatherKernel kernel);
 
 /// Replaces `automatic` by the kernel that suits the device, and returns any other kernel unchanged.
 GatherKernel choose_kernel(GatherKernel kernel, const Device& device);
