@@ -144,9 +144,7 @@ VplSet Session::read_vpls(const View& view, const std::filesystem::path& file) {
 }
 
 void Session::save_vpls(const View& view, const VplSet& vpls, const std::filesystem::path& file) {
-    write_vpl_file(file, pool_.on_leader([&](PoolDevice&) {
-        return vpl_file_of(vpls, {.scene = lighting_hash(scene_), .max_depth = view.max_depth});
-    }));
+    write_vpl_file(file, vpl_file_of(vpls, {.scene = lighting_hash(scene_), .max_depth = view.max_depth}));
 }
 
 VplSet Session::sample(const View& view, const SamplingSettings& settings, uint seed) {

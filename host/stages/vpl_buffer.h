@@ -27,19 +27,21 @@ class VplBuffer {
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] bool is_on(const Device& device) const { return device_ == &device; }
 
+    /// The VPLs, from the copy on the host if there is one.
     [[nodiscard]] std::vector<Vpl> download() const {
+        if (on_host_.size() == count_) {
+            return on_host_;
+        }
         std::vector<Vpl> vpls(count_);
         buffer_.download(vpls);
         return vpls;
     }
 
-    /// Keeps a copy of the VPLs on the host, so that copy_to() works after the device has failed and from
-    /// several threads.
+    /// Keeps a copy of the VPLs on the host, so that download() and copy_to() work after the device has
+    /// failed and from several threads.
     void keep_on_host() { on_host_ = download(); }
     /// Uploads the same VPLs to `device`.
-    [[nodiscard]] VplBuffer copy_to(Device& device) const {
-        return on_host_.size() == count_ ? VplBuffer(device, on_host_) : VplBuffer(device, download());
-    }
+    [[nodiscard]] VplBuffer copy_to(Device& device) const { return {device, download()}; }
 
   private:
     Device* device_ = nullptr;

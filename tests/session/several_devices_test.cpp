@@ -127,6 +127,18 @@ TEST_F(SeveralDevices, TheOthersFinishForOneThatFails) {
     EXPECT_EQ(with_broken.report.shares.at(0).bands, bands_of(with_broken.report));
 }
 
+TEST_F(SeveralDevices, AreHealthyWhereVplsCannotBeSaved) {
+    const TemporaryFolder folder;
+    const Scene scene = lit_floor();
+    const RenderSettings settings = test::few_vpls(SamplerKind::local);
+    Session session(std::vector{&device(0), &device(1)}, scene);
+    const View view = session.look(settings.view, settings.seed);
+    const VplSet vpls = session.sample(view, settings.sampling, settings.seed);
+    EXPECT_EQ(test::error_of([&] { session.save_vpls(view, vpls, folder / "vpls.ply"); }).kind(),
+              ErrorKind::invalid_argument);
+    EXPECT_EQ(test::render_image(session, test::few_vpls()).report.shares.size(), 2u);
+}
+
 TEST_F(SeveralDevices, AFailedOneIsLeftOutOfLaterPictures) {
     const TemporaryFolder folder;
     write_kernels_without_gather(folder.path());
