@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "host/base/hash.h"
 #include "kernels/embedded.h"
 #include "nearlight/error.h"
 
@@ -58,6 +59,19 @@ std::string expand_kernel_source(const std::string& name, const std::filesystem:
     std::ostringstream out;
     expand(name, kernel_dir, "", seen, out);
     return out.str();
+}
+
+std::uint64_t kernels_hash(const std::filesystem::path& kernel_dir) {
+    Hasher hasher;
+    for (const std::string_view name : embedded_kernel_names()) {
+        hasher.add_text(name);
+        try {
+            hasher.add_text(expand_kernel_source(std::string(name), kernel_dir));
+        } catch (const Error&) {
+            hasher.add_text("");
+        }
+    }
+    return hasher.hash64();
 }
 
 }  // namespace nearlight::core

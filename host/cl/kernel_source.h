@@ -3,6 +3,7 @@
 // header.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -13,5 +14,9 @@ namespace nearlight::core {
 /// `#line` directives give the compiler's messages the right file and line. Throws
 /// Error(ErrorKind::kernel_build) for a file that does not exist.
 std::string expand_kernel_source(const std::string& name, const std::filesystem::path& kernel_dir = {});
+
+/// A hash of the texts of all kernels, from `kernel_dir` if that is not empty, with what they include. A
+/// kernel that misses a file counts as empty.
+std::uint64_t kernels_hash(const std::filesystem::path& kernel_dir = {});
 
 }  // namespace nearlight::core

@@ -8,10 +8,10 @@
 #include "host/base/hash.h"
 #include "host/base/words.h"
 #include "host/bvh/bvh.h"
+#include "host/cl/kernel_source.h"
 #include "host/cli/log.h"
 #include "host/samplers/sampler.h"
 #include "host/stages/device_tree.h"
-#include "kernels/embedded.h"
 
 namespace nearlight::core {
 namespace {
@@ -21,14 +21,9 @@ using Facts = nlohmann::ordered_json;
 constexpr const char* kCompensate = "--compensate";
 constexpr const char* kPolicy = "--policy";
 
-/// The program's version with a hash of its kernels, which decide what a pass is.
-std::string version_with_kernels() {
-    Hasher hasher;
-    for (const std::string_view name : embedded_kernel_names()) {
-        hasher.add_text(name);
-        hasher.add_text(embedded_kernel(name).value_or(""));
-    }
-    return std::string(NEARLIGHT_VERSION) + " with kernels " + hex_digits(hasher.hash64());
+/// The program's version with a hash of the kernels, which decide what a pass is.
+std::string version_with_kernels(const std::filesystem::path& kernel_dir) {
+    return std::string(NEARLIGHT_VERSION) + " with kernels " + hex_digits(kernels_hash(kernel_dir));
 }
 
 template <typename Value>
@@ -97,13 +92,12 @@ CheckpointFacts checkpoint_facts(const Scene& scene, std::uint64_t scene_hash, c
                                  const SessionOptions& options,
                                  const std::vector<std::unique_ptr<Device>>& devices) {
     CheckpointFacts facts;
-    facts.version = version_with_kernels();
+    facts.version = version_with_kernels(devices.front()->options().kernel_dir);
     facts.scene_hash = scene_hash;
     facts.settings = settings_facts(scene, settings);
     facts.maker["--device"] = device_kinds(devices);
     facts.maker["--gather"] = to_string(options.gather_kernel);
     facts.maker["--bvh"] = to_string(options.bvh_quality);
-    facts.maker["--kernel-dir"] = devices.front()->options().kernel_dir.string();
     return facts;
 }
 
@@ -122,8 +116,21 @@ std::optional<std::string> difference_of_bits(const CheckpointFacts& theirs, con
     return first_difference(theirs.maker, ours.maker);
 }
 
+void mark_differences_of_bits(const CheckpointFacts& part, CheckpointFacts& sum) {
+    for (auto& [name, value] : sum.maker.items()) {
+        const auto found = part.maker.find(name);
+        if (found == part.maker.end() || *found != value) {
+            value = "several";
+        }
+    }
+}
+
 bool mean_depends_on_choice(const CheckpointFacts& facts) {
-    return facts.settings.value(kCompensate, "off") != "on" || facts.settings.value(kPolicy, "") == "paper";
+    const auto is = [&](const char* name, const std::string& text) {
+        const auto found = facts.settings.find(name);
+        return found != facts.settings.end() && *found == text;
+    };
+    return !is(kCompensate, "on") || is(kPolicy, to_string(Policy::paper));
 }
 
 }  // namespace nearlight::core

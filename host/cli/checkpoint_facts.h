@@ -25,6 +25,9 @@ std::optional<std::string> difference_of_pictures(const CheckpointFacts& theirs,
 /// In the same way, what may make the bits of passes differ where the pictures are the same.
 std::optional<std::string> difference_of_bits(const CheckpointFacts& theirs, const CheckpointFacts& ours);
 
+/// What `sum`, to which the passes of `part` are added, says of its bits where the two differ: "several".
+void mark_differences_of_bits(const CheckpointFacts& part, CheckpointFacts& sum);
+
 /// Whether the mean of passes depends on the range and the clamp radius that pass 0 has chosen.
 bool mean_depends_on_choice(const CheckpointFacts& facts);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file is kMagic, the length of the header, the header as JSON, the sums, the values of the first pass, and
-// a checksum of all that; numbers are little-endian, as on all machines that there are devices for.
+// A file is kCheckpointMagic, the length of the header, the header as JSON, the sums, the values of the first
+// pass, and a checksum of all that; numbers are little-endian, as on all machines that there are devices for.
 #include "host/cli/checkpoint_file.h"
 
 #include <algorithm>
@@ -21,7 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kMagic = "NLSUMS01";
 /// How much of the magic all versions of the format have.
 constexpr std::size_t kFamily = 6;
 /// Bounds that only a file that somebody made up exceeds: it must not take more memory than its size.
@@ -31,7 +30,7 @@ constexpr int kMaxDepth = 8;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{16} << 20u;
 constexpr std::uint64_t kMaxCheckpointSide = 65536;
 constexpr std::uint64_t kPixelBytes = PassSums::kSums * sizeof(DoubleSum) + PassSums::kFirsts * sizeof(float);
-constexpr std::uint64_t kFrameBytes = kMagic.size() + sizeof(std::uint64_t) + sizeof(Hash128);
+constexpr std::uint64_t kFrameBytes = kCheckpointMagic.size() + sizeof(std::uint64_t) + sizeof(Hash128);
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& reason) {
     throw Error(ErrorKind::file, fmt::format("cannot read the checkpoint '{}': {}", file.string(), reason));
@@ -57,6 +56,10 @@ Integer whole_in(const Json& json) {
         throw std::out_of_range("whole number");
     }
     return static_cast<Integer>(number);
+}
+
+const Json& object_in(const Json& json) {
+    return json.is_object() ? json : throw std::out_of_range("object");
 }
 
 Metadata metadata_in(const Json& json) {
@@ -112,8 +115,8 @@ ToneCurve tone_curve_in(const Json& json) {
 CheckpointFacts facts_in(const Json& json) {
     CheckpointFacts facts{.version = json.at("version"),
                           .scene_hash = std::stoull(json.at("scene").get<std::string>(), nullptr, 16),
-                          .settings = json.at("settings"),
-                          .maker = json.at("maker"),
+                          .settings = object_in(json.at("settings")),
+                          .maker = object_in(json.at("maker")),
                           .metadata = metadata_in(json.at("metadata")),
                           .look = {.curve = tone_curve_in(json.at("tone_curve")),
                                    .exposure = optional_in<float>(json.at("exposure"))},
@@ -182,6 +185,17 @@ PassRecord record_in(const Json& json) {
     return record;
 }
 
+/// Whether there can be such a record of a picture with `height` rows.
+bool is_consistent(const PassRecord& record, std::size_t height) {
+    const auto is_empty = [](const PassRange& range) { return range.samples.empty(); };
+    const bool has_passes = !std::ranges::all_of(record.whole, is_empty);
+    // Only a picture without a whole pass has an empty range, which says where it begins.
+    const bool has_ranges =
+        record.whole.size() == 1 || (has_passes && std::ranges::none_of(record.whole, is_empty));
+    return has_ranges && (record.choice || !has_passes) && record.begun_rows < height &&
+           (record.begun_samples == 0) == (record.begun_rows == 0);
+}
+
 /// The rows of the sums follow from the record.
 void set_rows(const PassRecord& record, PassSums& sums) {
     PassSums::Row whole;
@@ -201,7 +215,7 @@ void set_rows(const PassRecord& record, PassSums& sums) {
 /// The parts of a file, but for the checksum of these.
 std::vector<std::span<const std::byte>> parts_of(const std::array<std::uint64_t, 1>& header_size,
                                                  const std::string& header, const PassSums& sums) {
-    return {std::as_bytes(std::span(kMagic)), std::as_bytes(std::span(header_size)),
+    return {std::as_bytes(std::span(kCheckpointMagic)), std::as_bytes(std::span(header_size)),
             std::as_bytes(std::span(header)), std::as_bytes(sums.sums()), std::as_bytes(sums.firsts())};
 }
 
@@ -234,16 +248,16 @@ CheckpointReader::CheckpointReader(std::filesystem::path file) : file_(std::move
         fail_to_read(file_, reason);
     }
     std::ifstream stream(file_, std::ios::binary);
-    std::array<char, kMagic.size()> magic{};
+    std::array<char, kCheckpointMagic.size()> magic{};
     if (!stream) {
         fail_to_read(file_, "it cannot be opened");
     }
     stream.read(magic.data(), magic.size());
     const std::string_view found(magic.data(), magic.size());
-    if (!stream || found.substr(0, kFamily) != kMagic.substr(0, kFamily)) {
+    if (!stream || found.substr(0, kFamily) != kCheckpointMagic.substr(0, kFamily)) {
         fail_to_read(file_, "it is no checkpoint of nearlight");
     }
-    if (found != kMagic) {
+    if (found != kCheckpointMagic) {
         fail_to_read(file_, "another version of nearlight wrote it; remove it and render anew");
     }
     try {
@@ -254,9 +268,7 @@ CheckpointReader::CheckpointReader(std::filesystem::path file) : file_(std::move
     const std::uint64_t size = kFrameBytes + header_.size() + std::uint64_t{width_} * height_ * kPixelBytes;
     std::error_code error;
     if (width_ < 1 || height_ < 1 || width_ > kMaxCheckpointSide || height_ > kMaxCheckpointSide ||
-        record_.whole.empty() || record_.begun_rows >= height_ ||
-        (record_.begun_samples == 0) != (record_.begun_rows == 0) ||
-        std::filesystem::file_size(file_, error) != size) {
+        !is_consistent(record_, height_) || std::filesystem::file_size(file_, error) != size) {
         fail_as_damaged(file_);
     }
 }
@@ -285,7 +297,8 @@ PassSums CheckpointReader::read_sums() const {
     PassSums sums(width_, height_);
     Hash128 checksum{};
     std::ifstream stream(file_, std::ios::binary);
-    stream.seekg(static_cast<std::streamoff>(kMagic.size() + sizeof(std::uint64_t) + header_.size()));
+    stream.seekg(
+        static_cast<std::streamoff>(kCheckpointMagic.size() + sizeof(std::uint64_t) + header_.size()));
     const auto read = [&](std::span<std::byte> bytes) {
         stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     };

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/cli/screen_options.h"
 #include "host/image/image_io.h"
@@ -15,14 +16,17 @@
 
 namespace nearlight::core {
 
+/// What a file begins with.
+inline constexpr std::string_view kCheckpointMagic = "NLSUMS01";
+
 /// What a checkpoint says about its picture.
 struct CheckpointFacts {
     std::string version;           ///< of the program and its kernels
     std::uint64_t scene_hash = 0;  ///< with the camera and all options that change the scene
     /// Names and values of the options that decide what light passes bring in the mean.
-    nlohmann::ordered_json settings;
+    nlohmann::ordered_json settings = nlohmann::ordered_json::object();
     /// Names and values of what, beside these, decides the bits of a pass.
-    nlohmann::ordered_json maker;
+    nlohmann::ordered_json maker = nlohmann::ordered_json::object();
     Metadata metadata;  ///< of the picture's files
     ScreenLook look;    ///< of PNG files
     std::optional<ImagePlace> place;

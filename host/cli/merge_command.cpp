@@ -147,9 +147,7 @@ Merged merge_parts(const std::vector<CheckpointReader>& parts) {
         }
         sums.add(part.read_sums());
         add_totals(part.record().totals, record.totals);
-        if (difference_of_bits(part.facts(), facts)) {
-            facts.maker["--device"] = "several kinds of devices";
-        }
+        mark_differences_of_bits(part.facts(), facts);
     }
     record.whole = joined_ranges(ranges);
     return {std::move(facts), std::move(record), PassAverage(std::move(sums))};

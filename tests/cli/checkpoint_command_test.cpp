@@ -101,6 +101,30 @@ TEST_F(CheckpointsOfRender, OfOnePassIsThePictureWithoutOne) {
     EXPECT_EQ(render("a", "--resume"), one);
 }
 
+TEST_F(CheckpointsOfRender, OfSeveralPassesGoOnForATime) {
+    render("a", "--passes 2");
+    const ProgramResult result = run_program(arguments("a", checkpoint("a") + "--resume --time 0.01"));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_GE(nlohmann::json::parse(result.output)["passes"], 2);
+}
+
+TEST_F(CheckpointsOfRender, KnowTheirKernelsFromOthers) {
+    const std::filesystem::path kernels = folder_ / "kernels";
+    const std::string own_kernels = "--kernel-dir " + quoted(kernels) + " ";
+    std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
+                          std::filesystem::copy_options::recursive);
+    const std::string two = render("a", "--passes 2");
+    EXPECT_EQ(render("a", own_kernels + "--resume --passes 2"), two) << "they are the same kernels";
+    // A file that is none of the program's own counts too.
+    write_text(kernels / "more.cl", "\n");
+    write_text(kernels / "film.cl", "#include \"more.cl\"\n" + file_text(kernels / "film.cl"));
+    render("b", own_kernels + "--first-pass 2");
+    expect_refusal("a", own_kernels + "--resume --passes 2", 3, "made it, and not");
+    expect_no_merge({"a", "b"}, 3, "made it, and not");
+    write_text(kernels / "more.cl", "// edited\n");
+    expect_refusal("b", own_kernels + "--first-pass 2 --resume", 3, "made it, and not");
+}
+
 TEST_F(CheckpointsOfRender, AKilledRenderGoesOnToTheSameBits) {
     const std::string options = "--passes 8 --size 256x192 ";
     const std::string whole = plain(options);
@@ -244,6 +268,17 @@ TEST_F(CheckpointsOfRender, JobsOfOtherSeedsAddUp) {
     EXPECT_EQ(nlohmann::json::parse(result.output)["ranges"].size(), 2u);
     expect_refusal("all", "--resume --passes 4", 3, "do not follow one another");
     expect_no_merge({"all", "b"}, 3, "its pass 0 with --seed 7 is in");
+}
+
+TEST_F(CheckpointsOfRender, OfJobsWithOtherBitsSayWhatWasSeveral) {
+    render("a", "--passes 2 --bvh fast");
+    render("b", "--first-pass 2 --gather rays");
+    const ProgramResult result = merge({"a", "b"}, checkpoint("all"));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    expect_refusal("all", "--resume --passes 4", 3, "it has --gather several, and not auto");
+    const std::string header = file_text(file("all"));
+    EXPECT_NE(header.find(R"("--bvh":"several")"), std::string::npos);
+    EXPECT_EQ(header.find(R"("--device":"several")"), std::string::npos);
 }
 
 TEST_F(CheckpointsOfRender, JobsThatDoNotBelongTogetherAreRefused) {

@@ -24,14 +24,16 @@ struct Kept {
     }
 
     void watch(Moment moment) {
-        keeper.watch({.moment = moment, .report = report, .view = view, .average = average, .record = [] {
-                          return PassRecord{.whole = {{.seed = 3, .first = 2, .samples = {4}}}};
+        keeper.watch({.moment = moment, .report = report, .view = view, .average = average, .record = [this] {
+                          return PassRecord{.whole = {{.seed = 3, .first = 2, .samples = samples}},
+                                            .choice = PassChoice{}};
                       }});
     }
 
     RenderReport report;
     View view;
     PassAverage average{1, 1};
+    std::vector<uint> samples{4};  ///< of whole passes
     int pictures = 0;
     std::vector<std::string> warnings;
     PictureKeeper keeper;
