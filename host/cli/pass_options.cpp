@@ -6,6 +6,7 @@
 
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
+#include "host/session/passes.h"
 
 namespace nearlight::core {
 
@@ -49,11 +50,8 @@ void add_pass_options(CLI::App& command, PassOptions& options) {
         ->excludes(passes, time, error);
 }
 
-void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings,
-                             const PassOptions& passes) {
-    const bool one_pass = !passes.seconds && !settings.error && settings.passes.value_or(1) < 2 &&
-                          settings.pass_samples.size() < 2;
-    if (std::ranges::find(picture.layers, "variance") != picture.layers.end() && one_pass &&
+void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings) {
+    if (std::ranges::find(picture.layers, "variance") != picture.layers.end() && !may_have_passes(settings) &&
         settings.gather.samples_per_pixel < 2) {
         throw Error(ErrorKind::invalid_argument,
                     "the layer variance needs two samples per pixel; use --spp 2 or --passes 2");

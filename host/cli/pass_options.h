@@ -26,8 +26,7 @@ void add_pass_options(CLI::App& command, PassOptions& options);
 
 /// Throws Error(ErrorKind::invalid_argument) if the layer `variance` is asked for of a single sample per
 /// pixel, which says nothing about its error.
-void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings,
-                             const PassOptions& passes);
+void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings);
 
 /// Logs after a pass how long the way to the error is.
 void tell_forecast(const PassForecast& forecast, double target);

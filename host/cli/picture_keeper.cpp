@@ -65,6 +65,7 @@ void PictureKeeper::watch(const PassesSoFar& so_far) {
             const PassRecord record = so_far.record();
             if (record.begun_rows > 0 || !record.whole.front().samples.empty()) {
                 write_checkpoint(checkpoint_file_, actions_.facts(so_far), record, sums);
+                has_checkpoint_ = true;
             }
         });
     }

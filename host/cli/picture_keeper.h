@@ -55,6 +55,8 @@ class PictureKeeper {
     void watch(const PassesSoFar& so_far);
     /// Throws what kept the last checkpoint from being written.
     void check() const;
+    /// Whether a checkpoint was written. None is before the first row is there.
+    [[nodiscard]] bool has_checkpoint() const { return has_checkpoint_; }
 
   private:
     /// One of the two files.
@@ -71,6 +73,7 @@ class PictureKeeper {
     Actions actions_;
     Kept checkpoint_;
     Kept picture_;
+    bool has_checkpoint_ = false;
 };
 
 }  // namespace nearlight::core

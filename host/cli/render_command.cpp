@@ -54,6 +54,7 @@ constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 RenderSettings settled(const RenderOptions& options) {
     RenderSettings settings = options.settings;
     settings.passes = options.passes.passes;
+    settings.seconds = options.passes.seconds;
     settings.error = options.passes.error;
     settings.pass_samples = options.passes.pass_samples;
     settle(options.method, settings);
@@ -80,19 +81,21 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     }
 }
 
-void tell(const RenderOptions& options, const RenderReport& report, double seconds) {
+void tell(const RenderOptions& options, const RenderReport& report, bool lacks_mattes, bool has_checkpoint,
+          double seconds) {
     spdlog::info("{}x{} pixels, {} close and {} distant VPLs{}, {:.1f} s", report.width, report.height,
                  report.totals.close_vpls, report.totals.distant_vpls,
                  report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
     tell_limits(options.passes, report, min_pass_samples(options.settings.gather), seconds);
     tell_shares(report);
-    const char* const note = !report.interrupted ? ""
-                             : report.passes > 1 ? " (interrupted: the last pass is incomplete)"
-                                                 : " (interrupted: rows that were not rendered are black)";
+    const char* const note = lacks_mattes          ? " (interrupted: mattes of the last rows are missing)"
+                             : !report.interrupted ? ""
+                             : report.passes > 1   ? " (interrupted: the last pass is incomplete)"
+                                                   : " (interrupted: rows that were not rendered are black)";
     for (const auto& output : options.picture.outputs) {
         spdlog::info("wrote {}{}", output, note);
     }
-    if (!options.checkpoint.file.empty()) {
+    if (has_checkpoint) {
         spdlog::info("wrote {}{}", options.checkpoint.file.string(),
                      report.interrupted ? ", from which --resume goes on" : "");
     }
@@ -171,14 +174,20 @@ RenderRun get_ready(const RenderOptions& options, const GlobalOptions& global, c
 
 /// The mattes of all passes that the report counts.
 MatteSource mattes_of(Session& session, const RenderRun& run, const RenderReport& report,
-                      const Camera& camera) {
+                      const Camera& camera, const std::function<void(double fraction)>& tell_progress) {
     std::vector<MattePass> passes;
     for (const uint samples : report.pass_samples) {
         const uint number = run.options.checkpoint.first_pass + static_cast<uint>(passes.size());
         passes.push_back({.seed = pass_seed(run.settings.seed, number), .samples_per_pixel = samples});
     }
-    return [&session, &run, &camera, passes = std::move(passes)](const MatteSink& sink) {
-        session.mattes(camera, run.settings.gather.window, passes, kinds_of(run.mattes()), sink);
+    // An interrupted picture gets the mattes of the rows that it has.
+    return [&session, &run, &camera, passes = std::move(passes), tell_progress,
+            was_interrupted = interrupted()](const MatteSink& sink) {
+        session.mattes(camera, run.settings.gather.window, passes, kinds_of(run.mattes()), sink,
+                       [&](double fraction) {
+                           tell_progress(fraction);
+                           return was_interrupted || !interrupted();
+                       });
     };
 }
 
@@ -231,7 +240,8 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
                  [&](const PassesSoFar& so_far) {
                      sinks.open(run, so_far.report, so_far.view);
                      so_far.average.send([&](std::span<const float> rows) { sinks.add_rows(rows, total); });
-                     sinks.picture.commit(total, true, mattes_of(session, run, so_far.report, sinks.camera));
+                     sinks.picture.commit(
+                         total, true, mattes_of(session, run, so_far.report, sinks.camera, [](double) {}));
                  },
              .warn =
                  [&](const std::string& why) {
@@ -242,26 +252,25 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
 
 /// Prints and logs what has become of the picture.
 void tell_outcome(const RenderRun& run, const RenderReport& report, const RowSinks& sinks,
-                  const Stopwatch& total) {
+                  bool has_checkpoint, const Stopwatch& total) {
     const RenderOptions& options = run.options;
     if (run.global.json) {
         nlohmann::ordered_json json =
             render_json(options.scene, options.picture.outputs, run.settings, options.session.bvh_quality,
                         report, sinks.picture, run.load_seconds, sinks.first_rows, run.devices);
         json["first_pass"] = options.checkpoint.first_pass;
-        json["checkpoint"] = options.checkpoint.file.empty()
-                                 ? nullptr
-                                 : nlohmann::ordered_json(options.checkpoint.file.string());
+        json["checkpoint"] =
+            has_checkpoint ? nlohmann::ordered_json(options.checkpoint.file.string()) : nullptr;
         print_json(json);
     }
     if (run.global.verbose) {
         tell_kernel_times(run.devices);
     }
-    tell(options, report, total.seconds());
+    tell(options, report, sinks.picture.lacks_mattes(), has_checkpoint, total.seconds());
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
-    check_variance_is_known(options.picture, settled(options), options.passes);
+    check_variance_is_known(options.picture, settled(options));
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {
         limit_driver_threads(options.threads);
@@ -285,7 +294,7 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
     ProgressBar bar("gathering", global);
     Session session(plain(run.devices), *run.scene, options.session);
     PictureKeeper keeper = make_keeper(session, run, facts, sinks, bar, total);
-    const RenderReport report = render(
+    RenderReport report = render(
         session, run.settings,
         [&](const RenderReport& started, const View& view, const VplSet& vpls) {
             save(options.vpl_files, session, view, vpls);
@@ -299,9 +308,13 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         tell_once(bar, run.settings), std::move(start),
         [&](const PassesSoFar& so_far) { keeper.watch(so_far); });
     bar.clear();
-    sinks.picture.commit(total, false, mattes_of(session, run, report, sinks.camera));
+    bar.start("counting mattes");
+    sinks.picture.commit(
+        total, false, mattes_of(session, run, report, sinks.camera, [&](double done) { bar.update(done); }));
+    bar.clear();
+    report.interrupted = report.interrupted || sinks.picture.lacks_mattes();
     keeper.check();
-    tell_outcome(run, report, sinks, total);
+    tell_outcome(run, report, sinks, keeper.has_checkpoint(), total);
     return report.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 

@@ -77,7 +77,7 @@ void RenderedPicture::write_with(const MatteSource& mattes) {
     const Stopwatch watch;
     std::span<const float> rest = rows_;
     std::vector<float> both;
-    mattes([&](std::span<const float> matte_rows) {
+    const auto write = [&](std::span<const float> matte_rows) {
         both.clear();
         for (; !matte_rows.empty() && !rest.empty(); matte_rows = matte_rows.subspan(matte_floats_)) {
             both.insert(both.end(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(pixel_floats()));
@@ -87,7 +87,13 @@ void RenderedPicture::write_with(const MatteSource& mattes) {
         }
         files_.write_rows(both);
         return !rest.empty();
-    });
+    };
+    mattes(write);
+    lacks_mattes_ = !rest.empty();
+    const std::vector<float> no_mattes(static_cast<std::size_t>(width_) * matte_floats_);
+    while (!rest.empty()) {
+        write(no_mattes);
+    }
     matte_seconds_ = watch.seconds();
 }
 

@@ -29,8 +29,9 @@ class RenderedPicture {
               const std::optional<ImagePlace>& place = std::nullopt);
     /// Takes rows with the channels of layer_channels().
     void add_rows(std::span<const float> rows);
-    /// Denoises what rows there are, joins them with mattes if the options ask for them, and completes the
-    /// files. `since_begin` is for their attribute of the time. `quiet` is PictureFiles::commit()'s.
+    /// Denoises what rows there are, joins them with mattes if the options ask for them (zeros for rows that
+    /// `mattes` does not send), and completes the files. `since_begin` is for their attribute of the time.
+    /// `quiet` is PictureFiles::commit()'s.
     void commit(const Stopwatch& since_begin, bool quiet = false, const MatteSource& mattes = {});
 
     /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N)",
@@ -38,6 +39,8 @@ class RenderedPicture {
     [[nodiscard]] std::string denoiser() const;
     [[nodiscard]] double denoising_seconds() const { return denoising_seconds_; }
     [[nodiscard]] double matte_seconds() const { return matte_seconds_; }
+    /// Whether the files of the last commit() have rows that no mattes were sent for.
+    [[nodiscard]] bool lacks_mattes() const { return lacks_mattes_; }
 
   private:
     void denoise();
@@ -53,6 +56,7 @@ class RenderedPicture {
     std::vector<float> rows_;
     double denoising_seconds_ = 0.0;
     double matte_seconds_ = 0.0;
+    bool lacks_mattes_ = false;
 };
 
 }  // namespace nearlight::core

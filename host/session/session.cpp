@@ -94,6 +94,15 @@ VplBuffer thinned(Device& device, const VplBuffer& vpls, std::size_t wanted, uin
     return {device, some};
 }
 
+/// The number of samples of all pixels in all passes.
+double samples_of(const PixelWindow& window, std::span<const MattePass> passes) {
+    double of_pixel = 0.0;
+    for (const MattePass& pass : passes) {
+        of_pixel += pass.samples_per_pixel;
+    }
+    return of_pixel * window.width * window.height;
+}
+
 }  // namespace
 
 RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings) {
@@ -271,14 +280,20 @@ std::vector<uint> Session::see_first(const Camera& camera, const SampleBlock& bl
 
 void Session::mattes(const Camera& camera, const std::optional<PixelWindow>& wanted,
                      std::span<const MattePass> passes, std::span<const NamedKind> kinds,
-                     const MatteSink& sink) {
+                     const MatteSink& sink, const GatherFraction& progress) {
     const PixelWindow window = window_of(camera.width, camera.height, wanted);
+    const double all_samples = samples_of(window, passes);
+    double samples = 0.0;
     MatteCounter counter(scene_, kinds);
     for (const PixelWindow& band : matte_bands(window, passes)) {
         counter.begin(std::size_t{band.width} * band.height);
         for (const MattePass& pass : passes) {
             for (const SampleBlock& block : sample_blocks(band, pass)) {
                 counter.add(see_first(camera, block, pass.seed));
+                samples += static_cast<double>(block.size());
+                if (!progress(samples / all_samples)) {
+                    return;
+                }
             }
         }
         if (!sink(counter.rows())) {

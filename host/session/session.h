@@ -26,7 +26,7 @@ struct SessionSeconds {
     double total = 0;
 };
 
-/// Takes how far a gather is, from 0 to 1, and returns false to stop it.
+/// Takes how far a step is, from 0 to 1, and returns false to stop it.
 using GatherFraction = BandProgress;
 /// Takes finished rows, from top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, with the
 /// channels of layer_channels(). The width is that of the part which is made of the picture.
@@ -82,9 +82,11 @@ class Session {
 
     /// Counts what the camera sees first, straight and through the holes of masks: which part of each pixel
     /// each object or material covers, in the window, or in the whole picture if it is empty. The samples are
-    /// those of all passes. Works on the leading device.
+    /// those of all passes. Works on the leading device. If `progress` stops it, `sink` does not get the rows
+    /// that are missing at the bottom.
     void mattes(const Camera& camera, const std::optional<PixelWindow>& window,
-                std::span<const MattePass> passes, std::span<const NamedKind> kinds, const MatteSink& sink);
+                std::span<const MattePass> passes, std::span<const NamedKind> kinds, const MatteSink& sink,
+                const GatherFraction& progress);
 
     /// The seconds of getting ready. A second call returns zeros, so that only one picture counts them.
     [[nodiscard]] SessionSeconds take_seconds() { return std::exchange(seconds_, {}); }

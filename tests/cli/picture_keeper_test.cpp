@@ -72,6 +72,19 @@ TEST(PictureKeeper, WritesLittleWhenNobodySaysHowOften) {
     EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(PictureKeeper, WritesNoSumsBeforeTheFirstRow) {
+    const TemporaryFolder folder;
+    Kept kept(folder / "sums");
+    kept.samples.clear();
+    kept.watch(Moment::end);
+    EXPECT_FALSE(kept.keeper.has_checkpoint());
+    EXPECT_EQ(folder.file_count(), 0u);
+    kept.samples = {4};
+    kept.watch(Moment::end);
+    EXPECT_TRUE(kept.keeper.has_checkpoint());
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
 TEST(PictureKeeper, AFolderThatIsGoneIsToldOnceAndNotForgotten) {
     const TemporaryFolder folder;
     const std::filesystem::path inner = folder / "inner";

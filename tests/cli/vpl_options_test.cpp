@@ -48,6 +48,7 @@ TEST_F(VplOptions, VplsGoThroughAFile) {
 TEST_F(VplOptions, WhatMakesNoSenseIsRefused) {
     NEARLIGHT_NEEDS_DEVICE();
     expect_refusal("--passes 2 --save-vpls " + file_, 2, "--save-vpls needs a picture of one pass");
+    expect_refusal("--time 10 --save-vpls " + file_, 2, "--save-vpls needs a picture of one pass");
     expect_refusal("--load-vpls " + file_, 3, "no such file");
     expect_refusal("--vpls 50 --load-vpls " + file_, 2, "--vpls");
     expect_refusal("--save-vpls " + quoted(folder_ / "nosuch" / "a.ply"), 3, "nosuch");

@@ -163,18 +163,30 @@ class MattesOfPicture {
     }
     std::vector<float> mattes(const std::optional<PixelWindow>& window) {
         std::vector<float> all;
-        session_.mattes(camera_, window, passes_, kBoth, [&](std::span<const float> rows) {
-            all.insert(all.end(), rows.begin(), rows.end());
-            return true;
-        });
+        fraction_ = 0.0;
+        session_.mattes(
+            camera_, window, passes_, kBoth,
+            [&](std::span<const float> rows) {
+                all.insert(all.end(), rows.begin(), rows.end());
+                return true;
+            },
+            [&](double fraction) {
+                EXPECT_GT(fraction, fraction_);
+                fraction_ = fraction;
+                return fraction < stop_at_;
+            });
         return all;
     }
+    void stop_at(double fraction) { stop_at_ = fraction; }
+    [[nodiscard]] double fraction() const { return fraction_; }  ///< of the mattes that were counted
 
   private:
     Session session_;
     Camera camera_{};
     std::vector<MattePass> passes_;
     std::vector<float> picture_;
+    double stop_at_ = 2.0;
+    double fraction_ = 0.0;
 };
 
 class Mattes : public test::DeviceTest {};
@@ -198,6 +210,18 @@ TEST_F(Mattes, CoverWhatSurfacesCover) {
             partly += alpha > 0.0f && alpha < 1.0f ? 1 : 0;
         }
         EXPECT_GT(partly, 100u);
+    });
+}
+
+TEST_F(Mattes, StopWhenNobodyWantsMore) {
+    const Scene scene = boards();
+    on_each_device([&](Device& device) {
+        MattesOfPicture picture(device, scene);
+        EXPECT_FALSE(picture.mattes(std::nullopt).empty());
+        EXPECT_EQ(picture.fraction(), 1.0);
+        picture.stop_at(0.5);
+        EXPECT_TRUE(picture.mattes(std::nullopt).empty()) << "all rows are one band";
+        EXPECT_NEAR(picture.fraction(), 2.0 / 3.0, 1e-9) << "after the second of three passes";
     });
 }
 
