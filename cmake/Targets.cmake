@@ -68,12 +68,15 @@ function(nearlight_test name)
   if(ARG_ALONE)
     set(alone RUN_SERIAL TRUE)
   endif()
+  string(REGEX MATCH "address|thread" reserves_addresses "${NEARLIGHT_SANITIZE}")
   add_executable(${name} ${ARG_SOURCES})
   nearlight_compile_together(${name})
   target_compile_options(${name} PRIVATE ${NEARLIGHT_COLD_OPTIONS})
   target_link_libraries(${name} PRIVATE nearlight_options GTest::gtest_main ${ARG_LIBRARIES})
   target_compile_definitions(${name} PRIVATE
-    NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
+    NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}"
+    # These sanitizers reserve terabytes of addresses, so that tests cannot limit them.
+    $<$<NOT:$<STREQUAL:"${reserves_addresses}","">>:NEARLIGHT_RESERVES_ADDRESSES>)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}."
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${environment} ${alone})
 endfunction()

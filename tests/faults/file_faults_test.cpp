@@ -108,8 +108,7 @@ TEST_F(FileFaults, DamagedAndHinderedCachesOfKernels) {
     EXPECT_EQ(hash_in(run_program(task("--cache-dir " + quoted(folder_ / "scene.xml")))), right);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// A sanitizer reserves more address space than any of these sizes.
+#ifndef NEARLIGHT_RESERVES_ADDRESSES
 TEST_F(FileFaults, LittleMemory) {
     const std::string right = hash_in(run_program(task()));
     for (const long kib :

@@ -32,8 +32,8 @@ void limit_time(int seconds) {
     ASSERT_EQ(setitimer(ITIMER_PROF, &limit, nullptr), 0);
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of addresses
+#ifdef NEARLIGHT_RESERVES_ADDRESSES
+constexpr bool kLimitsMemory = false;
 #else
 constexpr bool kLimitsMemory = true;
 #endif

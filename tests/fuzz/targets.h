@@ -31,7 +31,7 @@ void fuzz_tunables(Bytes bytes);
 /// The first byte chooses between the caches of programs, of trees and of measured cells. Of the first two, a
 /// whole file is changed from a place on that the next two bytes tell.
 void fuzz_cache(Bytes bytes);
-/// The first byte says whether the rest is a file, or what stands in the header of one without sums.
+/// The first byte says whether the rest is a file, or what stands in the header of one with a black pixel.
 void fuzz_checkpoint(Bytes bytes);
 /// Words of a command line, one a line; it is parsed, not run.
 void fuzz_command_line(Bytes bytes);
