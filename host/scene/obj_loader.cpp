@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "host/base/words.h"
-#include "host/scene/camera_choice.h"
+#include "host/scene/named_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
 #include "host/scene/obj_materials.h"
@@ -221,7 +221,7 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
         const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
         append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
     }
-    choose_camera(file, {}, options.camera);
+    choose_named(file, "camera", {}, options.camera);
     add_default_camera(scene, notes);
     if (!options.overrides.bring_light()) {
         add_default_light(scene, true, notes);

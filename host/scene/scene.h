@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,12 @@ struct SceneCamera {
     bool is_monochrome = false;  ///< the picture has the luminance of its light in all channels
 };
 
+/// Seconds of a file's animations.
+struct TimeSpan {
+    double begin = 0;
+    double end = 0;
+};
+
 struct Scene {
     std::string name;              ///< name of the folder or file
     std::filesystem::path source;  ///< the file that was asked for
@@ -126,6 +133,11 @@ struct Scene {
     int samples_per_pixel = 0;  ///< 0: the file does not say
     /// The file's light has no scale of its own, so that pictures for screens choose their exposure.
     bool has_open_exposure = false;
+    /// From the first to the last key of the animations that are played; empty if the scene is at rest.
+    std::optional<TimeSpan> animation{};
+    /// Tells scenes that one animated file is at several moments: those with equal poses differ in their
+    /// camera only.
+    std::uint64_t pose = 0;
     std::vector<Note> notes;  ///< approximations and oddities
 };
 

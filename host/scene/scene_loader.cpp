@@ -27,17 +27,25 @@ struct Loader {
     std::string_view extension;
     Scene (*load)(const std::filesystem::path& file, const LoadOptions& options);
     bool has_parameters;  ///< `$name` stands for a value
+    bool has_animations;
 };
-constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene, true},
-                               {".gltf", load_gltf_scene, false},
-                               {".glb", load_gltf_scene, false},
-                               {".obj", load_obj_scene, false}};
+constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene, true, false},
+                               {".gltf", load_gltf_scene, false, true},
+                               {".glb", load_gltf_scene, false, true},
+                               {".obj", load_obj_scene, false, false}};
 
 void refuse_parameters(const std::filesystem::path& file, const LoadOptions& options) {
     if (!options.parameters.empty()) {
         throw Error(ErrorKind::invalid_argument, file.string() + ": has no parameter '" +
                                                      options.parameters.begin()->first +
                                                      "'; only Mitsuba scenes (.xml) have parameters");
+    }
+}
+
+void refuse_animations(const std::filesystem::path& file, const LoadOptions& options) {
+    if (options.moment) {
+        throw Error(ErrorKind::invalid_argument,
+                    file.string() + ": has no animations; only glTF scenes (.gltf, .glb) have animations");
     }
 }
 
@@ -81,6 +89,9 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     if (!loader->has_parameters) {
         refuse_parameters(file, options);
     }
+    if (!loader->has_animations) {
+        refuse_animations(file, options);
+    }
     Scene scene = loader->load(file, options);
     NoteSink notes(scene.notes, options.strict);
     apply_overrides(scene, options.overrides, notes);
@@ -89,6 +100,14 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     keep_within_limits(scene, notes);
     remark_emptiness(scene, notes);
     return scene;
+}
+
+std::optional<SceneCamera> camera_at(const Scene& scene, const LoadOptions& options) {
+    const std::optional<GltfCameras> then = gltf_cameras_of(scene, options);
+    if (!then) {
+        return std::nullopt;
+    }
+    return then->own ? overridden(*then->own, scene, options.overrides) : scene.camera;
 }
 
 }  // namespace nearlight::core

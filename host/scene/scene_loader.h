@@ -4,12 +4,23 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "host/scene/scene.h"
 #include "host/scene/scene_overrides.h"
 
 namespace nearlight::core {
+
+/// A moment of the animations that a file has.
+struct SceneMoment {
+    double seconds =
+        0;  ///< before the first key of a motion it has not begun, and after the last it has ended
+    /// The animations to play: their names, or their numbers counted from 1. Empty: all but those that move
+    /// what an earlier one moves.
+    std::vector<std::string> animations{};
+};
 
 struct LoadOptions {
     /// Values of `$name` in Mitsuba XML, which win over <default>.
@@ -17,14 +28,20 @@ struct LoadOptions {
     /// The camera to take: its name, or its number counted from 1; empty: the first one.
     std::string camera{};
     SceneOverrides overrides{};
+    std::optional<SceneMoment> moment{};  ///< empty: the file's nodes are at rest
     /// Every approximation is an error instead of a note.
     bool strict = false;
 };
 
 /// Reads a scene in the format that its extension tells: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0),
 /// .obj. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds something
-/// unknown, and Error(ErrorKind::invalid_argument) for a camera or a parameter that is not there, or as
-/// apply_overrides().
+/// unknown, and Error(ErrorKind::invalid_argument) for a camera, a parameter or an animation that is not
+/// there, or as apply_overrides().
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// The camera that a scene, which was loaded at some moment, has at that of `options`, which are else those
+/// that it was loaded with; nothing if surfaces or lights are elsewhere then. Takes less time than to load
+/// the scene. Throws as load_scene().
+std::optional<SceneCamera> camera_at(const Scene& scene, const LoadOptions& options);
 
 }  // namespace nearlight::core

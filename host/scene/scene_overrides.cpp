@@ -57,26 +57,6 @@ std::array<double, 3> upward_axis(const SceneCamera& camera, const ExactPose& po
     return axis;
 }
 
-void apply_camera(Scene& scene, const SceneOverrides& overrides) {
-    if (overrides.fov_degrees) {  // that of the picture, whatever part of the film it was
-        scene.camera = with_field_of_view(scene.camera, *overrides.fov_degrees);
-        scene.camera.center_x = scene.camera.center_y = 0.0;
-        scene.camera.film_part = 1.0;
-    }
-    if (!overrides.origin && !overrides.target && !overrides.up) {
-        return;
-    }
-    ExactPose pose = exact_pose_of(scene.camera);
-    if (overrides.origin) {
-        const Vec3 middle = bounds(scene).center();
-        pose.origin = *overrides.origin;
-        pose.target = {double{middle.x}, double{middle.y}, double{middle.z}};
-    }
-    pose.target = overrides.target.value_or(pose.target);
-    pose.up = overrides.up.value_or(upward_axis(scene.camera, pose));
-    scene.camera = posed(scene.camera, pose);
-}
-
 /// The colour that the text names as R,G,B, as one number, or as #rrggbb.
 std::optional<Vec3> color_named(const std::string& text) {
     if (const std::optional<Vec3> color = hex_color_in(text)) {
@@ -174,9 +154,29 @@ void scale_light(Scene& scene, float scale) {
 
 }  // namespace
 
+SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.fov_degrees) {  // that of the picture, whatever part of the film it was
+        camera = with_field_of_view(camera, *overrides.fov_degrees);
+        camera.center_x = camera.center_y = 0.0;
+        camera.film_part = 1.0;
+    }
+    if (!overrides.origin && !overrides.target && !overrides.up) {
+        return camera;
+    }
+    ExactPose pose = exact_pose_of(camera);
+    if (overrides.origin) {
+        const Vec3 middle = bounds(scene).center();
+        pose.origin = *overrides.origin;
+        pose.target = {double{middle.x}, double{middle.y}, double{middle.z}};
+    }
+    pose.target = overrides.target.value_or(pose.target);
+    pose.up = overrides.up.value_or(upward_axis(camera, pose));
+    return posed(camera, pose);
+}
+
 void apply_overrides(Scene& scene, const SceneOverrides& overrides, NoteSink& notes) {
     check(overrides);
-    apply_camera(scene, overrides);
+    scene.camera = overridden(scene.camera, scene, overrides);
     apply_environment(scene, overrides, notes);
     if (overrides.light_scale != 1) {
         scale_light(scene, static_cast<float>(overrides.light_scale));

@@ -43,6 +43,9 @@ struct SceneOverrides {
     [[nodiscard]] bool bring_light() const { return !environment.empty() || sun.has_value(); }
 };
 
+/// A camera of the file's as they leave it; `scene` is what it may look at the middle of.
+SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverrides& overrides);
+
 /// Applies them to a complete scene. Throws Error: ErrorKind::invalid_argument for a number that is not
 /// finite or out of range, or a camera that posed() refuses; ErrorKind::file for an environment that
 /// cannot be read.

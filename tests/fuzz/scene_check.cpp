@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "host/scene/scene_loader.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::fuzz {
@@ -68,9 +67,9 @@ void check_camera(const SceneCamera& camera) {
 
 }  // namespace
 
-void load_and_check(const std::filesystem::path& file) {
+void load_and_check(const std::filesystem::path& file, const LoadOptions& options) {
     try {
-        const Scene scene = load_scene(file);
+        const Scene scene = load_scene(file, options);
         check_geometry(scene);
         check_names(scene);
         check_looks(scene);

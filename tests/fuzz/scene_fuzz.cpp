@@ -26,9 +26,9 @@ void put_neighbours() {
     static_cast<void>(once);
 }
 
-void load(const std::filesystem::path& file) {
+void load(const std::filesystem::path& file, const LoadOptions& options = {}) {
     put_neighbours();
-    load_and_check(file);
+    load_and_check(file, options);
 }
 
 }  // namespace
@@ -54,7 +54,9 @@ void fuzz_gltf(Bytes bytes) {
     const std::string magic = "glTF";
     const bool is_binary =
         bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-    load(put(is_binary ? "scene.glb" : "scene.gltf", bytes));
+    const std::filesystem::path file = put(is_binary ? "scene.glb" : "scene.gltf", bytes);
+    load(file);
+    load(file, {.moment = SceneMoment{.seconds = 0.75}});
 }
 
 }  // namespace nearlight::core::fuzz

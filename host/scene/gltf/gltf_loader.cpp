@@ -2,32 +2,63 @@
 #include "host/scene/gltf/gltf_loader.h"
 
 #include "host/scene/default_view.h"
+#include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/meshes.h"
 #include "host/scene/gltf/nodes.h"
 
 namespace nearlight::core {
+namespace {
+
+const tinygltf::Node& node_of(const gltf::GltfFile& file, const gltf::PlacedNode& placed) {
+    return file.model.nodes[static_cast<std::size_t>(placed.index)];
+}
+
+std::vector<gltf::PlacedCamera> cameras_of(const gltf::GltfFile& file,
+                                           const std::vector<gltf::PlacedNode>& nodes) {
+    std::vector<gltf::PlacedCamera> cameras;
+    for (const gltf::PlacedNode& placed : nodes) {
+        gltf::find_camera(file, node_of(file, placed), placed.to_world, cameras);
+    }
+    return cameras;
+}
+
+/// A camera that frames the scene, and stays where it is while nodes move.
+void add_still_camera(Scene& scene, LoadOptions options, NoteSink& notes) {
+    if (options.moment) {
+        options.moment.reset();
+        scene.camera = load_gltf_scene(scene.source, options).camera;
+    } else {
+        add_default_camera(scene, notes);
+    }
+}
+
+}  // namespace
+
 Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& options) {
-    const gltf::GltfFile file = gltf::read_gltf(path);
+    gltf::GltfFile file = gltf::read_gltf(path);
     Scene scene;
     scene.source = path;
     scene.name = path.stem().string();
     NoteSink notes(scene.notes, options.strict);
+    if (options.moment) {
+        scene.animation = gltf::pose_nodes(file, *options.moment, notes);
+    }
+    const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(file);
+    scene.pose = options.moment ? gltf::pose_hash(file, nodes) : 0;
     gltf::MeshMaker meshes(file, scene, notes);
     std::vector<gltf::PlacedLight> lights;
-    std::vector<gltf::PlacedCamera> cameras;
-    for (const gltf::PlacedNode& placed : gltf::place_nodes(file)) {
-        const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(placed.index)];
+    for (const gltf::PlacedNode& placed : nodes) {
         meshes.add(placed);
-        gltf::find_light(file, node, placed.to_world, lights);
-        gltf::find_camera(file, node, placed.to_world, cameras);
+        gltf::find_light(file, node_of(file, placed), placed.to_world, lights);
     }
     gltf::add_lights(file, lights, scene, notes);
+    const std::vector<gltf::PlacedCamera> cameras = cameras_of(file, nodes);
     if (!options.camera.empty() || !cameras.empty()) {
         scene.camera = gltf::choose_camera(file, cameras, options.camera);
     } else {
-        add_default_camera(scene, notes);
+        add_still_camera(scene, options, notes);
     }
     if (!options.overrides.bring_light()) {
         // A file with a camera is a scene, which surfaces that shine light. Without one it is a model, of
@@ -37,6 +68,19 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     }
     scene.has_open_exposure = true;
     return scene;
+}
+
+std::optional<GltfCameras> gltf_cameras_of(const Scene& scene, const LoadOptions& options) {
+    gltf::GltfFile file = gltf::read_gltf(scene.source);
+    std::vector<Note> said_before;
+    NoteSink notes(said_before, false);
+    gltf::pose_nodes(file, options.moment.value_or(SceneMoment{}), notes);
+    const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(file);
+    if (gltf::pose_hash(file, nodes) != scene.pose) {
+        return std::nullopt;
+    }
+    const std::vector<gltf::PlacedCamera> cameras = cameras_of(file, nodes);
+    return cameras.empty() ? GltfCameras{} : GltfCameras{gltf::choose_camera(file, cameras, options.camera)};
 }
 
 }  // namespace nearlight::core

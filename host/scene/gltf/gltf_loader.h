@@ -3,15 +3,25 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "host/scene/scene_loader.h"
 
 namespace nearlight::core {
 
 /// Reads the file's default scene, or its first one if it names none. Cameras have their own and their nodes'
-/// names. A camera is added if there is none, and a neutral sky if nothing is there to light the scene. The
-/// unit is the metre; lights in candela and lux count 1/683 of that in W, and emission is a radiance. Throws
-/// Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for an unknown parameter or camera.
+/// names. A camera is added if there is none, which stands as for the nodes at rest, and a neutral sky if
+/// nothing is there to light the scene. The unit is the metre; lights in candela and lux count 1/683 of that
+/// in W, and emission is a radiance. Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for
+/// an unknown parameter, camera or animation.
 Scene load_gltf_scene(const std::filesystem::path& file, const LoadOptions& options);
+
+/// The camera of a file at a moment.
+struct GltfCameras {
+    std::optional<SceneCamera> own{};  ///< empty if the file has none
+};
+/// The camera that the file of `scene` has at the moment of the options; nothing if nodes with surfaces or
+/// lights stand elsewhere than in `scene`. Throws as load_gltf_scene().
+std::optional<GltfCameras> gltf_cameras_of(const Scene& scene, const LoadOptions& options);
 
 }  // namespace nearlight::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/camera_choice.h"
+#include "host/scene/named_choice.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
@@ -143,7 +143,7 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
     for (const PlacedCamera& placed : cameras) {
         names.push_back({placed.node, placed.camera->name});
     }
-    const PlacedCamera& placed = cameras[nearlight::core::choose_camera(file.path, names, wanted)];
+    const PlacedCamera& placed = cameras[choose_named(file.path, "camera", names, wanted)];
     return placed.camera->type == "orthographic" ? orthographic(file, placed) : perspective(file, placed);
 }
 

@@ -33,7 +33,7 @@ void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& t
 /// scene.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);
 
-/// The camera that `wanted` chooses (camera_choice.h) by the names of its node and its own. Throws
+/// The camera that `wanted` chooses (named_choice.h) by the names of its node and its own. Throws
 /// Error(ErrorKind::invalid_argument) if there is no such camera.
 SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>& cameras,
                           const std::string& wanted);

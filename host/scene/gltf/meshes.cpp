@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "host/scene/gltf/lights_and_cameras.h"
-#include "host/scene/gltf/rest_pose.h"
+#include "host/scene/gltf/mesh_pose.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/scene_names.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/mitsuba_loader.h"
 
-#include "host/scene/camera_choice.h"
+#include "host/scene/named_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/mitsuba/emitter_maker.h"
 #include "host/scene/mitsuba/integrator_maker.h"
@@ -19,7 +19,7 @@ void apply_sensors(const Object& root, const std::string& wanted, Scene& scene, 
     for (const Object* sensor : sensors) {
         names.push_back({sensor->id});
     }
-    const std::size_t chosen = choose_camera(scene.source, names, wanted);
+    const std::size_t chosen = choose_named(scene.source, "camera", names, wanted);
     if (sensors.empty()) {
         scene.camera = default_camera(scene);
         scene.camera.filter = default_filter(FilterKind::gaussian);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes with morph targets and skins as they stand at rest.
+// Meshes with morph targets and skins as the nodes of their file stand.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/rest_pose.h"
+#include "host/scene/gltf/mesh_pose.h"
 
 #include <cmath>
 
