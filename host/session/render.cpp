@@ -31,8 +31,9 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
 }
 
 void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
-                 const RowSink& sink, const GatherFraction& progress, RenderReport& report) {
-    const Prepared pass = prepare(session, settings, report);
+                 const RowSink& sink, const GatherFraction& progress, const VplMaker& vpls,
+                 RenderReport& report) {
+    const Prepared pass = prepare(session, settings, vpls, report);
     start(report, pass.view, pass.vpls);
     gather(session, pass, sink, progress, report);
 }
@@ -47,7 +48,7 @@ void add_beauty(std::span<const float> rows, Hasher& hasher) {
 
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast,
-                    PassStart pass_start, const PassWatcher& watcher) {
+                    PassStart pass_start, const PassWatcher& watcher, const VplMaker& vpls) {
     const bool keeps_sums = may_have_passes(settings) || !pass_start.is_plain();
     refuse_passes_of_a_file(settings, keeps_sums);
     RenderReport report = begin_report(session);
@@ -60,11 +61,12 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
     const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
     if (keeps_sums) {
         render_passes(session, settings,
-                      {start, hash_and_send, gathering, forecast, watcher, std::move(pass_start)}, report);
+                      {start, hash_and_send, gathering, forecast, watcher, vpls, std::move(pass_start)},
+                      report);
     } else {
         const uint samples =
             settings.pass_samples.empty() ? settings.gather.samples_per_pixel : settings.pass_samples.front();
-        render_once(session, with_samples(settings, samples), start, hash_and_send, gathering, report);
+        render_once(session, with_samples(settings, samples), start, hash_and_send, gathering, vpls, report);
     }
     report.image_hash = hasher.hash64();
     report.seconds.compile = session.new_compile_seconds();

@@ -80,6 +80,9 @@ struct PassStart {
     [[nodiscard]] bool is_plain() const { return first == 0 && !checkpoint && !keeps_sums; }
 };
 
+/// Makes the VPLs of a pass, as Session::sample() else does. View, sampling and seed are those of the pass.
+using VplMaker = std::function<VplSet(const ViewSettings&, const SamplingSettings&, uint seed)>;
+
 /// Adds finished rows to RenderReport::image_hash.
 void add_beauty(std::span<const float> rows, Hasher& hasher);
 
@@ -90,6 +93,6 @@ void add_beauty(std::span<const float> rows, Hasher& hasher);
 /// first pass; if it made none, there are no VPLs.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
                     const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast = {},
-                    PassStart pass_start = {}, const PassWatcher& watcher = {});
+                    PassStart pass_start = {}, const PassWatcher& watcher = {}, const VplMaker& vpls = {});
 
 }  // namespace nearlight::core

@@ -72,14 +72,16 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
     }
 }
 
-Passes begin_passes(Session& session, const RenderSettings& settings, PassStart start, RenderReport& report) {
+Passes begin_passes(Session& session, const RenderSettings& settings, PassesTask& task,
+                    RenderReport& report) {
+    PassStart& start = task.pass_start;
     Passes passes{.schedule = PassSchedule(settings, report.seconds.total), .first = start.first};
     if (start.checkpoint) {
         resume(session, settings, std::move(*start.checkpoint), passes, report);
     }
     if (passes.first > 0 && !passes.choice) {
         RenderReport of_pass_0;
-        passes.choice = choice_of(prepare(session, settings, of_pass_0), settings);
+        passes.choice = choice_of(prepare(session, settings, task.vpls, of_pass_0), settings);
         report.seconds.generate += of_pass_0.seconds.generate;
     }
     return passes;
@@ -132,7 +134,8 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
     const uint number = passes.first + report.passes;
-    Prepared pass = prepare(session, pass_settings(settings, number, samples, passes.choice), report);
+    Prepared pass =
+        prepare(session, pass_settings(settings, number, samples, passes.choice), task.vpls, report);
     passes.schedule.note_vpls();
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
     if (passes.begun_rows > 0) {
@@ -175,7 +178,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
 }  // namespace
 
 void render_passes(Session& session, const RenderSettings& settings, PassesTask task, RenderReport& report) {
-    Passes passes = begin_passes(session, settings, std::move(task.pass_start), report);
+    Passes passes = begin_passes(session, settings, task, report);
     while (const std::optional<uint> samples = report.interrupted ? std::nullopt : passes.schedule.begin()) {
         if (const auto expected = passes.schedule.forecast(); expected && task.forecast) {
             task.forecast(*expected);

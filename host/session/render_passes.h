@@ -13,6 +13,7 @@ struct PassesTask {
     const GatherFraction& progress;
     const ForecastSink& forecast;
     const PassWatcher& watcher;
+    const VplMaker& vpls;
     PassStart pass_start;
 };
 

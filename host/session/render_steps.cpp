@@ -51,11 +51,13 @@ View look(Session& session, const RenderSettings& settings, RenderReport& report
     return view;
 }
 
-Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report) {
+Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
+                 RenderReport& report) {
     const Stopwatch watch;
-    Prepared pass{
-        .view = session.look(view_settings(settings), settings.seed), .vpls = {}, .settings = settings};
-    pass.vpls = session.sample(pass.view, settings.sampling, settings.seed);
+    const ViewSettings view = view_settings(settings);
+    Prepared pass{.view = session.look(view, settings.seed), .vpls = {}, .settings = settings};
+    pass.vpls = vpls ? vpls(view, settings.sampling, settings.seed)
+                     : session.sample(pass.view, settings.sampling, settings.seed);
     note_pass(pass, report);
     report.seconds.generate += watch.seconds();
     return pass;

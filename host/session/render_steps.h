@@ -16,8 +16,9 @@ struct Prepared {
 /// Looks at the scene.
 View look(Session& session, const RenderSettings& settings, RenderReport& report);
 
-/// Looks at the scene and makes VPLs. `settings` are those of the pass.
-Prepared prepare(Session& session, const RenderSettings& settings, RenderReport& report);
+/// Looks at the scene and makes VPLs, with `vpls` unless that is empty. `settings` are those of the pass.
+Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
+                 RenderReport& report);
 
 /// Gathers the rows of the pass.
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,

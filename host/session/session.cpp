@@ -12,6 +12,7 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
+#include "host/session/key_vpls.h"
 #include "host/session/light_shares.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
@@ -131,9 +132,10 @@ Session::Session(std::span<Device* const> devices, const Scene& scene, const Ses
 Session::Session(Device& device, const Scene& scene, const SessionOptions& options)
     : Session(std::vector{&device}, scene, options) {}
 
-View Session::look(const ViewSettings& settings, uint seed) {
+View Session::look(const SceneCamera& camera, const ViewSettings& settings, uint seed) {
     return pool_.on_leader([&](PoolDevice& leader) {
-        return choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, settings, seed);
+        return choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, camera, settings,
+                           seed);
     });
 }
 
@@ -191,6 +193,18 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
             set.vpls.keep_on_host();
         }
         return set;
+    });
+}
+
+VplSet Session::join(std::span<const VplPart> parts) {
+    return pool_.on_leader([&](PoolDevice& leader) {
+        auto [set, vpls] = join_on_host(parts);
+        const bool has_order = parts.size() < 2;
+        set.vpls = has_order ? VplBuffer(leader.device(), vpls) : leader.samplers->vpl_order.sort(vpls);
+        if (pool_.size() > 1) {
+            set.vpls.keep_on_host();
+        }
+        return std::move(set);
     });
 }
 

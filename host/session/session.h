@@ -42,21 +42,34 @@ struct GatherOutcome {
 /// Its clamp radius counts only if rays bring back what it takes away.
 RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings);
 
+/// A set of VPLs, and the part that it has in the light of several.
+struct VplPart {
+    const VplSet* set = nullptr;
+    float weight = 1.0f;
+};
+
 /// A scene on devices. After construction the tree is built and everything is uploaded; kernels compile until
 /// they are first launched. Views and VPLs are made on the first device, rows on all of them. Several devices
 /// of one type give the same bits as each of them alone. A device that fails is left out from then on, with a
 /// warning; when no device is left, its error is thrown. For one thread at a time.
 class Session {
   public:
-    /// Keeps references to `devices` (one or more) and `scene`, which must outlive the session.
+    /// Keeps references to `devices` (one or more) and `scene`, which must outlive the session. Of the scene
+    /// only the camera may change meanwhile, which look() asks for.
     Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options = {});
     Session(Device& device, const Scene& scene, const SessionOptions& options = {});
 
     /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
-    View look(const ViewSettings& settings, uint seed);
+    View look(const ViewSettings& settings, uint seed) { return look(scene_.camera, settings, seed); }
+    /// Looks with another camera than the scene's.
+    View look(const SceneCamera& camera, const ViewSettings& settings, uint seed);
 
     /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name.
     VplSet sample(const View& view, const SamplingSettings& settings, uint seed);
+
+    /// One set of several of this scene and depth, whose weights add up to 1: the VPLs of all with as much
+    /// of their power, so that their light is what all bring on average. No set may have local lights.
+    VplSet join(std::span<const VplPart> parts);
 
     /// Writes VPLs that were made for the view to a file, from which sample() can take them. Throws as
     /// write_vpl_file() and vpl_file_of() do.

@@ -27,12 +27,12 @@ float automatic_range(const PilotView& pilot, float extent) {
 }  // namespace
 
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
-                 const ViewSettings& settings, uint seed) {
+                 const SceneCamera& camera, const ViewSettings& settings, uint seed) {
     View view;
     view.seed = seed;
-    view.scene_camera = settings.camera ? posed(scene.camera, *settings.camera) : scene.camera;
-    view.scene_camera.width = settings.width.value_or(scene.camera.width);
-    view.scene_camera.height = settings.height.value_or(scene.camera.height);
+    view.scene_camera = settings.camera ? posed(camera, *settings.camera) : camera;
+    view.scene_camera.width = settings.width.value_or(camera.width);
+    view.scene_camera.height = settings.height.value_or(camera.height);
     view.camera = make_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
     view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
                                                                      : kDefaultMaxDepth);

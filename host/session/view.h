@@ -23,10 +23,10 @@ struct View {
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 
-/// Decides what the settings leave open: it takes size and depth from the scene, sets the range so that the
-/// close range holds nine tenths of what the camera sees, and sets the clamp radius to a twentieth of the
-/// range.
+/// Decides what the settings leave open: it takes size and depth from camera and scene, sets the range so
+/// that the close range holds nine tenths of what the camera sees, and sets the clamp radius to a twentieth
+/// of the range.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
-                 const ViewSettings& settings, uint seed);
+                 const SceneCamera& camera, const ViewSettings& settings, uint seed);
 
 }  // namespace nearlight::core

@@ -61,7 +61,8 @@ class Energy : public test::DeviceTest {
             : camera_pass(device),
               stages(device),
               on_device(device, room_with_block()),
-              view(choose_view(device, camera_pass, on_device.buffers, on_device.scene, {.range = 2.0f}, 0)),
+              view(choose_view(device, camera_pass, on_device.buffers, on_device.scene,
+                               on_device.scene.camera, {.range = 2.0f}, 0)),
               photographer(on_device.scene, {on_device.scene.camera, camera_behind()}, view.close_range,
                            kDepths) {}
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// VPLs that stay put while a camera walks: sets that were made for a few of its views.
+#pragma once
+
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "host/session/session.h"
+
+namespace nearlight::core {
+
+/// Sets as one, with the VPLs on the host.
+struct JoinedVpls {
+    VplSet set;  ///< without its VPLs
+    std::vector<Vpl> vpls;
+};
+/// What Session::join() makes of its parts, in no order. Rays begin where they do on average, and there are
+/// as many light samples as the part with the most of them asks for.
+JoinedVpls join_on_host(std::span<const VplPart> parts);
+
+/// A view of a walk for which VPLs are made.
+struct KeyView {
+    int frame = 0;  ///< of the walk; tells key views apart
+    SceneCamera camera;
+    float weight = 1.0f;  ///< of its VPLs in the next picture
+};
+
+/// Makes the VPLs of a sequence of pictures in which only the camera moves. The VPLs of a picture are those
+/// of one or two key views that are near in time. From one picture to the next only their weights change, so
+/// that the error of VPLs, which looks like stains on the walls, fades slowly instead of flickering, while
+/// there are always VPLs where the camera looks. Sets are unbiased, and so is their mean. They depend on
+/// nothing but their key views, so that a picture has the same bits whichever others are made.
+class KeyVpls {
+  public:
+    /// `view` has the settings of each picture's view, before a pass decided any of them.
+    explicit KeyVpls(ViewSettings view) : view_(std::move(view)) {}
+
+    /// The key views of the next picture, whose weights add up to 1. Sets of others are dropped.
+    void set_views(std::vector<KeyView> views);
+    [[nodiscard]] bool has_views() const { return !views_.empty(); }
+
+    /// The VPLs of a pass of the picture, of whose view only the pilot is asked for.
+    VplSet make(Session& session, const ViewSettings& view, const SamplingSettings& sampling, uint seed);
+
+  private:
+    using Key = std::tuple<int, uint, uint, bool>;  ///< frame, seed, VPLs, and whether the pilot ran
+
+    ViewSettings view_;
+    std::vector<KeyView> views_;
+    std::map<Key, VplSet> sets_;
+    std::size_t kept_vpls_ = 0;
+};
+
+}  // namespace nearlight::core
