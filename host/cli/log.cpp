@@ -5,6 +5,9 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 
 #include <memory>
+#include <mutex>
+#include <set>
+#include <string>
 
 #include "host/base/message.h"
 #include "host/base/printable.h"
@@ -30,6 +33,12 @@ class PrintableText : public spdlog::custom_flag_formatter {
     }
 };
 
+void show(MessageLevel level, std::string_view text) {
+    // Only a compiler's log has several lines.
+    spdlog::log(log_level(level), "{}",
+                level == MessageLevel::warning ? printable_line(text) : std::string(text));
+}
+
 }  // namespace
 
 void set_up_log(Verbosity verbosity) {
@@ -44,10 +53,19 @@ void set_up_log(Verbosity verbosity) {
                       : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                         : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
-    set_message_sink([](MessageLevel level, std::string_view text) {
-        // Only a compiler's log has several lines.
-        spdlog::log(log_level(level), "{}",
-                    level == MessageLevel::warning ? printable_line(text) : std::string(text));
+    core::set_message_sink(show);
+}
+
+void show_messages_once() {
+    struct Shown {
+        std::mutex mutex;
+        std::set<std::string> texts;
+    };
+    set_message_sink([shown = std::make_shared<Shown>()](MessageLevel level, std::string_view text) {
+        const std::lock_guard lock(shown->mutex);
+        if (level == MessageLevel::debug || shown->texts.emplace(text).second) {
+            show(level, text);
+        }
     });
 }
 

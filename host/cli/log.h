@@ -13,4 +13,8 @@ enum class Verbosity { quiet, normal, verbose };
 /// spdlog::info(), warn() and debug().
 void set_up_log(Verbosity verbosity);
 
+/// From now on, messages of rooms with the same text are shown once: for commands that read one file many
+/// times.
+void show_messages_once();
+
 }  // namespace nearlight::core

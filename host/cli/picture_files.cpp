@@ -147,6 +147,11 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         "raw is the picture as it was rendered");
 }
 
+bool has_screen_pictures(const PictureOptions& options) {
+    return std::ranges::any_of(options.outputs,
+                               [](const std::string& file) { return extension_of(file) == ".png"; });
+}
+
 std::string default_output(const std::filesystem::path& scene) {
     return scene.stem().string() + "-render.png";
 }

@@ -34,6 +34,9 @@ inline constexpr FilmLayer kRawLayer{"raw", "RGB", NEARLIGHT_LAYER_CHANNELS, NEA
 /// Adds -o, --layers, --exposure, --tonemap, --exr-precision, --exr-compression and --denoise.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
+/// Whether there are files for screens, which have an exposure.
+bool has_screen_pictures(const PictureOptions& options);
+
 /// The picture that a scene gets in the current folder if no output is named.
 std::string default_output(const std::filesystem::path& scene);
 
@@ -55,6 +58,8 @@ class PictureFiles {
   public:
     explicit PictureFiles(PictureOptions options) : options_(std::move(options)) {}
 
+    /// Names the files that the next open() begins, as many as before.
+    void set_outputs(std::vector<std::string> outputs) { options_.outputs = std::move(outputs); }
     /// `place` says which part of a larger picture this is, if it is one.
     void open(int width, int height, const Metadata& metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);

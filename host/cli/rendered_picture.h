@@ -24,6 +24,8 @@ class RenderedPicture {
     /// all if that is 0. Throws as Denoiser does.
     RenderedPicture(const PictureOptions& options, int threads);
 
+    /// As PictureFiles::set_outputs().
+    void set_outputs(std::vector<std::string> outputs) { files_.set_outputs(std::move(outputs)); }
     /// Opens the files, again if they were committed. `metadata` gets the attribute that names the denoiser.
     void open(int width, int height, Metadata metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);

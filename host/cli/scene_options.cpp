@@ -5,6 +5,15 @@
 #include "host/cli/override_options.h"
 
 namespace nearlight::core {
+namespace {
+
+void set_filter(const SceneOptions& options, SceneCamera& camera) {
+    if (options.filter) {
+        camera.filter = default_filter(*options.filter);
+    }
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
@@ -75,6 +84,7 @@ LoadOptions load_options(const SceneOptions& options) {
     result.strict = options.strict;
     result.camera = options.camera;
     result.overrides = options.overrides;
+    result.moment = options.moment;
     for (const std::string& definition : options.definitions) {
         const std::size_t equals = definition.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -88,11 +98,17 @@ LoadOptions load_options(const SceneOptions& options) {
 
 Scene load_scene(const SceneOptions& options) {
     Scene scene = load_scene(options.file, load_options(options));
-    if (options.filter) {
-        scene.camera.filter = default_filter(*options.filter);
-    }
+    set_filter(options, scene.camera);
     scene.clear_glass = options.clear_glass;
     return scene;
+}
+
+std::optional<SceneCamera> camera_at(const Scene& scene, const SceneOptions& options) {
+    std::optional<SceneCamera> camera = camera_at(scene, load_options(options));
+    if (camera) {
+        set_filter(options, *camera);
+    }
+    return camera;
 }
 
 }  // namespace nearlight::core

@@ -21,6 +21,7 @@ struct SceneOptions {
     bool clear_glass = false;
     std::string camera;  ///< name or number; empty: the first one
     SceneOverrides overrides;
+    std::optional<SceneMoment> moment{};  ///< of the file's animations; empty: at rest
 };
 
 /// Adds the positional SCENE, -D, --strict and the options of override_options.h.
@@ -45,5 +46,8 @@ LoadOptions load_options(const SceneOptions& options);
 
 /// Reads the scene, with the filter and the glass that the options say, and logs its notes as warnings.
 Scene load_scene(const SceneOptions& options);
+
+/// The camera that the scene has at the options' moment, as camera_at() of scene_loader.h.
+std::optional<SceneCamera> camera_at(const Scene& scene, const SceneOptions& options);
 
 }  // namespace nearlight::core

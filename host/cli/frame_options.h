@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `nearlight render` by which it makes the frames of an animation.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/cli/command.h"
+#include "host/scene/scene_loader.h"
+
+namespace nearlight::core {
+
+struct FrameRange {
+    int first = 0;
+    int last = 0;  ///< is made too; not less than `first`
+};
+
+struct FrameOptions {
+    std::optional<FrameRange> range{};      ///< empty: one picture of the scene at rest
+    double fps = 24.0;                      ///< frames per second
+    std::vector<std::string> animations{};  ///< as SceneMoment has them
+    std::optional<int> vpl_keys{};          ///< frames from one key view to the next; 0: there are none
+    bool skip_existing = false;
+
+    [[nodiscard]] SceneMoment moment(int frame) const { return {frame / fps, animations}; }
+    /// Frames from one key view to the next; 0: each frame has VPLs of its own.
+    [[nodiscard]] int key_step() const;
+};
+
+/// Adds --frames, --fps, --animation, --vpl-keys and --skip-existing. Options of checkpoints and VPL files
+/// must have been added before.
+void add_frame_options(CLI::App& command, FrameOptions& options);
+
+/// Parses "10:20", both ends included, or "10", which is a single frame. Throws
+/// Error(ErrorKind::invalid_argument) unless both are from 0 to 999999 and ascend.
+FrameRange parse_frames(const std::string& text);
+
+/// The file of a frame. Its number, with zeros before it, takes the place of the last run of # in the name,
+/// or else stands before the extension with four digits or more.
+std::string numbered(const std::string& file, int frame);
+
+/// The files of a frame.
+std::vector<std::string> numbered(const std::vector<std::string>& files, int frame);
+
+/// The frames to make, without those of which all files are there if the options say so.
+std::vector<int> frames_to_make(const FrameOptions& options, const std::vector<std::string>& outputs);
+
+/// Warns of frames before and after the animation, which show its begin and end.
+void tell_range(const FrameOptions& options, const Scene& scene);
+
+}  // namespace nearlight::core
