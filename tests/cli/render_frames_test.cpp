@@ -56,11 +56,11 @@ TEST_F(Frames, HaveNumbersAndShowTheirMoments) {
         ASSERT_TRUE(has(name));
         const Metadata metadata = read_metadata(folder_ / name);
         EXPECT_EQ(std::get<int>(metadata.at("nearlight:frame")), frame);
-        // The middle of the picture lies on the wall, straight before the camera.
+        // A pixel beside the middle of the picture shows the wall straight before the camera.
         const Image image = read_image(folder_ / name);
         const std::size_t middle = (8 * 24 + 12) * image.channel_count();
         const auto x = static_cast<std::size_t>(image.find_channel("P.X"));
-        EXPECT_NEAR(image.values.at(middle + x), -0.5 + 0.5 * frame, 0.1);
+        EXPECT_NEAR(image.values.at(middle + x), -0.5 + 0.5 * frame, 0.2);
     }
     EXPECT_FALSE(has("walk.03.exr"));
     EXPECT_NE(hashes(json)[0], hashes(json)[1]);
