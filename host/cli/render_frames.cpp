@@ -89,6 +89,9 @@ void Walk::go_to(int frame) {
     }
     if (!session_) {
         session_.emplace(run_.plain_devices(), *run_.scene, options_.session);
+        if (!is_first) {
+            session_->new_compile_seconds();  // earlier frames have counted them
+        }
     }
     const RenderOptions of_frame = options_of(options_, frame);
     run_.options.picture.outputs = of_frame.picture.outputs;

@@ -199,7 +199,7 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
 VplSet Session::join(std::span<const VplPart> parts) {
     return pool_.on_leader([&](PoolDevice& leader) {
         auto [set, vpls] = join_on_host(parts);
-        const bool has_order = parts.size() < 2;
+        const bool has_order = parts.size() < 2 || vpls.empty();
         set.vpls = has_order ? VplBuffer(leader.device(), vpls) : leader.samplers->vpl_order.sort(vpls);
         if (pool_.size() > 1) {
             set.vpls.keep_on_host();

@@ -68,6 +68,14 @@ TEST_F(KeyVplsTest, OneSetStaysAsItIs) {
     });
 }
 
+TEST_F(KeyVplsTest, NoVplsAreNone) {
+    on_each_device([&](Device& device) {
+        Session session(device, scene_);
+        const VplSet none = session.sample(session.look({}, 1), {.vpl_count = 0}, 1);
+        EXPECT_TRUE(session.join(std::vector<VplPart>{{&none, 0.5f}, {&none, 0.5f}}).vpls.empty());
+    });
+}
+
 TEST_F(KeyVplsTest, RaysBeginWhereTheyDoOnAverage) {
     VplSet a;
     VplSet b;
