@@ -313,6 +313,10 @@ TEST_F(BsdfSurfaceTest, CheckerboardsOfTexturesAndVertexColors) {
         EXPECT_NEAR(reflectance_at(probe, scene, 0.1f, 0.6f), 0.5f * mean, 1e-6f);
         EXPECT_NEAR(reflectance_at(probe, scene, 0.3f, 0.9f), 0.5f * mean, 1e-6f);
         EXPECT_NEAR(reflectance_at(probe, scene, 0.3f, 0.6f), 0.25f, 1e-6f);
+        scene.textures.push_back(board);  // which the first one has in it
+        scene.textures[0].color0.texture = 2;
+        EXPECT_NEAR(reflectance_at(probe, scene, 0.1f, 0.6f), 0.5f * 0.5f * mean, 1e-6f);
+        EXPECT_NEAR(reflectance_at(probe, scene, 0.3f, 0.6f), 0.25f, 1e-6f);
     });
 }
 

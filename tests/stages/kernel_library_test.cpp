@@ -5,6 +5,7 @@
 #include <set>
 
 #include "host/base/math.h"
+#include "host/base/packed_direction.h"
 #include "host/base/random.h"
 #include "host/image/color.h"
 #include "host/scene/camera.h"
@@ -23,6 +24,8 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
     SceneCamera camera;
     camera.to_world = look_at({3, -2, 5}, {-1, 4, 0.5}, {0.3, 1, 0.2});
     camera.fov_x_degrees = 71;
+    constexpr float kNear = 0.8f;
+    camera.near_clip = kNear;
     const Camera pinhole = make_camera(camera, 640, 200);
     constexpr float kRange = 2.5f;
     constexpr std::size_t kCount = 10'000;
@@ -40,8 +43,12 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
         const float y = off_border(inside[1]);
         const float distance = kRange * off_border(inside[2]);
         const Vec3 direction = pinhole.corner + pinhole.step_x * (x * 640) + pinhole.step_y * (y * 200);
-        points[i] = pinhole.origin + normalize(direction) * distance;
-        expected[i] = inside[0] && inside[1] && inside[2];
+        const Vec3 way = normalize(direction) * distance;
+        const float depth = dot(way, pinhole.forward);
+        // What would be too near to the plane goes behind the camera.
+        const bool is_on_border = std::abs(depth - kNear) < 0.001f;
+        points[i] = pinhole.origin + (is_on_border ? -way : way);
+        expected[i] = inside[0] && inside[1] && inside[2] && depth > kNear && !is_on_border;
     }
     on_each_device([&](Device& device) {
         KernelProbe probe(device,
@@ -56,6 +63,80 @@ TEST_F(KernelLibraryTest, PointPredicateMeansSeenAndNearerThanRange) {
         Buffer<uint> flags(probe.device(), kCount);
         probe.kernel().launch(kCount, 8, region, Buffer<Vec3>(probe.device(), points), flags);
         EXPECT_EQ(flags.download(), expected);
+    });
+}
+
+/// Unit vectors of all octants, along the axes, and next to the poles, where formulas for frames and
+/// octahedra have their seams.
+std::vector<Vec3> unit_vectors() {
+    std::vector<Vec3> result{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const float z : {1.0f, -1.0f}) {
+        result.push_back(normalize({1e-4f, -2e-4f, z}));
+        result.push_back(normalize({-0.3f, 0.2f, 1e-6f * z}));
+    }
+    Pcg32 random(9);
+    const auto signed_number = [&] { return 2.0f * random.uniform() - 1.0f; };
+    while (result.size() < 1000) {
+        const Vec3 v{signed_number(), signed_number(), signed_number()};
+        if (length(v) > 0.1f) {
+            result.push_back(normalize(v));
+        }
+    }
+    return result;
+}
+
+TEST_F(KernelLibraryTest, FramesAreOrthonormalAndRightHanded) {
+    const std::vector<Vec3> normals = unit_vectors();
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/math.cl\"\n"
+                          "kernel void probe(const global Vec3* normals, global Vec3* axes) {\n"
+                          "    const uint i = get_global_id(0);\n"
+                          "    const Frame frame = make_frame(load3(normals[i]));\n"
+                          "    axes[3 * i] = store3(frame_to_world(&frame, (float3)(1, 0, 0)));\n"
+                          "    axes[3 * i + 1] = store3(frame.bitangent);\n"
+                          "    axes[3 * i + 2] = store3(world_to_frame(&frame, load3(normals[i])));\n"
+                          "}\n");
+        Buffer<Vec3> axes(probe.device(), 3 * normals.size());
+        probe.kernel().launch(normals.size(), 8, Buffer<Vec3>(probe.device(), normals), axes);
+        const std::vector<Vec3> found = axes.download();
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const Vec3 n = normals[i];
+            const Vec3 tangent = found[3 * i];
+            SCOPED_TRACE(testing::Message() << "normal " << n.x << " " << n.y << " " << n.z);
+            EXPECT_NEAR(dot(tangent, tangent), 1.0f, 1e-5f);
+            EXPECT_NEAR(dot(tangent, n), 0.0f, 1e-5f);
+            EXPECT_LT(length(cross(n, tangent) - found[3 * i + 1]), 1e-5f);
+            EXPECT_LT(length(found[3 * i + 2] - Vec3{0, 0, 1}), 1e-5f);
+        }
+    });
+}
+
+TEST_F(KernelLibraryTest, PackedDirectionsComeBackAndAreThoseOfTheHost) {
+    const std::vector<Vec3> directions = unit_vectors();
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/math.cl\"\n"
+                          "kernel void probe(const global Vec3* directions, global uint* packed,\n"
+                          "                  global Vec3* back) {\n"
+                          "    const uint i = get_global_id(0);\n"
+                          "    packed[i] = pack_direction(load3(directions[i]));\n"
+                          "    back[i] = store3(unpack_direction(packed[i]));\n"
+                          "}\n");
+        Buffer<uint> packed(probe.device(), directions.size());
+        Buffer<Vec3> back(probe.device(), directions.size());
+        probe.kernel().launch(directions.size(), 8, Buffer<Vec3>(probe.device(), directions), packed, back);
+        const std::vector<uint> codes = packed.download();
+        const std::vector<Vec3> found = back.download();
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            const Vec3 d = directions[i];
+            SCOPED_TRACE(testing::Message() << "direction " << d.x << " " << d.y << " " << d.z);
+            EXPECT_LT(length(found[i] - d), 1e-4f);
+            // A number that lies between two codes may be rounded to either.
+            const uint of_host = pack_direction(d);
+            EXPECT_LE(std::abs(int(codes[i] & 0xffffu) - int(of_host & 0xffffu)), 1);
+            EXPECT_LE(std::abs(int(codes[i] >> 16u) - int(of_host >> 16u)), 1);
+        }
     });
 }
 

@@ -30,6 +30,7 @@ void DeviceTest::SetUp() {
         GTEST_SKIP() << error.what();
     }
     DeviceOptions options;
+    options.kernel_dir = environment("NEARLIGHT_TEST_KERNELS");
     options.cache_dir = test_cache_dir();
     for (const DeviceEntry& entry : entries) {
         devices_.push_back(std::make_unique<Device>(entry, options));

@@ -15,7 +15,8 @@
 namespace nearlight::core::test {
 
 /// Opens every usable device, or those that NEARLIGHT_TEST_DEVICES names (an index, part of a name, cpu, gpu,
-/// all). If there is none, the test is skipped; with NEARLIGHT_REQUIRE_DEVICE=1 it fails.
+/// all). If there is none, the test is skipped; with NEARLIGHT_REQUIRE_DEVICE=1 it fails. Kernels are those of
+/// the binary, or of the folder NEARLIGHT_TEST_KERNELS (scripts/mutants breaks kernels without a build).
 class DeviceTest : public ::testing::Test {
   protected:
     void SetUp() override;
