@@ -142,7 +142,11 @@ TEST_F(MortonSortTest, BoundsHoldAllFinitePointsTightly) {
                 expected.extend(p);
             }
             if (size > 10) {
-                points.insert(points.begin() + 5, Vec3{NAN, 1e9f, std::numeric_limits<float>::infinity()});
+                constexpr float kInfinite = std::numeric_limits<float>::infinity();
+                for (const Vec3 p :
+                     {Vec3{NAN, 1e9f, 0}, Vec3{1e9f, kInfinite, 1e9f}, Vec3{-1e9f, 0, -kInfinite}}) {
+                    points.insert(points.begin() + 5, p);
+                }
             }
             const Aabb box = sorter.bounds(Buffer<Vec3>(device, points), points.size());
             EXPECT_EQ(box.min, expected.min);

@@ -42,7 +42,8 @@ std::vector<Vpl> random_vpls(std::size_t count) {
         vpls[i] = {.position = vector(),
                    .depth = 2,
                    .normal = vector(),
-                   .flags = NEARLIGHT_VPL_CLOSE | static_cast<uint>(i % 5) << NEARLIGHT_VPL_CURVE_SHIFT,
+                   .flags = NEARLIGHT_VPL_CLOSE | (i % 3 == 0 ? NEARLIGHT_VPL_MAPPED : 0) |
+                            static_cast<uint>(i % 5) << NEARLIGHT_VPL_CURVE_SHIFT,
                    .power = vector(),
                    .shading = packed(shading_normal(i))};
     }
@@ -81,6 +82,15 @@ TEST_F(VplLightTest, ReceiversAreTheVplsThenNothing) {
                     }
                     EXPECT_EQ(found[i / NEARLIGHT_PACKET_SIZE].surface[i % NEARLIGHT_PACKET_SIZE],
                               i < count ? i % 5 : 0);
+                    const uint mesh_normal =
+                        found[i / NEARLIGHT_PACKET_SIZE].mesh_normal[i % NEARLIGHT_PACKET_SIZE];
+                    if (i < count && side == VplSide::receives && i % 3 == 0) {
+                        const uint expected = packed(vpls[i].normal);
+                        EXPECT_NEAR(mesh_normal & 0xffffu, expected & 0xffffu, 1.0);
+                        EXPECT_NEAR(mesh_normal >> 16u, expected >> 16u, 1.0);
+                    } else {
+                        EXPECT_EQ(mesh_normal, 0u);
+                    }
                 }
             }
         }

@@ -110,6 +110,23 @@ TEST_F(VplPlacementTest, TrianglesAreChosenInProportionToArea) {
     });
 }
 
+TEST_F(VplPlacementTest, PartsAreExactInUnitsOfArea) {
+    on_each_device([](Device& device) {
+        Placer placer(device, Surface({1, 1, 1, 1, 1, 1, 1}), 1);
+        for (const uint seed : {1u, 2u, 3u}) {
+            const std::vector<SurfaceSample> sevenths = placer.place(7, seed);
+            for (uint k = 0; k < 7; ++k) {
+                EXPECT_EQ(sevenths[k].triangle, k) << "each part is one triangle";
+            }
+            const std::vector<SurfaceSample> quarters = placer.place(4, seed);
+            for (uint k = 0; k < 4; ++k) {
+                EXPECT_GE(quarters[k].triangle, k * 7 / 4);
+                EXPECT_LT(quarters[k].triangle, (k + 1) * 7 / 4);
+            }
+        }
+    });
+}
+
 TEST_F(VplPlacementTest, EachPartOfTheAreaGetsExactlyOneSample) {
     on_each_device([](Device& device) {
         Surface surface(random_areas(5000, 2));
