@@ -219,6 +219,32 @@ TEST_F(RoundLightTest, SamplesOfATubeAreUniformInBothAngles) {
     });
 }
 
+/// A direction that misses the shape has no density, although it may meet a triangle that stands for it.
+TEST_F(RoundLightTest, DensitiesIntegrateToOne) {
+    const std::string source = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, global float* out) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    out[i] = PDF(scene.emitters, (float3)(0.0f), square_to_cone(sample_2d(i, 0, 9), -1.0f));
+}
+)";
+    const std::pair<std::string, Scene> cases[]{{"sphere", one_lamp({0.3f, -0.4f, 0.5f}, 0.5f)},
+                                                {"cylinder", tubes()[0]}};
+    on_each_device([&](Device& device) {
+        for (const auto& [shape, scene] : cases) {
+            KernelProbe probe(device, "#define PDF " + shape + "_pdf\n" + source);
+            const SceneOnDevice lamp(probe.device(), scene);
+            Buffer<float> out(probe.device(), kRoundSamples);
+            probe.kernel().launch(kRoundSamples, 8, lamp.buffers, out);
+            const std::vector<float> densities = out.download();
+            const double sum = std::accumulate(densities.begin(), densities.end(), 0.0);
+            EXPECT_NEAR(4 * kPiD * sum / kRoundSamples, 1.0, 0.01) << shape;
+        }
+    });
+}
+
 /// The share of all cosine-distributed directions about +Z in which a ray from the origin meets the outside
 /// of the tube.
 double share_of_tube(const RoundLamp& lamp) {
