@@ -168,6 +168,35 @@ using Float4 = std::array<float, 4>;
 constexpr Float4 kOrigin{0, 0, 0, 0};
 constexpr Float4 kUp{0, 0, 1, 0};
 
+TEST_F(LightSamplingTest, SamplesOfTheSunAreEvenOverItsDisc) {
+    constexpr uint kCount = 4096;
+    constexpr uint kRings = 4;  // of equal solid angle
+    Scene scene = lamps_and_sky(Sky::few_pixels);
+    scene.environment.sun_half_angle = degrees_to_radians(20);
+    const double height = 1 - std::cos(degrees_to_radians(20.0));
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, global float* heights) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    heights[i] = 1.0f - dot(sample_sun(&scene, sample_2d(i, 0, 7)), load3(scene.environment->sun_direction));
+}
+)");
+        const SceneOnDevice on_device(probe.device(), scene);
+        Buffer<float> heights(probe.device(), kCount);
+        probe.kernel().launch(kCount, 8, on_device.buffers, heights);
+        std::array<uint, kRings + 1> counts{};
+        for (const float found : heights.download()) {
+            ++counts[static_cast<uint>(std::clamp(found / height, 0.0, 1.0 + 1e-4) * kRings)];
+        }
+        for (uint ring = 0; ring < kRings; ++ring) {
+            EXPECT_NEAR(counts[ring], kCount / kRings, 8) << "ring " << ring;
+        }
+    });
+}
+
 TEST_F(LightSamplingTest, SamplesHaveTheDensityThatRaysAreTold) {
     constexpr uint kCount = 4096;
     on_each_device([&](Device& device) {

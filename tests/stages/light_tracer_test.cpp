@@ -97,12 +97,30 @@ TEST_F(LightTracerTest, DepositsStandOffTheSurfaceTheyLieOn) {
 }
 
 /// First deposits in a closed white sphere carry all that the light emits.
-double emitted_power(Device& device, Scene scene) {
+Power emitted_powers(Device& device, Scene scene) {
     scene.materials.resize(std::max<std::size_t>(scene.materials.size(), 1));
     add_inward_sphere(scene, 3.0f, 2, add_material(scene, lambertian({1, 1, 1})));
     const auto vpls =
         trace_all(device, scene, {.walk_count = 30'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 6});
-    return power_by_depth(vpls, 1)[0].y;
+    return power_by_depth(vpls, 1)[0];
+}
+double emitted_power(Device& device, const Scene& scene) {
+    return emitted_powers(device, scene).y;
+}
+
+TEST_F(LightTracerTest, EachOfSeveralLightsEmitsItsOwnPower) {
+    Scene scene;
+    add_point_light(scene, {0.3f, 0, 0}, {1, 0, 0});
+    add_point_light(scene, {0, 0.3f, 0}, {0, 3, 0});
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = parameter_of(Vec3{0, 0, 800});
+    add_quad(scene, {0, 0, -2}, {0.1f, 0, 0}, {0, 0.1f, 0}, add_material(scene, lamp));  // hides very little
+    on_each_ray_tree([&](Device& device) {
+        const Power powers = emitted_powers(device, scene);
+        EXPECT_NEAR(powers.x, 4 * kPi * 1, 0.02 * 4 * kPi);
+        EXPECT_NEAR(powers.y, 4 * kPi * 3, 0.02 * 12 * kPi);
+        EXPECT_NEAR(powers.z, kPi * 8, 0.02 * 8 * kPi);
+    });
 }
 
 TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
