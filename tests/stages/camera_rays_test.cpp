@@ -3,6 +3,7 @@
 // filters and lenses.
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "host/base/random.h"
 #include "host/reference/camera_path.h"
@@ -59,12 +60,15 @@ Point2 square_point(int index) {
 
 std::vector<Placed> place_on_device(KernelProbe& probe, const SceneCamera& camera, uint pixel) {
     const std::vector<Camera> cameras{make_camera(camera, kWidth, kHeight)};
-    Buffer<float> out(probe.device(), 3 * kSide * kSide);
+    Buffer<float> out(probe.device(), 4 * kSide * kSide);
     probe.kernel().launch(kSide * kSide, 64, Buffer<Camera>(probe.device(), cameras), pixel, out);
     const std::vector<float> values = out.download();
     std::vector<Placed> samples;
-    for (std::size_t i = 0; i < values.size(); i += 3) {
+    for (std::size_t i = 0; i < values.size(); i += 4) {
         samples.push_back({values[i], values[i + 1], values[i + 2]});
+        const double away =
+            std::max(std::abs(samples.back().x - pixel - 0.5), std::abs(samples.back().y - 0.5));
+        EXPECT_EQ(values[i + 3], away <= 0.5 ? 1.0f : 0.0f) << "in its own pixel";
     }
     return samples;
 }
@@ -85,9 +89,10 @@ constexpr const char* kPlacingKernel =
     "    const uint i = get_global_id(0);\n"
     "    const float2 u = ((float2)(i % 256u, i / 256u) + 0.5f) / 256.0f;\n"
     "    const FilmSample sample = sample_film(camera, pixel, 0, u);\n"
-    "    out[3 * i] = sample.position.x;\n"
-    "    out[3 * i + 1] = sample.position.y;\n"
-    "    out[3 * i + 2] = sample.weight;\n"
+    "    out[4 * i] = sample.position.x;\n"
+    "    out[4 * i + 1] = sample.position.y;\n"
+    "    out[4 * i + 2] = sample.weight;\n"
+    "    out[4 * i + 3] = sample.is_in_own_pixel;\n"
     "}\n";
 
 /// A filter of each kind, with a film that has a border and one that has none.
@@ -138,6 +143,42 @@ TEST_F(CameraRaysTest, SamplesOfAPixelHaveTheExpectationOfItsFilter) {
                 expect_filtered(place_on_host(camera, pixel), camera, pixel);
             }
         }
+    });
+}
+
+/// In tables too, a box is even down to the last of its samples.
+TEST_F(CameraRaysTest, SamplesOfAWideBoxAreEven) {
+    SceneCamera camera;
+    camera.filter.radius = 1.2;
+    const auto expect_even = [](const std::vector<Placed>& samples) {
+        for (int i = 0; i < kSide; ++i) {
+            EXPECT_NEAR(samples[static_cast<std::size_t>(i)].x, 3.5 + 1.2 * ((2 * i + 1.0) / kSide - 1),
+                        1e-3);
+        }
+    };
+    expect_even(place_on_host(camera, 3));
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, kPlacingKernel);
+        expect_even(place_on_device(probe, camera, 3));
+    });
+}
+
+TEST_F(CameraRaysTest, EachSampleOfAPictureHasRandomNumbersOfItsOwn) {
+    constexpr uint kPixels = 16;  // along each side
+    constexpr uint kSamples = 4;
+    const std::vector<Camera> cameras{make_camera({}, kPixels, kPixels)};
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/camera_sample.cl\"\n"
+                          "kernel void probe(const global Camera* camera, global uint* keys) {\n"
+                          "    const uint i = get_global_id(0);\n"
+                          "    keys[i] = camera_sample(camera, i % 16, i / 16 % 16, i / 256, 4, 1).key;\n"
+                          "}\n");
+        Buffer<uint> keys(probe.device(), kPixels * kPixels * kSamples);
+        probe.kernel().launch(kPixels * kPixels * kSamples, 64, Buffer<Camera>(probe.device(), cameras),
+                              keys);
+        const std::vector<uint> found = keys.download();
+        EXPECT_EQ(std::set<uint>(found.begin(), found.end()).size(), found.size());
     });
 }
 
