@@ -10,6 +10,7 @@
 #include "host/reference/light_sampler.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
+#include "tests/support/received_light.h"
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
@@ -344,6 +345,16 @@ TEST_F(LightSamplingTest, CombinationsWithRaysAgreeWithTheReference) {
             }
             EXPECT_NEAR(have, want, 0.01 * want) << light_samples << " samples, " << rays << " rays";
         }
+    });
+}
+
+TEST_F(LightSamplingTest, RaysShareTheLightOfATreeWithLightSamples) {
+    const Scene hall = hall_of_lamps();
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<double> light = test::direct_irradiance(device, hall, {0.5f, 0.5f, 2.2f}, {0, 0, 1},
+                                                                  std::array{0u, 1u, 8u});  // below a lamp
+        EXPECT_NEAR(light[1], light[0], 0.01 * light[0]);
+        EXPECT_NEAR(light[2], light[0], 0.01 * light[0]);
     });
 }
 

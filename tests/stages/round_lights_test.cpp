@@ -15,6 +15,7 @@
 #include "host/reference/seen_sphere.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
+#include "tests/support/received_light.h"
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
@@ -270,27 +271,11 @@ double share_of_tube(const RoundLamp& lamp) {
     return static_cast<double>(met) / kTubeRays;
 }
 
-/// Irradiance at the origin about +Z by light samples, by rays, and by both, G.
+/// By light samples, by rays, and by both.
 void expect_irradiance(Device& device, const Scene& scene, double want) {
-    KernelProbe probe(device, R"(
-#include "lib/receiver_path.cl"
-kernel void probe(SCENE_PARAMETERS, uint rays, global float* out) {
-    const uint i = (uint)get_global_id(0);
-    const SceneView scene = SCENE_VIEW;
-    const ReceiverPoint at = {(float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), (float3)(0.0f), 0};
-    const PathLimits limits = {1, 1, INFINITY, 1, rays, 0};
-    out[i] = received_light(&scene, &at, &limits, random_uint4((uint4)(i, 5, 6, 7))).direct.y;
-}
-)");
-    const SceneOnDevice lamp(probe.device(), scene);
-    Buffer<float> out(probe.device(), kRoundSamples);
-    for (const uint rays : {0u, 1u, 8u}) {
-        probe.kernel().launch(kRoundSamples, 8, lamp.buffers, rays, out);
-        double have = 0;
-        for (const float light : out.download()) {
-            have += light / kRoundSamples;
-        }
-        EXPECT_NEAR(have, want, 0.006 * want) << rays << " rays";
+    for (const double have :
+         test::direct_irradiance(device, scene, {0, 0, 0}, {0, 0, 1}, std::array{0u, 1u, 8u})) {
+        EXPECT_NEAR(have, want, 0.006 * want);
     }
 }
 
