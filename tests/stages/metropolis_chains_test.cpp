@@ -109,6 +109,27 @@ TEST_F(MetropolisChainsTest, SeedsCarryTheLightOfEachDepth) {
 }
 
 /// Seeds have depths in proportion to 0.8^d, and chains converge to the light at each depth, 0.5^d.
+/// A proposal must be as likely as the way back.
+TEST_F(MetropolisChainsTest, SmallStepsGoBothWaysAlike) {
+    on_each_device([](Device& device) {
+        Furnace furnace(device);
+        const PathSpace space = furnace.space(device);
+        furnace.seed(device, space, 0);
+        const std::vector<float> before = furnace.states.numbers.download();
+        furnace.chains.advance(space, 0, furnace.states, furnace.proposed);
+        const std::vector<float> after = furnace.proposed.numbers.download();
+        double up = 0;
+        double down = 0;
+        for (std::size_t i = 2 * kStates; i < 4 * kStates; ++i) {  // place and direction of the light
+            const float moved = after[i] - before[i] - std::round(after[i] - before[i]);  // around the ends
+            up += moved > 0 && moved < 1 / 16.0f ? 1 : 0;
+            down += moved < 0 && moved > -1 / 16.0f ? 1 : 0;
+        }
+        EXPECT_GT(up + down, kStates);
+        EXPECT_NEAR(up, down, 5 * std::sqrt(up + down));
+    });
+}
+
 TEST_F(MetropolisChainsTest, ChainsFollowTheirTarget) {
     on_each_device([](Device& device) {
         Furnace furnace(device);

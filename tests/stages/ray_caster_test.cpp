@@ -13,6 +13,7 @@
 #include "host/reference/ray_comparison.h"
 #include "host/reference/test_rays.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -98,6 +99,30 @@ TEST_F(RayCasterTest, AnyHitIsWhetherThereIsAClosestHit) {
             }
             EXPECT_GT(hits, any.size() / 10);
         }
+    });
+}
+
+/// Where the direction is 0 across a face of a box and the ray runs in that face, 0 · ∞ is no number.
+TEST_F(RayCasterTest, RaysInTheFacesOfBoxesMeetTheEdgesThere) {
+    Scene scene;
+    const uint grey = small_scenes::add_material(scene, small_scenes::lambertian({0.5f, 0.5f, 0.5f}));
+    std::vector<RayQuery> rays;
+    for (int i = -20; i < 20; ++i) {
+        const float x = 3.0f * static_cast<float>(i);
+        small_scenes::add_quad(scene, {x, 0, 5}, {1, 0, 0}, {0, 1, 0}, grey);
+        for (const float zero : {0.0f, -0.0f}) {
+            rays.push_back({{x, 0.25f, 0}, 0.0f, {zero, zero, 1}, kInfinity});
+            rays.push_back({{x + 1, 0.25f, 0}, 0.0f, {zero, zero, 1}, kInfinity});
+            rays.push_back({{x + 0.25f, 0, 10}, 0.0f, {zero, zero, -1}, kInfinity});
+            rays.push_back({{x + 0.25f, 1, 10}, 0.0f, {zero, zero, -1}, kInfinity});
+        }
+    }
+    const Bvh bvh = build_all(scene);
+    on_each_ray_tree([&](Device& device) {
+        for (const BvhHit& hit : RayCaster(device).closest_hits(bvh, rays)) {
+            EXPECT_EQ(hit.t, 5.0f);
+        }
+        EXPECT_EQ(RayCaster(device).any_hits(bvh, rays), std::vector<uint>(rays.size(), 1));
     });
 }
 

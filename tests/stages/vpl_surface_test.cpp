@@ -2,6 +2,8 @@
 // What a VPL takes from the surface that it lies on, whichever kernel makes it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "host/base/packed_direction.h"
 #include "host/stages/light_tracer.h"
 #include "host/stages/patch_vpls.h"
@@ -19,16 +21,20 @@ using test::SceneOnDevice;
 constexpr Vec3 kWall{0, 0, -1};  ///< the normal of the wall
 constexpr float kDistance = 1.0f;
 
-/// A coated wall before the origin, where a point light is. Its vertices have a normal that leans.
+constexpr float kAlbedo = 0.5f;
+
+/// A wall, with or without a coat, before the origin, where a point light is. Its vertices have a normal that
+/// leans.
 struct LeaningWall {
     Scene scene;
     uint curve = 0;
-    Vec3 shading = normalize({0.3f, 0.2f, -1.0f});
+    Vec3 shading = normalize({0.6f, 0.4f, -1.0f});
 
-    LeaningWall() {
-        const Material coat = coated(scene, {0.5f, 0.5f, 0.5f}, {.eta = 1.5});
-        curve = coat.curve;
-        add_quad(scene, {-1, -1, kDistance}, {0, 2, 0}, {2, 0, 0}, add_material(scene, coat));
+    explicit LeaningWall(bool has_coat = true) {
+        constexpr Vec3 kGrey{kAlbedo, kAlbedo, kAlbedo};
+        const Material material = has_coat ? coated(scene, kGrey, {.eta = 1.5}) : lambertian(kGrey);
+        curve = material.curve;
+        add_quad(scene, {-1, -1, kDistance}, {0, 2, 0}, {2, 0, 0}, add_material(scene, material));
         for (Vertex& vertex : scene.vertices) {
             vertex.normal = shading;
         }
@@ -82,6 +88,38 @@ TEST_F(VplSurfaceTest, DepositsOfWalksTakeItsNormalsAndCurve) {
         expect_of_wall(LightTracer(device).run(on_device.buffers, region, KeepDeposits::all,
                                                {.walk_count = 200, .bounce_count = 2, .seed = 3}),
                        wall, 1);
+    });
+}
+
+/// ∫ ρ·max(cosθ, 0)/r² over the wall, where θ is the angle to the normal that leans.
+double reflected_by(const LeaningWall& wall) {
+    constexpr int kSteps = 400;
+    double sum = 0;
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+        const Vec3 place{(2.0f * static_cast<float>(i % kSteps) + 1) / kSteps - 1,
+                         (2.0f * static_cast<float>(i / kSteps) + 1) / kSteps - 1, kDistance};
+        const float distance = length(place);
+        const float cosine = -dot(place, wall.shading) / distance;
+        sum += static_cast<double>(std::max(cosine, 0.0f) / (distance * distance)) * 4 / (kSteps * kSteps);
+    }
+    return kAlbedo * sum;
+}
+
+TEST_F(VplSurfaceTest, DepositsReflectWhatArrivesByTheNormalThatLeans) {
+    const LeaningWall wall(false);
+    const double expected = reflected_by(wall);
+    on_each_ray_tree([&](Device& device) {
+        const SceneOnDevice on_device(device, wall.scene);
+        CloseRegion region;
+        region.range = Buffer<CloseRange>(device, std::vector<CloseRange>(1));
+        region.triangles = Buffer<uint>(device, std::vector<uint>(wall.scene.triangles.size()));
+        double power = 0;
+        for (const Vpl& vpl :
+             LightTracer(device).run(on_device.buffers, region, KeepDeposits::all,
+                                     {.walk_count = 100'000, .bounce_count = 1, .seed = 5})) {
+            power += vpl.power.y;
+        }
+        EXPECT_NEAR(power, expected, 0.01 * expected);
     });
 }
 
