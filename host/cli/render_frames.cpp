@@ -39,7 +39,7 @@ class Walk {
     Walk(RenderRun& run, const RenderOptions& options)
         : run_(run), options_(options), vpls_(run.settings.view) {}
 
-    /// Goes to a frame.
+    /// Goes to a frame; the first one must be that at which the run's scene was loaded.
     void go_to(int frame);
     [[nodiscard]] Session& session() { return *session_; }
     /// Empty if the frame has VPLs of its own.
@@ -56,7 +56,6 @@ class Walk {
 
     RenderRun& run_;
     const RenderOptions& options_;
-    std::optional<int> loaded_;
     std::optional<Session> session_;
     std::map<int, std::optional<SceneCamera>> cameras_;  ///< of the key frames about the present one
     KeyVpls vpls_;
@@ -90,7 +89,7 @@ void Walk::go_to(int frame) {
     if (!session_) {
         session_.emplace(run_.plain_devices(), *run_.scene, options_.session);
         if (!is_first) {
-            session_->new_compile_seconds();  // earlier frames have counted them
+            static_cast<void>(session_->new_compile_seconds());  // earlier frames have counted them
         }
     }
     const RenderOptions of_frame = options_of(options_, frame);
@@ -190,7 +189,7 @@ void tell_frames(std::size_t made, std::size_t wanted, const FrameRange& range, 
     if (made < wanted) {
         spdlog::info("interrupted: {} of {} frames are finished{}", made, wanted, skipped);
     } else {
-        spdlog::info("{} frames, {:.1f} s{}", made, seconds, skipped);
+        spdlog::info("{} frame{}, {:.1f} s{}", made, made == 1 ? "" : "s", seconds, skipped);
     }
 }
 
