@@ -20,14 +20,14 @@ ReceiverPathSettings path_settings(const Picture& picture) {
     const uint rays = per_sample(settings.rays_per_pixel, settings);
     return {.light_samples = per_sample(picture.budget.light_samples_per_pixel, settings),
             .path_count = settings.compensate ? rays : 0,
-            .max_edges = std::max(picture.view.max_depth, 1u) - 1,
+            .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed};
 }
 
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.
 CameraBand with_light(CameraBand batch, const Picture& picture) {
-    batch.max_depth = picture.view.max_depth;
+    batch.max_depth = picture.max_depth;
     batch.min_weight = picture.settings.compensate ? kMinReceiverWeight : 0.0f;
     batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
@@ -50,31 +50,32 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
 
-BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture)
+BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture,
+                           const VplBuffer& vpls)
     : stages_(stages),
       scene_(scene),
       picture_(picture),
-      camera_(stages.device, std::span(&picture.view.camera, 1)),
-      close_range_(stages.device, std::span(&picture.view.close_range, 1)),
-      own_vpls_(picture.vpls.vpls.is_on(stages.device) ? VplBuffer()
-                                                       : picture.vpls.vpls.copy_to(stages.device)),
+      given_vpls_(vpls),
+      camera_(stages.device, std::span(&picture.camera, 1)),
+      close_range_(stages.device, std::span(&picture.close_range, 1)),
+      own_vpls_(vpls.is_on(stages.device) ? VplBuffer() : vpls.copy_to(stages.device)),
       buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture)) {
-    if (picture.vpls.local) {
+    if (picture.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
         }
-        stages.local_gather->set_vpls(scene, vpls(), *picture.vpls.local);
+        stages.local_gather->set_vpls(scene, this->vpls(), *picture.local);
     }
-    if (picture.vpls.asked_count > 0) {
+    if (picture.asked_count > 0) {
         if (!stages.light_cuts) {
             stages.light_cuts.emplace(stages.device);
         }
-        cut_tree_ = stages.light_cuts->make_tree(vpls().buffer(), vpls().count());
+        cut_tree_ = stages.light_cuts->make_tree(this->vpls().buffer(), this->vpls().count());
     }
 }
 
 const VplBuffer& BandRenderer::vpls() const {
-    return picture_.vpls.vpls.is_on(stages_.device) ? picture_.vpls.vpls : own_vpls_;
+    return given_vpls_.is_on(stages_.device) ? given_vpls_ : own_vpls_;
 }
 
 /// Selects VPLs by cuts if there are more than a pixel asks about, or else by Russian roulette if the
@@ -87,7 +88,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const
                                            .packet_count = packets,
                                            .strata = strata,
                                            .clamp_radius = picture_.budget.clamp_radius,
-                                           .asked_count = picture_.vpls.asked_count,
+                                           .asked_count = picture_.asked_count,
                                            .seed = picture_.seed});
     }
     if (!(picture_.settings.roulette > 0.0f)) {
@@ -112,7 +113,7 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
     const std::size_t packets = packet_count(batch, width);
     const VplStrata strata(stages_.device, picture_.plan.strata,
                            picture_.plan.strata_of_bundles(batch, picture_.seed));
-    if (picture_.vpls.local) {
+    if (picture_.local) {
         return stages_.local_gather->run(stages_.gatherer, scene_, buffers_.receivers, packets, strata,
                                          buffers_.gathered, progress);
     }
@@ -167,7 +168,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
     const uint row_count =
         std::min(batches.front().tile_row_count * NEARLIGHT_TILE_SIZE, cover.height - first_row);
     FinishedBand band;
-    const std::size_t lights_before = picture_.vpls.local ? stages_.local_gather->light_count() : 0;
+    const std::size_t lights_before = picture_.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();
     for (std::size_t i = 0; i < batches.size(); ++i) {
         const auto batch_progress = [&](std::uint64_t done, std::uint64_t total) {
@@ -180,7 +181,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
     }
     const std::size_t pixel_count = static_cast<std::size_t>(cover.width) * row_count;
     stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
-    band.local_lights = picture_.vpls.local ? stages_.local_gather->light_count() - lights_before : 0;
+    band.local_lights = picture_.local ? stages_.local_gather->light_count() - lights_before : 0;
     band.rows.resize(pixel_count * NEARLIGHT_LAYER_CHANNELS);
     buffers_.layers.download(band.rows);
     return band;

@@ -4,12 +4,12 @@
 
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "host/samplers/sampler.h"
 #include "host/session/band_sharing.h"
 #include "host/session/local_gather.h"
 #include "host/session/plan.h"
-#include "host/session/view.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/film.h"
 #include "host/stages/gatherer.h"
@@ -39,20 +39,26 @@ struct BandStages {
     std::optional<LightCuts> light_cuts{};
 };
 
-/// The parts of a picture's task that are the same for all bands and devices.
+/// What, besides the scene and the VPLs, all bands of a picture have in common. It consists of plain numbers,
+/// so that its bytes can be sent to another process of the same program.
 struct Picture {
-    const View& view;
-    const GatherSettings& settings;
-    const RayBudget& budget;
+    Camera camera{};
+    CloseRange close_range{};
+    uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
+    GatherSettings settings{};
+    RayBudget budget{};
     uint seed = 0;
-    const RenderPlan& plan;
-    const VplSet& vpls;  ///< on one device, and on the host if there are several devices
+    RenderPlan plan{};
+    std::size_t asked_count = 0;            ///< VplSet::asked_count
+    std::optional<LocalLightPlan> local{};  ///< VplSet::local
 };
+static_assert(std::is_trivially_copyable_v<Picture>);
 
 class BandRenderer {
   public:
-    /// Uploads the VPLs unless they are on this device. Keeps references to all of its arguments.
-    BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture);
+    /// Uploads the VPLs unless they are on this device; they must be on the host too if several devices make
+    /// the picture. Keeps references to all of its arguments.
+    BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture, const VplBuffer& vpls);
 
     /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.
     std::optional<FinishedBand> render(uint index, const BandProgress& progress);
@@ -80,9 +86,10 @@ class BandRenderer {
     BandStages& stages_;
     const DeviceScene& scene_;
     const Picture& picture_;
+    const VplBuffer& given_vpls_;
     Buffer<Camera> camera_;
     Buffer<CloseRange> close_range_;
-    VplBuffer own_vpls_;               ///< empty if picture.vpls is on this device
+    VplBuffer own_vpls_;               ///< empty if given_vpls_ are on this device
     std::optional<CutTree> cut_tree_;  ///< over the VPLs, if bundles ask cuts
     BatchBuffers buffers_;
 };

@@ -30,19 +30,29 @@ std::string message_of(const std::exception_ptr& error) {
 /// The state that workers and caller share. One mutex guards all members.
 class Board {
   public:
-    Board(uint band_count, uint window, std::size_t worker_count)
-        : band_count_(band_count), window_(window), fractions_(worker_count), working_(worker_count) {
+    Board(uint band_count, uint window, std::span<const BandWorker> workers)
+        : band_count_(band_count), window_(window), fractions_(workers.size()), working_(workers.size()) {
         for (uint band = 0; band < band_count; ++band) {
             waiting_.insert(waiting_.end(), band);
+        }
+        for (const BandWorker& worker : workers) {
+            if (worker.first_band) {
+                waiting_.erase(*worker.first_band);
+            }
         }
     }
 
     // Workers call the next functions.
 
     /// Waits for and takes the first waiting band. Returns nothing when all bands are finished or the work
-    /// was stopped.
-    std::optional<uint> take() {
+    /// was stopped. Calls `wait`, and empties it, when no band waits any more.
+    std::optional<uint> take(std::function<void()>& wait) {
         std::unique_lock lock(mutex_);
+        if (wait && waiting_.empty() && !stopping_) {
+            lock.unlock();
+            std::exchange(wait, nullptr)();
+            lock.lock();
+        }
         // A band that another worker has may yet come back.
         changed_.wait(lock, [&] { return stopping_ || finished_count_ == band_count_ || may_take(); });
         if (stopping_ || waiting_.empty()) {
@@ -143,11 +153,12 @@ class Board {
 
 /// Takes and makes bands until none are left; runs in the worker's thread.
 void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& share) {
-    std::optional<uint> in_hand;
+    std::optional<uint> in_hand = worker.first_band;
     Stopwatch watch;
     try {
         const BandMaker make = worker.start();
-        while ((in_hand = board.take())) {
+        std::function<void()> wait = worker.wait;
+        while (in_hand || (in_hand = board.take(wait))) {
             watch.lap();
             auto band = make(*in_hand, [&](double fraction) { return board.advance(index, fraction); });
             share.seconds += watch.lap();
@@ -155,8 +166,7 @@ void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& 
                 break;
             }
             ++share.bands;
-            board.finish(index, *in_hand, std::move(*band));
-            in_hand.reset();
+            board.finish(index, *std::exchange(in_hand, std::nullopt), std::move(*band));
         }
         board.leave(index, in_hand, nullptr);
     } catch (...) {
@@ -221,7 +231,7 @@ BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker
     for (const BandWorker& worker : workers) {
         outcome.shares.push_back({.name = worker.name});
     }
-    Board board(band_count, std::max(window, 1u), workers.size());
+    Board board(band_count, std::max(window, 1u), workers);
     outcome.interrupted = !work_together(board, workers, outcome.shares, sink, progress);
     return outcome;
 }

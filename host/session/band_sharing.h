@@ -27,6 +27,10 @@ using BandMaker = std::function<std::optional<FinishedBand>(uint index, const Ba
 struct BandWorker {
     std::string name;  ///< device's name for messages
     std::function<BandMaker()> start;
+    /// A band that only this worker may take, and takes first.
+    std::optional<uint> first_band{};
+    /// Called once when there is no band to take for now.
+    std::function<void()> wait{};
 };
 
 /// What one worker did.

@@ -19,10 +19,10 @@ DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : 
     on_leader([](const PoolDevice&) {});  // its stages begin to compile
 }
 
-std::vector<const Device*> DevicePool::plain_devices() const {
-    std::vector<const Device*> result;
+std::vector<std::size_t> DevicePool::batch_receivers() const {
+    std::vector<std::size_t> result;
     for (const auto& device : devices_) {
-        result.push_back(&device->device());
+        result.push_back(receivers_per_batch(device->device()));
     }
     return result;
 }
@@ -48,7 +48,7 @@ void DevicePool::upload(const Scene& scene, const ShapedBvh& tree) {
 
 void DevicePool::drop_failed(std::span<const BandShare> shares) {
     for (std::size_t i = shares.size(); i-- > 0;) {
-        if (shares[i].failed) {
+        if (shares[i].failed && devices_.size() > 1) {
             drop(i);
         }
     }

@@ -40,8 +40,8 @@ class DevicePool {
     [[nodiscard]] std::size_t size() const { return devices_.size(); }
     [[nodiscard]] std::span<const std::unique_ptr<PoolDevice>> devices() const { return devices_; }
     [[nodiscard]] PoolDevice& leader() const { return *devices_.front(); }
-    /// The devices without their stages, for code that only needs their properties.
-    [[nodiscard]] std::vector<const Device*> plain_devices() const;
+    /// The receivers_per_batch() of each device.
+    [[nodiscard]] std::vector<std::size_t> batch_receivers() const;
 
     /// The shapes of trees that the devices need, all devices together.
     [[nodiscard]] TreeShapes tree_shapes() const;
@@ -61,7 +61,8 @@ class DevicePool {
         }
     }
 
-    /// Drops the devices whose share says that they failed. `shares` are in the order of devices().
+    /// Drops the devices whose share says that they failed, but not the last device: if there is more to do,
+    /// its error says why not. `shares` are in the order of devices().
     void drop_failed(std::span<const BandShare> shares);
 
     /// The sum of the devices' peak allocations, in bytes.

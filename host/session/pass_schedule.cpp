@@ -146,6 +146,14 @@ void PassSchedule::end(std::optional<double> error) {
     error_ = error;
 }
 
+uint PassSchedule::sure_next_samples() const {
+    const std::size_t next = samples_.size() + 1;
+    if (next >= max_passes_ || seconds_ || target_) {
+        return 0;
+    }
+    return list_.empty() ? full_samples_ : list_[next];
+}
+
 double PassSchedule::fraction(double of_pass) const {
     const double of_present = 1.0 - present_part_ * (1.0 - of_pass);
     const double done = done_samples_ + of_present * present_samples_;

@@ -58,6 +58,10 @@ class PassSchedule {
     /// To be called when the pass is there. `error` is that of the picture so far, if it is known.
     void end(std::optional<double> error);
 
+    /// The samples of the pass after the present one, which begin() will say; 0 if that cannot be told yet or
+    /// there will be none.
+    [[nodiscard]] uint sure_next_samples() const;
+
     /// How far all passes are, from 0 to 1, if the present one is as far as `of_pass`, also from 0 to 1.
     [[nodiscard]] double fraction(double of_pass) const;
     /// Nothing, unless passes are made until an error is reached and one of them is there.

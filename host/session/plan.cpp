@@ -2,7 +2,6 @@
 #include "host/session/plan.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "host/base/random.h"
 
@@ -16,15 +15,6 @@ constexpr std::size_t kBandsPerDevice = 30;
 /// Several devices may get smaller bands.
 constexpr std::size_t kMinPart = 8;
 constexpr uint kStrataStream = 0x57a7a5u;
-
-/// The number of receivers per batch: enough work to keep the device busy, but little enough for memory and
-/// for a smooth progress bar.
-std::size_t receivers_per_batch(const Device& device) {
-    const std::size_t wanted = device.tunables().batch_receivers;
-    // The largest buffer of a batch is that of the camera vertices.
-    const std::size_t largest = device.entry().max_allocation_bytes / (2 * sizeof(CameraVertex));
-    return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
-}
 
 /// The number of strata that the samples of one pixel ask, if all pixels of a square share them.
 uint strata_of_pixel(uint strata, uint interleave) {
@@ -127,11 +117,16 @@ std::size_t RenderPlan::max_packets() const {
                         cover.width);
 }
 
-RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& picture) {
-    std::size_t budget = std::numeric_limits<std::size_t>::max();
-    for (const Device* device : devices) {
-        budget = std::min(budget, receivers_per_batch(*device));
-    }
+/// Little enough for memory and for a smooth progress bar.
+std::size_t receivers_per_batch(const Device& device) {
+    const std::size_t wanted = device.tunables().batch_receivers;
+    // The largest buffer of a batch is that of the camera vertices.
+    const std::size_t largest = device.entry().max_allocation_bytes / (2 * sizeof(CameraVertex));
+    return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
+}
+
+RenderPlan make_plan(std::span<const std::size_t> batch_receivers, const PictureSize& picture) {
+    const std::size_t budget = std::ranges::min(batch_receivers);
     RenderPlan plan;
     plan.samples_per_pixel = picture.samples_per_pixel;
     plan.branch_count = picture.branch_count;
@@ -151,8 +146,8 @@ RenderPlan make_plan(std::span<const Device* const> devices, const PictureSize& 
     const std::size_t per_row = per_row_sample * plan.samples_per_batch;
     const std::size_t all_rows = whole_bundles(plan.tile_row_count + rows - 1, rows);
     const std::size_t max_rows = std::min(budget / per_row, all_rows);
-    const std::size_t min_rows = devices.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
-    const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * devices.size());
+    const std::size_t min_rows = batch_receivers.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
+    const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * batch_receivers.size());
     plan.tile_rows_per_band =
         static_cast<uint>(whole_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), rows));
     plan.tile_rows_in_first =

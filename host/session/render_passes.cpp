@@ -23,6 +23,8 @@ struct Passes {
     std::optional<PassAverage> average{};
     std::size_t begun_rows = 0;  ///< of the next pass, from a checkpoint
     PassTotals totals{};         ///< of whole passes
+    /// The pass after the present one, if remote devices may begin it early.
+    std::optional<Prepared> next{};
 };
 
 PassChoice choice_of(const Prepared& pass, const RenderSettings& settings) {
@@ -129,13 +131,40 @@ void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& pass
     }
 }
 
+/// What prepares and plans the pass after the present one while that is gathered; null if there is nobody who
+/// could begin with it, or if it is not certain yet.
+std::function<std::shared_ptr<PlannedPicture>()> preparation(Session& session, const RenderSettings& settings,
+                                                             const PassesTask& task, const Prepared& present,
+                                                             uint number, Passes& passes) {
+    const uint samples = passes.schedule.sure_next_samples();
+    if (samples == 0 || !session.looks_ahead()) {
+        return {};
+    }
+    const PassChoice choice = passes.choice ? *passes.choice : choice_of(present, settings);
+    return [&session, &task, &passes, wanted = pass_settings(settings, number + 1, samples, choice)] {
+        passes.next = prepare(session, wanted, task.vpls);
+        passes.next->planned = session.plan(passes.next->view, passes.next->vpls, wanted.gather, wanted.seed);
+        return passes.next->planned;
+    };
+}
+
+/// Prepares the present pass, unless that was done already.
+Prepared begin_pass(Session& session, const RenderSettings& settings, const PassesTask& task, Passes& passes,
+                    RenderReport& report) {
+    if (std::optional<Prepared> ready = std::exchange(passes.next, std::nullopt)) {
+        note_pass(*ready, report);
+        return std::move(*ready);
+    }
+    return prepare(session, settings, task.vpls, report);
+}
+
 /// Makes a pass of `samples` per pixel. If it is the first and given up, nothing is left of it but its time.
 void make_pass(Session& session, const RenderSettings& settings, uint samples, const PassesTask& task,
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
     const uint number = passes.first + report.passes;
     Prepared pass =
-        prepare(session, pass_settings(settings, number, samples, passes.choice), task.vpls, report);
+        begin_pass(session, pass_settings(settings, number, samples, passes.choice), task, passes, report);
     passes.schedule.note_vpls();
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
     if (passes.begun_rows > 0) {
@@ -157,7 +186,8 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
         too_long = too_long || passes.schedule.is_too_long(fraction);
         return !too_long && task.progress(passes.schedule.fraction(fraction));
     };
-    gather(session, pass, take_rows, go_on, report);
+    gather(session, pass, take_rows, go_on, report,
+           preparation(session, settings, task, pass, number, passes));
     if (too_long && report.interrupted) {
         const RenderSeconds seconds = report.seconds;
         report = before;

@@ -2,6 +2,7 @@
 #include "host/session/render_steps.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/base/stopwatch.h"
 #include "host/session/picture_window.h"
@@ -13,23 +14,6 @@ void note_view(const View& view, RenderReport& report) {
     report.range = view.close_range.range;
     report.max_depth = view.max_depth;
     report.filter = view.scene_camera.filter.kind;
-}
-
-/// Adds a pass to the report: the settings that were decided, and the number of VPLs.
-void note_pass(const Prepared& pass, RenderReport& report) {
-    if (report.passes++ == 0) {
-        const PixelWindow window = window_of(pass.view, pass.settings.gather);
-        report.width = static_cast<int>(window.width);
-        report.height = static_cast<int>(window.height);
-        note_view(pass.view, report);
-        report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
-        report.close_fraction = pass.vpls.close_fraction;
-    }
-    report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
-    report.totals.close_vpls += pass.vpls.close_count;
-    report.totals.distant_vpls += pass.vpls.distant_count;
-    report.totals.sparse_vpls += pass.vpls.sparse_count;
-    report.totals.candidates += pass.vpls.candidate_count;
 }
 
 /// The settings of the view, without a pilot that has nothing to decide: all passes but the first have the
@@ -51,23 +35,46 @@ View look(Session& session, const RenderSettings& settings, RenderReport& report
     return view;
 }
 
-Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
-                 RenderReport& report) {
+void note_pass(const Prepared& pass, RenderReport& report) {
+    if (report.passes++ == 0) {
+        const PixelWindow window = window_of(pass.view, pass.settings.gather);
+        report.width = static_cast<int>(window.width);
+        report.height = static_cast<int>(window.height);
+        note_view(pass.view, report);
+        report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
+        report.close_fraction = pass.vpls.close_fraction;
+    }
+    report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
+    report.totals.close_vpls += pass.vpls.close_count;
+    report.totals.distant_vpls += pass.vpls.distant_count;
+    report.totals.sparse_vpls += pass.vpls.sparse_count;
+    report.totals.candidates += pass.vpls.candidate_count;
+    report.seconds.generate += pass.seconds;
+}
+
+Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls) {
     const Stopwatch watch;
     const ViewSettings view = view_settings(settings);
     Prepared pass{.view = session.look(view, settings.seed), .vpls = {}, .settings = settings};
     pass.vpls = vpls ? vpls(view, settings.sampling, settings.seed)
                      : session.sample(pass.view, settings.sampling, settings.seed);
+    pass.seconds = watch.seconds();
+    return pass;
+}
+
+Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
+                 RenderReport& report) {
+    Prepared pass = prepare(session, settings, vpls);
     note_pass(pass, report);
-    report.seconds.generate += watch.seconds();
     return pass;
 }
 
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
-            RenderReport& report) {
+            RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next) {
     const Stopwatch watch;
     const GatherOutcome outcome =
-        session.gather(pass.view, pass.vpls, pass.settings.gather, pass.settings.seed, sink, progress);
+        session.gather(pass.view, pass.vpls, pass.settings.gather, pass.settings.seed, sink, progress,
+                       {.present = pass.planned, .next = std::move(next)});
     report.seconds.gather += watch.seconds();
     report.totals.local_lights += outcome.local_lights;
     report.interrupted = outcome.interrupted;

@@ -10,18 +10,25 @@ namespace nearlight::core {
 struct Prepared {
     View view;
     VplSet vpls{};
-    RenderSettings settings;  ///< of the pass
+    RenderSettings settings;                    ///< of the pass
+    double seconds = 0;                         ///< that look and sample took
+    std::shared_ptr<PlannedPicture> planned{};  ///< null: it is planned when it is gathered
 };
 
 /// Looks at the scene.
 View look(Session& session, const RenderSettings& settings, RenderReport& report);
 
 /// Looks at the scene and makes VPLs, with `vpls` unless that is empty. `settings` are those of the pass.
+Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls);
+/// The same, and begins a pass of the report.
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
                  RenderReport& report);
 
-/// Gathers the rows of the pass.
+/// Adds a pass to the report: the settings that were decided, and the number of VPLs.
+void note_pass(const Prepared& pass, RenderReport& report);
+
+/// Gathers the rows of the pass. `next` is PictureOrder::next.
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
-            RenderReport& report);
+            RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next = {});
 
 }  // namespace nearlight::core

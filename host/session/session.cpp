@@ -17,35 +17,11 @@
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
 #include "host/session/vpl_file.h"
-#include "host/stages/film_layers.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The maximum bytes of finished bands that wait for an earlier one.
-constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
 constexpr uint kThinningStream = 0x7417eu;
-
-/// How many finished bands may wait for an earlier one.
-uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
-    const std::size_t band_bytes = std::size_t{plan.cover.width} * plan.tile_rows_per_band *
-                                   NEARLIGHT_TILE_SIZE * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
-    return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
-}
-
-std::vector<BandWorker> band_workers(const DevicePool& pool, const Picture& picture) {
-    std::vector<BandWorker> workers;
-    for (const auto& device : pool.devices()) {
-        workers.push_back(
-            {.name = device->device().entry().label(), .start = [&picture, device = device.get()] {
-                 auto bands = std::make_shared<BandRenderer>(device->bands, device->scene, picture);
-                 return [bands](uint index, const BandProgress& progress) {
-                     return bands->render(index, progress);
-                 };
-             }});
-    }
-    return workers;
-}
 
 std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<const Vec3> normals,
                                         float extent) {
@@ -55,17 +31,6 @@ std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<
                      {stand_off(points[i], normals[i], extent), normals[i]});
     }
     return packets;
-}
-
-/// Replaces the colours of all layers of light by their luminance.
-void make_monochrome(std::span<float> rows) {
-    for (std::size_t pixel = 0; pixel < rows.size(); pixel += NEARLIGHT_LAYER_CHANNELS) {
-        for (const std::size_t layer : {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT,
-                                        NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_LAYER_VARIANCE}) {
-            float* const rgb = rows.data() + pixel + layer;
-            std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
-        }
-    }
 }
 
 SamplingTask sampling_task(const DeviceScene& scene, const View& view, const PilotView& pilot,
@@ -147,7 +112,7 @@ VplSet Session::read_vpls(const View& view, const std::filesystem::path& file) {
         if (!view.clamp_radius_is_open && set.ray_budget) {
             set.ray_budget->clamp_radius = view.clamp_radius;
         }
-        if (pool_.size() > 1) {
+        if (!is_alone()) {
             set.vpls.keep_on_host();
         }
         return set;
@@ -189,7 +154,7 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
                                                 .radius_is_open = view.clamp_radius_is_open,
                                                 .seed = seed});
         }
-        if (pool_.size() > 1) {
+        if (!is_alone()) {
             set.vpls.keep_on_host();
         }
         return set;
@@ -201,44 +166,11 @@ VplSet Session::join(std::span<const VplPart> parts) {
         auto [set, vpls] = join_on_host(parts);
         const bool has_order = parts.size() < 2 || vpls.empty();
         set.vpls = has_order ? VplBuffer(leader.device(), vpls) : leader.samplers->vpl_order.sort(vpls);
-        if (pool_.size() > 1) {
+        if (!is_alone()) {
             set.vpls.keep_on_host();
         }
         return std::move(set);
     });
-}
-
-GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                              const RowSink& sink, const GatherFraction& progress) {
-    const PixelWindow window = window_of(view, settings);
-    const RenderPlan plan =
-        make_plan(pool_.plain_devices(), {.width = view.camera.width,
-                                          .height = view.camera.height,
-                                          .samples_per_pixel = settings.samples_per_pixel,
-                                          .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
-                                          .strata = settings.strata_or_auto(),
-                                          .interleave = settings.interleave,
-                                          .window = window});
-    WindowCut window_cut(plan.cover, window);
-    const RayBudget budget = budget_of(view, vpls, settings);
-    const Picture picture{
-        .view = view, .settings = settings, .budget = budget, .seed = seed, .plan = plan, .vpls = vpls};
-    GatherOutcome outcome;
-    const auto take_band = [&](FinishedBand& band) {
-        outcome.local_lights += band.local_lights;
-        if (view.scene_camera.is_monochrome) {
-            make_monochrome(band.rows);
-        }
-        if (const std::span<const float> rows = window_cut.cut(band.rows); !rows.empty()) {
-            sink(rows);
-        }
-    };
-    BandOutcome shared = share_bands(plan.band_count(), max_waiting_bands(plan, pool_.size()),
-                                     band_workers(pool_, picture), take_band, progress);
-    pool_.drop_failed(shared.shares);
-    outcome.shares = std::move(shared.shares);
-    outcome.interrupted = shared.interrupted;
-    return outcome;
 }
 
 std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "host/samplers/sampler.h"
 #include "host/session/device_pool.h"
 #include "host/session/mattes.h"
+#include "host/session/planned_picture.h"
 #include "host/session/view.h"
 #include "nearlight/light_share.h"
 #include "nearlight/settings.h"
@@ -78,7 +81,22 @@ class Session {
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
     /// the caller's thread.
     GatherOutcome gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                         const RowSink& sink, const GatherFraction& progress);
+                         const RowSink& sink, const GatherFraction& progress, const PictureOrder& order = {});
+
+    /// Plans a picture for PictureOrder::present, and shows it to remote devices.
+    std::shared_ptr<PlannedPicture> plan(const View& view, const VplSet& vpls, const GatherSettings& settings,
+                                         uint seed);
+
+    /// Has remote devices make bands from now on. One that fails is left out as the session's own are.
+    void enlist(RemoteDevices remote) { remote_ = std::move(remote); }
+    /// Whether PictureOrder::next is of use. With several devices of its own the session cannot tell which of
+    /// them will lead by then.
+    [[nodiscard]] bool looks_ahead() const { return !remote_.devices.empty() && pool_.size() == 1; }
+    /// The session's own devices, as another session sees them.
+    [[nodiscard]] std::vector<RemoteDevice> own_devices() const;
+    /// Makes bands of another session's picture on device `number` of own_devices(). Each device may be used
+    /// by a thread of its own. Keeps references to the picture and the VPLs.
+    [[nodiscard]] BandMaker helper(std::size_t number, const Picture& picture, const VplBuffer& vpls) const;
 
     /// The irradiance (W/m²) at points (m), on the side of their unit normals: direct light, the light of
     /// `vpls` with the view's clamp radius, and, by short paths, the light that this radius takes away. If
@@ -114,9 +132,12 @@ class Session {
   private:
     std::vector<uint> see_first(const Camera& camera, const SampleBlock& block, uint seed);
     VplSet read_vpls(const View& view, const std::filesystem::path& file);
+    [[nodiscard]] bool is_alone() const { return pool_.size() == 1 && remote_.devices.empty(); }
+    void drop_failed(std::span<const BandShare> shares);
 
     const Scene& scene_;
     DevicePool pool_;
+    RemoteDevices remote_;
     SessionSeconds seconds_;
     double told_compile_seconds_ = 0;
 };

@@ -20,6 +20,8 @@ class VplBuffer {
     /// Uploads `vpls` to `device`.
     VplBuffer(Device& device, std::span<const Vpl> vpls)
         : VplBuffer(device, Buffer<Vpl>(device, vpls), vpls.size()) {}
+    /// VPLs that are on no device yet, for copy_to().
+    explicit VplBuffer(std::vector<Vpl> on_host) : count_(on_host.size()), on_host_(std::move(on_host)) {}
 
     [[nodiscard]] const Buffer<Vpl>& buffer() const { return buffer_; }
     [[nodiscard]] Buffer<Vpl>& buffer() { return buffer_; }
@@ -40,6 +42,8 @@ class VplBuffer {
     /// Keeps a copy of the VPLs on the host, so that download() and copy_to() work after the device has
     /// failed and from several threads.
     void keep_on_host() { on_host_ = download(); }
+    /// This copy; empty before keep_on_host().
+    [[nodiscard]] std::span<const Vpl> on_host() const { return on_host_; }
     /// Uploads the same VPLs to `device`.
     [[nodiscard]] VplBuffer copy_to(Device& device) const { return {device, download()}; }
 

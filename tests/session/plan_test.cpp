@@ -41,8 +41,8 @@ TEST_F(PlanTest, EveryRowHasEverySampleOnce) {
                 for (const uint strata : {1u, 3u, samples}) {
                     const PictureSize wide{640, height, samples, 2, strata};
                     const PictureSize narrow{33, height, samples, 1, strata};
-                    expect_all_once(make_plan(std::vector{&device}, wide));
-                    expect_all_once(make_plan(std::vector{&device, &device}, narrow));
+                    expect_all_once(make_plan(std::vector{receivers_per_batch(device)}, wide));
+                    expect_all_once(make_plan(std::vector(2, receivers_per_batch(device)), narrow));
                 }
             }
         }
@@ -51,7 +51,7 @@ TEST_F(PlanTest, EveryRowHasEverySampleOnce) {
 
 TEST_F(PlanTest, FirstBandIsShort) {
     on_each_device([](Device& device) {
-        const RenderPlan plan = make_plan(std::vector{&device}, {640, 480, 4, 2, 1});
+        const RenderPlan plan = make_plan(std::vector{receivers_per_batch(device)}, {640, 480, 4, 2, 1});
         EXPECT_EQ(plan.batches(1).front().first_tile_row, plan.batches(0).front().tile_row_count);
         if (device.is_cpu()) {  // other devices may need all rows for full load
             EXPECT_EQ(plan.batches(0).front().tile_row_count, 1u);
@@ -76,8 +76,8 @@ TEST_F(PlanTest, SamplesShareStrataEvenly) {
         for (const auto& [samples, strata] :
              {std::pair{1u, 1u}, {16u, 1u}, {16u, 2u}, {16u, 4u}, {16u, 16u}, {1024u, 64u}, {6u, 3u}}) {
             for (const uint branches : {1u, 2u}) {
-                const RenderPlan plan =
-                    make_plan(std::vector{&device}, {640, 480, samples, branches, strata});
+                const RenderPlan plan = make_plan(std::vector{receivers_per_batch(device)},
+                                                  {640, 480, samples, branches, strata});
                 EXPECT_EQ(times_asked(plan, 3), std::vector<uint>(strata, branches * samples / strata))
                     << samples << " samples, " << strata << " strata";
                 EXPECT_EQ(plan.bundle_samples * plan.bundle_columns * plan.bundle_rows,
@@ -90,7 +90,8 @@ TEST_F(PlanTest, SamplesShareStrataEvenly) {
 TEST_F(PlanTest, PixelsOfASquareShareStrata) {
     on_each_device([](Device& device) {
         for (const auto& [samples, strata] : {std::pair{1u, 16u}, {2u, 16u}, {2u, 32u}, {4u, 32u}}) {
-            const RenderPlan plan = make_plan(std::vector{&device}, {.width = 128,
+            const RenderPlan plan =
+                make_plan(std::vector{receivers_per_batch(device)}, {.width = 128,
                                                                      .height = 64,
                                                                      .samples_per_pixel = samples,
                                                                      .strata = strata,
@@ -125,7 +126,8 @@ TEST_F(PlanTest, SeedsShareStrataEvenly) {
     constexpr uint kPictures = 4000;
     on_each_device([](Device& device) {
         for (const auto& [samples, strata] : {std::pair{1u, 4u}, {6u, 4u}, {5u, 16u}}) {
-            const RenderPlan plan = make_plan(std::vector{&device}, {64, 48, samples, 1, strata});
+            const RenderPlan plan =
+                make_plan(std::vector{receivers_per_batch(device)}, {64, 48, samples, 1, strata});
             std::vector<double> times(strata);
             for (uint seed = 0; seed < kPictures; ++seed) {
                 const std::vector<uint> asked = times_asked(plan, seed);

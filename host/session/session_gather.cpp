@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a session makes a picture on its own and on remote devices.
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "host/session/picture_window.h"
+#include "host/session/session.h"
+#include "host/stages/film_layers.h"
+
+namespace nearlight::core {
+namespace {
+
+/// The maximum bytes of finished bands that wait for an earlier one.
+constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
+
+/// How many finished bands may wait for an earlier one.
+uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
+    const std::size_t band_bytes = std::size_t{plan.cover.width} * plan.tile_rows_per_band *
+                                   NEARLIGHT_TILE_SIZE * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+    return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
+}
+
+BandMaker band_maker(PoolDevice& device, const Picture& picture, const VplBuffer& vpls) {
+    auto bands = std::make_shared<BandRenderer>(device.bands, device.scene, picture, vpls);
+    return [bands](uint index, const BandProgress& progress) { return bands->render(index, progress); };
+}
+
+std::vector<BandWorker> band_workers(const DevicePool& pool, const Picture& picture, const VplBuffer& vpls) {
+    std::vector<BandWorker> workers;
+    for (const auto& device : pool.devices()) {
+        workers.push_back({.name = device->device().entry().label(), .start = [&, device = device.get()] {
+                               return band_maker(*device, picture, vpls);
+                           }});
+    }
+    return workers;
+}
+
+/// Replaces the colours of all layers of light by their luminance.
+void make_monochrome(std::span<float> rows) {
+    for (std::size_t pixel = 0; pixel < rows.size(); pixel += NEARLIGHT_LAYER_CHANNELS) {
+        for (const std::size_t layer : {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT,
+                                        NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_LAYER_VARIANCE}) {
+            float* const rgb = rows.data() + pixel + layer;
+            std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
+        }
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vpls,
+                                              const GatherSettings& settings, uint seed) {
+    const PixelWindow window = window_of(view, settings);
+    std::vector<std::size_t> batch_receivers = pool_.batch_receivers();
+    std::ranges::transform(remote_.devices, std::back_inserter(batch_receivers),
+                           &RemoteDevice::batch_receivers);
+    const RenderPlan plan =
+        make_plan(batch_receivers, {.width = view.camera.width,
+                                    .height = view.camera.height,
+                                    .samples_per_pixel = settings.samples_per_pixel,
+                                    .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
+                                    .strata = settings.strata_or_auto(),
+                                    .interleave = settings.interleave,
+                                    .window = window});
+    const Picture picture{.camera = view.camera,
+                          .close_range = view.close_range,
+                          .max_depth = view.max_depth,
+                          .settings = settings,
+                          .budget = budget_of(view, vpls, settings),
+                          .seed = seed,
+                          .plan = plan,
+                          .asked_count = vpls.asked_count,
+                          .local = vpls.local};
+    if (remote_.devices.empty()) {
+        return std::make_shared<PlannedPicture>(PlannedPicture{.picture = picture, .window = window});
+    }
+    const PictureNumber number = remote_.show(picture, vpls.vpls.on_host());
+    return {new PlannedPicture{.picture = picture, .window = window, .shown = number},
+            [number, end = remote_.end](PlannedPicture* planned) {
+                end(number);
+                delete planned;
+            }};
+}
+
+GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
+                              const RowSink& sink, const GatherFraction& progress,
+                              const PictureOrder& order) {
+    const std::shared_ptr<PlannedPicture> planned =
+        order.present ? order.present : plan(view, vpls, settings, seed);
+    const RenderPlan& plan = planned->picture.plan;
+    WindowCut window_cut(plan.cover, planned->window);
+    GatherOutcome outcome;
+    const auto take_band = [&](FinishedBand& band) {
+        outcome.local_lights += band.local_lights;
+        if (view.scene_camera.is_monochrome) {
+            make_monochrome(band.rows);
+        }
+        if (const std::span<const float> rows = window_cut.cut(band.rows); !rows.empty()) {
+            sink(rows);
+        }
+    };
+    std::vector<BandWorker> workers = band_workers(pool_, planned->picture, vpls.vpls);
+    NextPicture next;
+    if (order.next) {
+        next.prepare_by(workers.front(), order.next);
+    }
+    add_remote_workers(remote_, *planned, next, workers);
+    BandOutcome shared =
+        share_bands(plan.band_count(), max_waiting_bands(plan, workers.size()), workers, take_band, progress);
+    drop_failed(shared.shares);
+    outcome.shares = std::move(shared.shares);
+    outcome.interrupted = shared.interrupted;
+    return outcome;
+}
+
+void Session::drop_failed(std::span<const BandShare> shares) {
+    const std::size_t own = pool_.size();
+    for (std::size_t i = shares.size(); i-- > own;) {
+        if (shares[i].failed) {
+            remote_.devices.erase(remote_.devices.begin() + static_cast<std::ptrdiff_t>(i - own));
+        }
+    }
+    pool_.drop_failed(shares.first(own));
+}
+
+std::vector<RemoteDevice> Session::own_devices() const {
+    std::vector<RemoteDevice> result;
+    for (const auto& device : pool_.devices()) {
+        result.push_back({.number = result.size(),
+                          .name = device->device().entry().label(),
+                          .batch_receivers = receivers_per_batch(device->device())});
+    }
+    return result;
+}
+
+BandMaker Session::helper(std::size_t number, const Picture& picture, const VplBuffer& vpls) const {
+    return band_maker(*pool_.devices()[number], picture, vpls);
+}
+
+}  // namespace nearlight::core
