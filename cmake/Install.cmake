@@ -31,6 +31,10 @@ install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_
 if(NEARLIGHT_VIEWER)
   install(TARGETS nearlight_viewer LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Viewer)
 endif()
+# So is the module that calls MPI, by processes that mpirun started.
+if(TARGET nearlight_mpi)
+  install(TARGETS nearlight_mpi LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Mpi)
+endif()
 install(TARGETS nearlight RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
 

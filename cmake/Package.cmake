@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages, by `cpack` in the build folder: nearlight (the program), libnearlight (the shared library, and the
-# modules that it and the program load), libnearlight-dev (headers) and, where it is built, nearlight-viewer (the module
-# of `nearlight view`, which needs a desktop's libraries).
+# modules that it and the program load), libnearlight-dev (headers) and, where they are built, nearlight-viewer (the module
+# of `nearlight view`, which needs a desktop's libraries) and nearlight-mpi (the module that calls MPI).
+set(suggested "")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nearlight)
 set(CPACK_PACKAGE_VENDOR nearlight)
@@ -38,6 +39,15 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libnearlight (= ${version})")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers of libnearlight
  The headers, the CMake package and the pkg-config file.")
 
+if(TARGET nearlight_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL Mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME nearlight-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "nearlight (= ${version})")
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "Pictures by many machines
+ A module of the program with which `mpirun nearlight render` makes one picture.")
+  list(APPEND suggested nearlight-mpi)
+endif()
 if(NEARLIGHT_VIEWER)
   list(APPEND CPACK_COMPONENTS_ALL Viewer)
   set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME nearlight-viewer)
@@ -47,6 +57,7 @@ if(NEARLIGHT_VIEWER)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/host/library")
   set(CPACK_COMPONENT_VIEWER_DESCRIPTION "Window of nearlight
  A module of the program with which one walks about in a scene while it is rendered.")
-  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS nearlight-viewer)
+  list(APPEND suggested nearlight-viewer)
 endif()
+list(JOIN suggested ", " CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS)
 include(CPack)

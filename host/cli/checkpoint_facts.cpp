@@ -75,6 +75,8 @@ std::string shown(const Facts& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+}  // namespace
+
 std::optional<std::string> first_difference(const Facts& theirs, const Facts& ours) {
     for (const auto& [name, value] : ours.items()) {
         const auto found = theirs.find(name);
@@ -85,8 +87,6 @@ std::optional<std::string> first_difference(const Facts& theirs, const Facts& ou
     }
     return std::nullopt;
 }
-
-}  // namespace
 
 CheckpointFacts checkpoint_facts(const Scene& scene, std::uint64_t scene_hash, const RenderSettings& settings,
                                  const SessionOptions& options,

@@ -19,6 +19,11 @@ CheckpointFacts checkpoint_facts(const Scene& scene, std::uint64_t scene_hash, c
                                  const SessionOptions& options,
                                  const std::vector<std::unique_ptr<Device>>& devices);
 
+/// What tells facts of one kind apart: "it has NAME THEIRS, and not OURS" for the first of `ours` that
+/// differs.
+std::optional<std::string> first_difference(const nlohmann::ordered_json& theirs,
+                                            const nlohmann::ordered_json& ours);
+
 /// What tells the picture of `theirs` apart from that of `ours`, as the end of a sentence about `theirs`,
 /// such as "it has --vpls 500, and not 1000". Nothing, if passes of both have the same mean.
 std::optional<std::string> difference_of_pictures(const CheckpointFacts& theirs, const CheckpointFacts& ours);

@@ -6,9 +6,12 @@
 
 #include "host/bvh/thread_limit.h"
 #include "host/cli/interrupt.h"
+#include "host/cli/mpi_options.h"
 #include "host/cli/output.h"
 #include "host/cli/render_frames.h"
+#include "host/cli/render_help.h"
 #include "host/cli/render_run.h"
+#include "host/ranks/helpers.h"
 
 namespace nearlight::core {
 namespace {
@@ -39,7 +42,15 @@ void add_session_options(CLI::App& command, SessionOptions& session) {
     add_bvh_option(command, session.bvh_quality);
 }
 
-ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, const DeviceChoice& choice) {
+/// Waits for the other ranks, which get ready as this one does, and has them help.
+void enlist(Helpers& helpers, const RenderRun& run, Session& session) {
+    check_ranks(helpers.wait_until_ready(), rank_facts(run));
+    session.enlist(helpers.devices());
+}
+
+/// Makes one picture, together with `helpers` if there are any.
+ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, const DeviceChoice& choice,
+                     Helpers* helpers) {
     check_outputs(options.picture);
     check_checkpoint(options.checkpoint, options.picture.outputs);
     std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
@@ -53,11 +64,35 @@ ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, 
     }
     catch_interrupts();
     Session session(run.plain_devices(), *run.scene, options.session);
+    if (helpers != nullptr) {
+        const Stopwatch waiting;
+        enlist(*helpers, run, session);
+        if (run.settings.seconds) {
+            *run.settings.seconds -= waiting.seconds();
+        }
+    }
     const MadePicture made = make_picture(session, run, std::move(start), sinks, total);
     if (global.json) {
         print_json(made.json);
     }
     return made.report.interrupted ? ExitCode::interrupted : ExitCode::done;
+}
+
+/// Makes one picture with the other ranks of a job, as the leading rank or as one that helps.
+ExitCode render_with_ranks(const RenderOptions& options, const GlobalOptions& global,
+                           const DeviceChoice& choice) {
+    if (options.frames.range) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            "ranks make one picture together, but no --frames; give --mpi off and each process frames of "
+            "its own");
+    }
+    Post post;
+    if (post.rank().number > 0) {
+        return help_render(options, global, choice, post);
+    }
+    Helpers helpers(post);
+    return render_once(options, global, choice, &helpers);
 }
 
 ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
@@ -67,8 +102,11 @@ ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
         limit_driver_threads(options.threads);
     }
     const DeviceChoice choice = with_compile_workers(options.device);
+    if (joins_job(options.mpi)) {
+        return render_with_ranks(options, global, choice);
+    }
     return options.frames.range ? render_frames(options, global, choice)
-                                : render_once(options, global, choice);
+                                : render_once(options, global, choice, nullptr);
 }
 
 }  // namespace
@@ -113,6 +151,7 @@ void add_render_command(CommandLine& line) {
     add_method_options(command, options->settings, options->method);
     add_session_options(command, options->session);
     add_device_options(command, options->device);
+    add_mpi_option(command, options->mpi);
     command
         .add_option("--threads", options->threads,
                     "CPU threads for building trees and for PoCL's CPU device (other CPU drivers ignore "

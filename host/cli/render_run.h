@@ -14,6 +14,7 @@
 #include "host/cli/device_options.h"
 #include "host/cli/frame_options.h"
 #include "host/cli/method_options.h"
+#include "host/cli/mpi_options.h"
 #include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/render_output.h"
@@ -39,6 +40,7 @@ struct RenderOptions {
     CheckpointOptions checkpoint;
     FrameOptions frames;
     std::string tev;
+    MpiUse mpi = MpiUse::automatic;
     int threads = 0;  ///< 0: one per core
 };
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <latch>
 #include <mutex>
@@ -242,6 +243,49 @@ TEST(AddShares, DevicesThatAreGoneKeepWhatTheyDid) {
     EXPECT_EQ(sum[0].bands, 3u);
     EXPECT_TRUE(sum[0].failed);
     EXPECT_EQ(sum[1].bands, 7u);
+}
+
+TEST(BandSharing, AReservedBandIsItsWorkersFirst) {
+    std::latch gate(2);
+    std::mutex mutex;
+    std::vector<uint> made;
+    BandWorker reserving = behind(gate, steady("reserving"));
+    reserving.first_band = 7;
+    reserving.start = [&, start = reserving.start] {
+        return [&, make = start()](uint index, const BandProgress& progress) {
+            {
+                const std::lock_guard lock(mutex);
+                made.push_back(index);
+            }
+            return make(index, progress);
+        };
+    };
+    const Result result = share({reserving, behind(gate, steady("other", 1ms))});
+    EXPECT_EQ(result.order, from_first_to_last());
+    ASSERT_FALSE(made.empty());
+    EXPECT_EQ(made.front(), 7u);
+    EXPECT_EQ(std::count(made.begin(), made.end(), 7u), 1);
+}
+
+TEST(BandSharing, AReservedBandIsMadeByOthersIfItsWorkerFails) {
+    for (const uint good : {0u, 1u}) {
+        BandWorker reserving = failing_after("reserving", good);
+        reserving.first_band = 3;
+        EXPECT_EQ(share({steady("good"), reserving}).order, from_first_to_last());
+    }
+    BandWorker never = steady("never starts");
+    never.first_band = 3;
+    never.start = []() -> BandMaker { throw Error(ErrorKind::failure, "it does not start"); };
+    EXPECT_EQ(share({steady("good"), never}).order, from_first_to_last());
+}
+
+TEST(BandSharing, AWorkerWithoutABandIsToldOnceThatItMustWait) {
+    uint told = 0;  // in the worker's thread, which has ended when it is looked at
+    BandWorker quick = steady("quick");
+    quick.wait = [&] { ++told; };
+    const Result result = share({quick, steady("slow", 20ms)});
+    EXPECT_EQ(result.order, from_first_to_last());
+    EXPECT_EQ(told, 1u);
 }
 
 }  // namespace

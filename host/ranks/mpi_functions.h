@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What nearlight needs of MPI. The functions are in a module, so that the program starts without the
+// libraries of MPI, and runs where there are none.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nearlight::core {
+
+/// Only one thread may call the functions, and each process can start MPI once.
+struct MpiFunctions {
+    /// Joins the job that the launcher started. Returns why that failed, or an empty text.
+    std::string (*start)(int& rank, int& count, std::string& host);
+    /// Begins to send `bytes`, which must stay as they are until they are sent.
+    void* (*begin_send)(int to, std::span<const std::byte> bytes);
+    /// Whether they are sent, or cannot be sent. Afterwards `sending` is no longer valid.
+    bool (*is_sent)(void* sending);
+    /// Receives a message if one is there.
+    bool (*receive)(int& from, std::vector<std::byte>& bytes);
+    /// Leaves the job. Waits for the other ranks to do so, if `with_others` is set.
+    void (*finish)(bool with_others);
+};
+
+/// The module and its only symbol, a `const MpiFunctions`.
+inline constexpr const char* kMpiModule = "nearlight-mpi.so";
+inline constexpr const char* kMpiFunctionsName = "nearlight_mpi_functions";
+
+}  // namespace nearlight::core

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module that calls MPI.
+#include <mpi.h>
+
+#include <array>
+
+#include "host/ranks/mpi_functions.h"
+
+namespace nearlight::core {
+namespace {
+
+std::string text_of(int error) {
+    std::array<char, MPI_MAX_ERROR_STRING> text{};
+    int length = 0;
+    MPI_Error_string(error, text.data(), &length);
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+/// Errors are returned, because a rank that died is no reason to end the others.
+std::string start(int& rank, int& count, std::string& host) {
+    int level = 0;
+    if (const int error = MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+        error != MPI_SUCCESS) {
+        return text_of(error);
+    }
+    if (level < MPI_THREAD_FUNNELED) {
+        return "it does not allow programs with threads";
+    }
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+    int length = 0;
+    MPI_Get_processor_name(name.data(), &length);
+    host.assign(name.data(), static_cast<std::size_t>(length));
+    return {};
+}
+
+void* begin_send(int to, std::span<const std::byte> bytes) {
+    auto* const request = new MPI_Request(MPI_REQUEST_NULL);
+    MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD, request);
+    return request;
+}
+
+bool is_sent(void* sending) {
+    auto* const request = static_cast<MPI_Request*>(sending);
+    int done = 0;
+    if (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0) {
+        return false;
+    }
+    delete request;
+    return true;
+}
+
+bool receive(int& from, std::vector<std::byte>& bytes) {
+    int found = 0;
+    MPI_Status status{};
+    if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &found, &status) != MPI_SUCCESS || found == 0) {
+        return false;
+    }
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    bytes.resize(static_cast<std::size_t>(size));
+    from = status.MPI_SOURCE;
+    return MPI_Recv(bytes.data(), size, MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE) == MPI_SUCCESS;
+}
+
+void finish(bool with_others) {
+    if (with_others) {
+        MPI_Finalize();
+    }
+}
+
+}  // namespace
+}  // namespace nearlight::core
+
+extern "C" __attribute__((visibility("default"))) const nearlight::core::MpiFunctions nearlight_mpi_functions{
+    nearlight::core::start, nearlight::core::begin_send, nearlight::core::is_sent, nearlight::core::receive,
+    nearlight::core::finish};
