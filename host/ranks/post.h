@@ -21,7 +21,7 @@
 namespace nearlight::core {
 
 /// Whether `mpirun`, or Slurm's `srun` with PMIx, started this process as one of several. Their variables say
-/// so, because asking MPI would take a quarter of a second in every process that is not.
+/// so, because asking MPI would take half a second in every process that is not.
 bool is_rank_of_job();
 
 /// This process in its job.

@@ -152,6 +152,24 @@ TEST_F(Ranks, RanksThatWouldMakeOtherPicturesAreRefused) {
                    2, "it has program ");
 }
 
+#ifdef NEARLIGHT_FAILING_OPENCL
+TEST_F(Ranks, TheOthersDoThePartOfADeviceThatFails) {
+    const std::string picture = arguments("--size 256x192 --passes 6");
+    const ProgramResult result =
+        run_program(picture +
+                        " : -n 1 env LD_PRELOAD=" NEARLIGHT_FAILING_OPENCL
+                        " NEARLIGHT_FAULT_KIND=clEnqueueNDRangeKernel NEARLIGHT_FAULT_CALL=30 " +
+                        NEARLIGHT_PROGRAM + " " + picture,
+                    mpirun("-n 1"));
+    const nlohmann::json json = json_of(result);
+    ASSERT_TRUE(json.is_object()) << result.errors;
+    EXPECT_TRUE(json["device_shares"][1]["failed"].get<bool>());
+    EXPECT_GT(json["device_shares"][1]["bands"].get<int>(), 0);
+    EXPECT_THAT(result.errors, HasSubstr("warning: device rank 1 on "));
+    EXPECT_EQ(json["image_hash"], json_of(run_program(picture))["image_hash"]);
+}
+#endif
+
 TEST_F(Ranks, AfterAKilledRankTheJobIsGoneOnWith) {
     const std::string options = kManyPasses + quoted(file("out.sums")) + " --resume";
     const ProgramResult killed =
