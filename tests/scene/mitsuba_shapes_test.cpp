@@ -60,11 +60,11 @@ TEST(MitsubaShape, RectangleAndCubeLieAsInMitsuba) {
 }
 
 float total_area(const Scene& scene) {
-    float area = 0.0f;
+    double area = 0.0;  // of millions of triangles, of which a float would lose a part
     for (const Triangle& triangle : scene.triangles) {
-        area += triangle_area(scene, triangle);
+        area += static_cast<double>(triangle_area(scene, triangle));
     }
-    return area;
+    return static_cast<float>(area);
 }
 
 /// Many spheres share a few million triangles in proportion to their radii, and keep their areas.
