@@ -81,6 +81,28 @@ TEST(SurfaceBsdf, BlendsMixByTheirTexture) {
     expect_color(sum / kChoices, {1 - luminance, 0, luminance}, 2e-3);
 }
 
+/// What is left of the random number decides about the blend within either half, and about the mask in that.
+TEST(SurfaceBsdf, NestedBlendsShareTheirRandomNumber) {
+    const BsdfCase blend = wrapped([](Scene& scene) {
+        const auto masked = [&](Vec3 color) {
+            return add_material(scene,
+                                mask_material(parameter_of(0.5f), add_material(scene, lambertian(color))));
+        };
+        const auto blended = [&](uint first, uint second) {
+            return add_material(scene, blend_material(parameter_of(0.25f), first, second));
+        };
+        const uint red_or_green = blended(masked({1, 0, 0}), masked({0, 1, 0}));
+        return blended(red_or_green, blended(masked({0, 1, 0}), masked({0, 0, 1})));
+    });
+    Vec3d sum;
+    constexpr int kChoices = 4096;
+    for (int i = 0; i < kChoices; ++i) {
+        sum += blend.seen_from(towards(0.5), Transport::radiance, (i + 0.5) / kChoices).diffuse_reflectance();
+    }
+    expect_color(sum / kChoices, {0.5 * 0.75 * 0.75, 0.5 * (0.75 * 0.25 + 0.25 * 0.75), 0.5 * 0.25 * 0.25},
+                 2e-3);
+}
+
 TEST(SurfaceBsdf, SidesHaveTheirOwnMaterials) {
     const BsdfCase sides = wrapped([](Scene& scene) {
         const uint front = add_material(scene, lambertian({1, 0, 0}));
