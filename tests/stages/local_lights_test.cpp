@@ -297,6 +297,10 @@ TEST_F(LocalLightsTest, VplsAreGroupedByTheLightWhereTheyLie) {
             }
         }
         EXPECT_EQ(count, vpls.size());
+        plan.clamp_radius = kRadius / 3;
+        for (const LocalVpls::Group& group : LocalLights(device).group(scene.buffers, vpls, plan).groups) {
+            EXPECT_GE(group.radius, plan.clamp_radius);
+        }
     });
 }
 
