@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/local_lights.h"
 
+#include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "host/base/random.h"
 #include "host/base/receivers.h"
@@ -365,6 +367,32 @@ kernel void probe(SCENE_PARAMETERS, const global Vpl* vpls, const global float* 
         EXPECT_NEAR(connected_light(probe, scene, above, 4.0f, 2), 4 / 16.0f, 1e-5f) << "within the radius";
         EXPECT_EQ(connected_light(probe, scene, above, 1.0f, 1), 0.0f) << "of too deep a path";
         EXPECT_EQ(connected_light(probe, scene, behind_roof, 1.0f, 2), 0.0f) << "hidden";
+    });
+}
+
+TEST_F(LocalLightsTest, ShortWalksFindLampsByRaysToo) {
+    constexpr uint kWalks = 16384;
+    Scene scene;
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = parameter_of(Vec3{1, 2, 3});
+    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lamp));
+    on_each_ray_tree([&](Device& device) {
+        test::KernelProbe probe(device, R"(
+#include "lib/path_walk.cl"
+kernel void probe(SCENE_PARAMETERS, global float* out) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    const ReceiverPoint at = {(float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), (float3)(0.0f), 0};
+    const Connections to = {0, 0, 0, 0, {1.0f, 1.0f, INFINITY, 0}};
+    out[i] = short_walk_irradiance(&scene, &to, &at, 1, 1, i).y;
+}
+)");
+        const SceneOnDevice on_device(probe.device(), scene);
+        Buffer<float> out(probe.device(), kWalks);
+        probe.kernel().launch(kWalks, 8, on_device.buffers, out);
+        const std::vector<float> light = out.download();
+        const double mean = std::accumulate(light.begin(), light.end(), 0.0) / kWalks;
+        EXPECT_NEAR(mean, 2 * 4 * std::sqrt(0.5) * std::atan(std::sqrt(0.5)), 0.01 * mean);  // 4 quarters
     });
 }
 
