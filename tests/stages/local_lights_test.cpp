@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/local_lights.h"
 
-#include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 #include "host/scene/ray_epsilon.h"
 #include "tests/support/device_fixture.h"
-#include "tests/support/kernel_probe.h"
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
@@ -328,71 +325,6 @@ TEST_F(LocalLightsTest, AbsentReceiversGetNothingAndOthersSomething) {
             lit += is_zero(found[i]) ? 0 : 1;
         }
         EXPECT_GT(lit, 80);
-    });
-}
-
-/// Irradiance at the origin about +Z from the first of four VPLs of power π, which is asked for all of them:
-/// the green channel, for paths of at most `max_depth`.
-float connected_light(test::KernelProbe& probe, const SceneOnDevice& scene, const Vpl& vpl, float radius,
-                      uint max_depth) {
-    Buffer<float> out(probe.device(), 1);
-    probe.kernel().launch(1, 1, scene.buffers, Buffer<Vpl>(probe.device(), std::vector<Vpl>(4, vpl)),
-                          Buffer<float>(probe.device(), std::vector<float>(4, radius)), max_depth, out);
-    return out.download_one(0);
-}
-
-TEST_F(LocalLightsTest, ConnectionsAreBoundedByTheRadiusOfTheVpl) {
-    Scene roof;
-    add_quad(roof, {5, -1, 1.3f}, {2, 0, 0}, {0, 2, 0}, add_material(roof, lambertian({0.5f, 0.5f, 0.5f})));
-    Vpl above{};
-    above.position = {0, 0, 2};
-    above.depth = 2;
-    above.normal = {0, 0, -1};
-    above.power = {0, kPi, 0};
-    Vpl behind_roof = above;
-    behind_roof.position = {9, 0, 2};
-    behind_roof.normal = normalize({-9, 0, -2});
-    on_each_ray_tree([&](Device& device) {
-        test::KernelProbe probe(device, R"(
-#include "lib/path_walk.cl"
-kernel void probe(SCENE_PARAMETERS, const global Vpl* vpls, const global float* radii, uint max_depth, global float* out) {
-    const SceneView scene = SCENE_VIEW;
-    const ReceiverPoint at = {(float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), (float3)(0.0f), 0};
-    const Connections to = {vpls, radii, 4, 1, {1.0f, 1.0f, INFINITY, 0}};
-    out[0] = connected_irradiance(&scene, &to, &at, max_depth, 0.5f).y;
-}
-)");
-        const SceneOnDevice scene(probe.device(), roof);
-        EXPECT_NEAR(connected_light(probe, scene, above, 1.0f, 2), 4 / 4.0f, 1e-5f) << "4 VPLs, distance 2";
-        EXPECT_NEAR(connected_light(probe, scene, above, 4.0f, 2), 4 / 16.0f, 1e-5f) << "within the radius";
-        EXPECT_EQ(connected_light(probe, scene, above, 1.0f, 1), 0.0f) << "of too deep a path";
-        EXPECT_EQ(connected_light(probe, scene, behind_roof, 1.0f, 2), 0.0f) << "hidden";
-    });
-}
-
-TEST_F(LocalLightsTest, ShortWalksFindLampsByRaysToo) {
-    constexpr uint kWalks = 16384;
-    Scene scene;
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{1, 2, 3});
-    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lamp));
-    on_each_ray_tree([&](Device& device) {
-        test::KernelProbe probe(device, R"(
-#include "lib/path_walk.cl"
-kernel void probe(SCENE_PARAMETERS, global float* out) {
-    const uint i = (uint)get_global_id(0);
-    const SceneView scene = SCENE_VIEW;
-    const ReceiverPoint at = {(float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), (float3)(0.0f), 0};
-    const Connections to = {0, 0, 0, 0, {1.0f, 1.0f, INFINITY, 0}};
-    out[i] = short_walk_irradiance(&scene, &to, &at, 1, 1, i).y;
-}
-)");
-        const SceneOnDevice on_device(probe.device(), scene);
-        Buffer<float> out(probe.device(), kWalks);
-        probe.kernel().launch(kWalks, 8, on_device.buffers, out);
-        const std::vector<float> light = out.download();
-        const double mean = std::accumulate(light.begin(), light.end(), 0.0) / kWalks;
-        EXPECT_NEAR(mean, 2 * 4 * std::sqrt(0.5) * std::atan(std::sqrt(0.5)), 0.01 * mean);  // 4 quarters
     });
 }
 
