@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
 #include "host/base/random.h"
@@ -231,6 +232,37 @@ TEST(PathTracer, APaneDimsTheViewAndBlocksPointLights) {
     settings.max_depth = 4;
     add_quad(scene, {-1, 0.5f, -1}, {0, 0, 2}, {2, 0, 0}, material);  // between light and floor
     EXPECT_EQ(channel_mean(trace_paths(scene, settings), "R"), 0);
+}
+
+TEST(PathTracer, PanesOnTheWayToALightCountForTheDepth) {
+    Scene scene = facing_squares(0.8f);
+    scene.clear_glass = true;
+    add_quad(scene, {-0.1f, 0.5f, -0.2f}, {0, 0, 0.6f}, {0.6f, 0, 0},
+             add_material(scene, thin_dielectric_material(1.5)));  // below the light, not before the camera
+    set_camera(scene, {0.0, 0.4, 0.0}, {0.3, 0.0, 0.2}, 0.05);
+    PathTracerSettings settings{.width = 4, .height = 4, .spp = 16, .max_depth = 2};
+    EXPECT_EQ(channel_mean(trace_paths(scene, settings), "direct.R"), 0);
+    settings.max_depth = 3;
+    const double to_light2 = 0.1 * 0.1 + 0.6 * 0.6 + 0.1 * 0.1;
+    const double unhidden = 0.8 / kPi * 0.6 / std::pow(to_light2, 1.5);
+    const double found = channel_mean(trace_paths(scene, settings), "direct.R");
+    EXPECT_LT(found, 0.95 * unhidden);
+    EXPECT_GT(found, 0.85 * unhidden);
+}
+
+TEST(PathTracer, EachPixelHasRandomNumbersOfItsOwn) {
+    Scene scene;
+    add_quad(scene, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    scene.environment = patterned_map(16, 8);
+    set_camera(scene, {0, 1, 0}, {0.001, 0, 0}, 40);
+    scene.camera.kind = CameraKind::orthographic;  // so that all pixels see the same but for chance
+    const Image image = trace_paths(scene, {.width = 6, .height = 6, .spp = 1, .max_depth = 2});
+    const auto blue = static_cast<std::size_t>(image.find_channel("B"));
+    std::set<float> values;
+    for (int i = 0; i < 36; ++i) {
+        values.insert(image.at(i % 6, i / 6, blue));
+    }
+    EXPECT_EQ(values.size(), 36u);
 }
 
 TEST(PathTracer, AMirrorShowsTheReceiver) {
