@@ -125,8 +125,9 @@ TEST_F(Determinism, PlansAreReallyCut) {
         DeviceEntry entry = device.entry();
         entry.max_allocation_bytes = std::size_t{5} << 17u;
         const Device small(entry, device.options());
-        const RenderPlan plan = make_plan(
-            std::vector{&small}, {.width = 100, .height = 60, .samples_per_pixel = 6, .branch_count = 2});
+        const RenderPlan plan =
+            make_plan(std::vector{receivers_per_batch(small)},
+                      {.width = 100, .height = 60, .samples_per_pixel = 6, .branch_count = 2});
         EXPECT_TRUE(plan.band_count() > 1 || plan.batches(0).size() > 1);
     });
 }
