@@ -166,7 +166,7 @@ TEST_F(Documents, BashCompletes) {
     EXPECT_THAT(bash_offers("nearlight ''"), IsSupersetOf({"render", "reference", "compare", "bench"}));
     EXPECT_THAT(bash_offers("nearlight re"), ElementsAre("reference", "render"));
     EXPECT_THAT(bash_offers("nearlight bench ''"), ElementsAre("build", "gather", "sort", "trace"));
-    EXPECT_THAT(bash_offers("nearlight render --vp"), ElementsAre("--vpl-set", "--vpls"));
+    EXPECT_THAT(bash_offers("nearlight render --vp"), ElementsAre("--vpl-keys", "--vpl-set", "--vpls"));
     EXPECT_THAT(bash_offers("nearlight render --compensate ''"), ElementsAre("off", "on"));
     EXPECT_THAT(bash_offers("nearlight render --sampler m"), ElementsAre("metropolis"));
     EXPECT_THAT(bash_offers("nearlight render sce"), ElementsAre("scene.xml"));
