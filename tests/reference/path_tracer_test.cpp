@@ -265,6 +265,16 @@ TEST(PathTracer, EachPixelHasRandomNumbersOfItsOwn) {
     EXPECT_EQ(values.size(), 36u);
 }
 
+TEST(PathTracer, TheAlbedoBelowACoatIsTheMeanOverSamplesOfEitherPart) {
+    Scene scene;
+    const Material coat = coated(scene, {0.5f, 0.5f, 0.5f}, {.eta = 1.5});
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, coat));
+    set_camera(scene, {0, 1, 0}, {0.001, 0, 0}, 0.05);
+    const Image image = trace_paths(scene, {.width = 4, .height = 4, .spp = 1024, .max_depth = 2});
+    const double albedo = 0.5 / (1 - coat.internal_reflectance) / (1.5 * 1.5) * (1 - 0.04);
+    EXPECT_NEAR(channel_mean(image, "albedo.R"), albedo, 0.02 * albedo);
+}
+
 TEST(PathTracer, AMirrorShowsTheReceiver) {
     Scene scene = lit_floor();
     // An index of i reflects everything.
