@@ -5,11 +5,9 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 
-#include "host/base/message.h"
 #include "host/base/printable.h"
 
 namespace nearlight::core {
@@ -33,13 +31,13 @@ class PrintableText : public spdlog::custom_flag_formatter {
     }
 };
 
-void show(MessageLevel level, std::string_view text) {
+}  // namespace
+
+void show_message(MessageLevel level, std::string_view text, const std::string& speaker) {
     // Only a compiler's log has several lines.
-    spdlog::log(log_level(level), "{}",
+    spdlog::log(log_level(level), "{}{}", speaker.empty() ? "" : speaker + ": ",
                 level == MessageLevel::warning ? printable_line(text) : std::string(text));
 }
-
-}  // namespace
 
 void set_up_log(Verbosity verbosity) {
     auto logger = std::make_shared<spdlog::logger>("nearlight",
@@ -53,18 +51,13 @@ void set_up_log(Verbosity verbosity) {
                       : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                         : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
-    core::set_message_sink(show);
+    core::set_message_sink([](MessageLevel level, std::string_view text) { show_message(level, text); });
 }
 
 void show_messages_once() {
-    struct Shown {
-        std::mutex mutex;
-        std::set<std::string> texts;
-    };
-    set_message_sink([shown = std::make_shared<Shown>()](MessageLevel level, std::string_view text) {
-        const std::lock_guard lock(shown->mutex);
-        if (level == MessageLevel::debug || shown->texts.emplace(text).second) {
-            show(level, text);
+    set_message_sink([shown = std::set<std::string>()](MessageLevel level, std::string_view text) mutable {
+        if (level == MessageLevel::debug || shown.emplace(text).second) {
+            show_message(level, text);
         }
     });
 }

@@ -4,6 +4,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <string>
+#include <string_view>
+
+#include "host/base/message.h"
+
 namespace nearlight::core {
 
 enum class Verbosity { quiet, normal, verbose };
@@ -12,6 +17,9 @@ enum class Verbosity { quiet, normal, verbose };
 /// (host/base/message.h). `quiet` shows errors only, `verbose` also debug messages. Commands write with
 /// spdlog::info(), warn() and debug().
 void set_up_log(Verbosity verbosity);
+
+/// Shows a message of a room, after the name of who says it if that is another process.
+void show_message(MessageLevel level, std::string_view text, const std::string& speaker = {});
 
 /// From now on, messages of rooms with the same text are shown once: for commands that read one file many
 /// times.

@@ -4,14 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <mutex>
 #include <new>
 #include <optional>
 
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
-#include "host/base/printable.h"
 #include "host/cli/checkpoint_facts.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -30,9 +28,10 @@ class KeptWarnings {
   public:
     explicit KeptWarnings(std::string rank) : rank_(std::move(rank)) {
         set_message_sink([this](MessageLevel level, std::string_view text) {
-            if (level != MessageLevel::debug) {
-                const std::lock_guard lock(mutex_);
+            if (level == MessageLevel::warning) {
                 texts_.emplace_back(text);
+            } else {
+                show_message(level, text, rank_);
             }
         });
     }
@@ -46,21 +45,18 @@ class KeptWarnings {
         for (const std::string& text : texts_) {
             if (std::ranges::find(notes, text, [](const Note& note) { return to_string(note); }) ==
                 notes.end()) {
-                spdlog::warn("{}: {}", rank_, printable_line(text));
+                show_message(MessageLevel::warning, text, rank_);
             }
         }
     }
 
   private:
     void go_on() {
-        set_message_sink([rank = rank_](MessageLevel level, std::string_view text) {
-            spdlog::log(level == MessageLevel::debug ? spdlog::level::debug : spdlog::level::warn, "{}: {}",
-                        rank, printable_line(text));
-        });
+        set_message_sink(
+            [rank = rank_](MessageLevel level, std::string_view text) { show_message(level, text, rank); });
     }
 
     std::string rank_;
-    std::mutex mutex_;
     std::vector<std::string> texts_;
 };
 
@@ -102,12 +98,14 @@ ExitCode help_render(const RenderOptions& options, const GlobalOptions& global, 
     const spdlog::level::level_enum level = spdlog::get_level();
     std::optional<RenderRun> run;
     std::optional<Session> session;
+    std::string facts;
     try {
         spdlog::set_level(spdlog::level::err);  // the leading rank says what is to be said of the request
         run.emplace(get_ready(options, global, choice));
         spdlog::set_level(level);
         warnings.say_all_but(run->scene->notes);
         session.emplace(run->plain_devices(), *run->scene, options.session);
+        facts = rank_facts(*run);
     } catch (const Error& error) {
         service.refuse(error);
         return ExitCode::done;
@@ -119,7 +117,7 @@ ExitCode help_render(const RenderOptions& options, const GlobalOptions& global, 
         return ExitCode::done;
     }
     catch_interrupts();  // what is to be done then, the leading rank decides
-    service.run(*session, rank_facts(*run));
+    service.run(*session, facts);
     return ExitCode::done;
 }
 

@@ -19,19 +19,27 @@ std::string to_text(const Hello& hello) {
 }
 
 Hello parse_hello(const std::string& text) {
-    const nlohmann::json json = nlohmann::json::parse(text);
-    Hello hello{.host = json["host"], .facts = json["facts"], .devices = {}};
-    for (const nlohmann::json& device : json["devices"]) {
-        hello.devices.push_back({.number = device["number"],
-                                 .name = device["name"],
-                                 .batch_receivers = device["batch_receivers"]});
+    try {
+        const nlohmann::json json = nlohmann::json::parse(text);
+        Hello hello{.host = json.at("host"), .facts = json.at("facts"), .devices = {}};
+        for (const nlohmann::json& device : json.at("devices")) {
+            hello.devices.push_back({.number = device.at("number"),
+                                     .name = device.at("name"),
+                                     .batch_receivers = device.at("batch_receivers")});
+        }
+        if (json.contains("failure")) {
+            const nlohmann::json& failure = json["failure"];
+            hello.failure.emplace(static_cast<ErrorKind>(failure.at("kind").get<int>()),
+                                  failure.at("text").get<std::string>());
+        }
+        return hello;
+    } catch (const nlohmann::json::exception&) {
+        return {.host = {},
+                .facts = {},
+                .devices = {},
+                .failure = Error(ErrorKind::invalid_argument,
+                                 "it is another nearlight; start the same program on all machines")};
     }
-    if (json.contains("failure")) {
-        const nlohmann::json& failure = json["failure"];
-        hello.failure.emplace(static_cast<ErrorKind>(failure["kind"].get<int>()),
-                              failure["text"].get<std::string>());
-    }
-    return hello;
 }
 
 }  // namespace nearlight::core

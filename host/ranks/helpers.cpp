@@ -22,16 +22,35 @@ Helpers::Helpers(Post& post) : post_(post), rank_count_(post.rank().count) {
 }
 
 Helpers::~Helpers() {
-    const MessageKind kind = post_.has_lost() ? MessageKind::break_up_job : MessageKind::end_job;
-    for (int rank = 1; rank < rank_count_; ++rank) {
-        post_.send(rank, Message({.kind = kind}));
-    }
+    const auto say_to_all = [this](MessageKind kind) {
+        for (int rank = 1; rank < rank_count_; ++rank) {
+            post_.send(rank, Message({.kind = kind}));
+        }
+    };
+    say_to_all(MessageKind::end_job);
+    wait_for_goodbyes();
+    say_to_all(post_.has_lost() ? MessageKind::break_up_job : MessageKind::leave_job);
     post_.close();
+}
+
+/// MPI would wait for ever for a rank that died when nobody waited for a band of it.
+void Helpers::wait_for_goodbyes() {
+    std::unique_lock lock(mutex_);
+    for (int rank = 1; rank < rank_count_ && !post_.has_lost(); ++rank) {
+        try {
+            while (!changed_.wait_for(lock, kPatience, [&] { return goodbyes_.contains(rank); })) {
+                post_.check_signs_of_life(rank, name_of(rank));
+            }
+        } catch (const Error&) {
+            return;  // the post office knows that it is lost
+        }
+    }
 }
 
 std::string Helpers::name_of(int rank) const {
     const auto found = hellos_.find(rank);
-    return "rank " + std::to_string(rank) + (found == hellos_.end() ? "" : " on " + found->second.host);
+    return "rank " + std::to_string(rank) +
+           (found == hellos_.end() || found->second.host.empty() ? "" : " on " + found->second.host);
 }
 
 std::vector<Hello> Helpers::wait_until_ready() {
@@ -115,7 +134,10 @@ std::optional<FinishedBand> Helpers::fetch(const Key& key, const BandProgress& p
         if (device.failure) {
             throw Error(*device.failure);
         }
-        post_.check_signs_of_life(device.rank, name_of(device.rank));
+        // Without the ranks that pass pictures on to it, a rank has nothing to do.
+        for (int rank = device.rank; rank > 0; rank = relay_of(rank)) {
+            post_.check_signs_of_life(rank, name_of(rank));
+        }
         const double fraction = std::get<double>(answer);
         lock.unlock();
         const bool goes_on = progress(fraction);
@@ -144,6 +166,8 @@ void Helpers::receive(int from, const Message& message) {
         const std::lock_guard lock(mutex_);
         if (message.head().kind == MessageKind::hello) {
             hellos_[from] = parse_hello(message.text());
+        } else if (message.head().kind == MessageKind::goodbye) {
+            goodbyes_.insert(from);
         } else {
             take_answer(from, message);
         }

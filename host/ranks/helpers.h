@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <variant>
@@ -21,7 +22,7 @@ class Helpers {
   public:
     /// Keeps a reference to `post`, whose messages it receives.
     explicit Helpers(Post& post);
-    /// Ends the job of all helpers.
+    /// Ends the job of all helpers, and waits until they have heard of it or are lost.
     ~Helpers();
     Helpers(const Helpers&) = delete;
     Helpers& operator=(const Helpers&) = delete;
@@ -48,6 +49,7 @@ class Helpers {
     void order(const Key& key);
     std::optional<FinishedBand> fetch(const Key& key, const BandProgress& progress);
     void end(PictureNumber picture);
+    void wait_for_goodbyes();
     void receive(int from, const Message& message);
     void take_answer(int from, const Message& message);
     [[nodiscard]] std::string name_of(int rank) const;
@@ -58,6 +60,7 @@ class Helpers {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<int, Hello> hellos_;
+    std::set<int> goodbyes_;
     std::vector<Device> devices_;
     std::map<Key, Answer> ordered_;
     PictureNumber shown_ = 0;  ///< number of pictures so far

@@ -18,17 +18,20 @@
 
 namespace nearlight::core {
 
-/// The leading rank says the first five, the helping ranks the next ones.
+/// The leading rank says the first six, the helping ranks the next ones. Helpers pass `picture` on, and all
+/// say `alive`.
 enum class MessageKind : std::uint32_t {
     picture,       ///< a Picture and its VPLs; each helper passes it on to others
     order,         ///< make a band
     end_picture,   ///< forget a picture
-    end_job,       ///< leave together
+    end_job,       ///< make no more bands, and say goodbye
+    leave_job,     ///< leave together, since all have said goodbye
     break_up_job,  ///< leave without waiting for others, since one is lost
     hello,         ///< ready, or the reason why not; the body is the text of a Hello
     progress,      ///< how far an ordered band is
     band,          ///< a finished band; the body has its rows
     failed,        ///< a device makes no more bands; the body says why
+    goodbye,       ///< the answer to end_job
     alive,         ///< said every second, between the leading rank and each other
 };
 

@@ -52,9 +52,10 @@ const MpiFunctions& load_mpi() {
     const void* const functions = module == nullptr ? nullptr : dlsym(module, kMpiFunctionsName);
     if (functions == nullptr) {
         const char* const reason = dlerror();
-        throw Error(ErrorKind::failure, std::string("this nearlight knows no MPI: cannot load ") +
-                                            kMpiModule + " (" + (reason == nullptr ? "it is empty" : reason) +
-                                            "); install the package libopenmpi-dev and build again");
+        throw Error(ErrorKind::failure,
+                    std::string("this nearlight knows no MPI: cannot load ") + kMpiModule + " (" +
+                        (reason == nullptr ? "it is empty" : reason) +
+                        "); install the package nearlight-mpi, or libopenmpi-dev and build again");
     }
     return *static_cast<const MpiFunctions*>(functions);
 }
@@ -152,6 +153,7 @@ void Post::work(const Rank& rank) {
         if (leaving_) {
             since_leaving = since_leaving ? since_leaving : Stopwatch();
             if (outgoing_.empty() && (sending_.empty() || since_leaving->seconds() > kLeavingSeconds)) {
+                has_lost_ = has_lost_ || !sending_.empty();
                 return;
             }
         }

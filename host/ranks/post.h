@@ -32,8 +32,8 @@ struct Rank {
 };
 
 /// The post office of a rank. A thread of its own does all that is done with MPI. MPI waits by turning in
-/// circles, which would take a core from the rendering, so the thread looks for messages some hundred times a
-/// second instead.
+/// circles, which would take a core from the rendering, so the thread sleeps for milliseconds between two
+/// looks for messages instead, and for less while it sends.
 class Post {
   public:
     using Receiver = std::function<void(int from, Message message)>;

@@ -20,8 +20,10 @@ constexpr double kProgressSeconds = 0.25;
 
 void pass_on(Post& post, const Message& picture) {
     const Rank& rank = post.rank();
-    for (int to = 2 * rank.number + 1; to <= std::min(2 * rank.number + 2, rank.count - 1); ++to) {
-        post.send(to, picture);
+    for (int to = rank.number + 1; to < rank.count; ++to) {
+        if (relay_of(to) == rank.number) {
+            post.send(to, picture);
+        }
     }
 }
 
@@ -55,7 +57,7 @@ void Service::run(const Session& session, const std::string& facts) {
 
 void Service::wait_for_end() {
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, std::chrono::seconds(1), [this] { return has_ended_; })) {
+    while (!changed_.wait_for(lock, std::chrono::seconds(1), [this] { return may_leave_; })) {
         try {
             post_.check_signs_of_life(0, "rank 0");
         } catch (const Error&) {
@@ -87,12 +89,16 @@ void Service::receive(const Message& message) {
                 std::erase_if(orders, [&](const Order& order) { return order.picture == head.picture; });
             }
             break;
-        case MessageKind::break_up_job:
-            post_.break_up();
-            has_ended_ = true;
-            break;
         case MessageKind::end_job:
             has_ended_ = true;
+            post_.send(0, Message({.kind = MessageKind::goodbye}));
+            break;
+        case MessageKind::break_up_job:
+            post_.break_up();
+            has_ended_ = may_leave_ = true;
+            break;
+        case MessageKind::leave_job:
+            may_leave_ = true;
             break;
         default:
             break;
@@ -114,8 +120,9 @@ std::optional<Service::Order> Service::next_order(std::uint32_t device) {
     if (has_ended_) {
         return std::nullopt;
     }
-    const Order order = orders.front();
+    Order order = orders.front();
     orders.pop_front();
+    order.shown = pictures_.at(order.picture);
     return order;
 }
 
@@ -143,14 +150,9 @@ void Service::make_bands(const Session& session, std::uint32_t device) {
             watch.lap();
             if (!bands || bands->number != order->picture) {
                 bands.reset();  // the device's memory may not do for both
-                std::unique_lock lock(mutex_);
-                const auto found = pictures_.find(order->picture);
-                if (found == pictures_.end()) {
-                    continue;
-                }
-                const std::shared_ptr<const ShownPicture> shown = found->second;
-                lock.unlock();
-                bands = Bands{order->picture, shown, session.helper(device, shown->picture, shown->vpls)};
+                const ShownPicture& shown = *order->shown;
+                bands =
+                    Bands{order->picture, order->shown, session.helper(device, shown.picture, shown.vpls)};
             }
             make_band(device, *order, bands->make);
             busy += watch.lap();

@@ -19,6 +19,10 @@ namespace nearlight::core {
 /// Sends a picture to the ranks that this one passes pictures on to. Each rank has two of them, so that not
 /// one rank sends a picture as many times as there are ranks.
 void pass_on(Post& post, const Message& picture);
+/// The rank that passes pictures on to this one, which is not 0.
+constexpr int relay_of(int rank) {
+    return (rank - 1) / 2;
+}
 
 class Service {
   public:
@@ -44,6 +48,7 @@ class Service {
     struct Order {
         PictureNumber picture = 0;
         uint band = 0;
+        std::shared_ptr<const ShownPicture> shown{};  ///< once it is there
     };
     struct Bands;
 
@@ -62,7 +67,8 @@ class Service {
     /// Pictures that were ended before they came, because they come through other ranks.
     std::set<PictureNumber> ended_early_;
     std::map<std::uint32_t, std::deque<Order>> orders_;  ///< by device
-    bool has_ended_ = false;
+    bool has_ended_ = false;                             ///< no more bands are wanted
+    bool may_leave_ = false;
 };
 
 }  // namespace nearlight::core

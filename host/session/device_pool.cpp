@@ -19,14 +19,6 @@ DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : 
     on_leader([](const PoolDevice&) {});  // its stages begin to compile
 }
 
-std::vector<std::size_t> DevicePool::batch_receivers() const {
-    std::vector<std::size_t> result;
-    for (const auto& device : devices_) {
-        result.push_back(receivers_per_batch(device->device()));
-    }
-    return result;
-}
-
 TreeShapes DevicePool::tree_shapes() const {
     TreeShapes all;
     for (const auto& device : devices_) {

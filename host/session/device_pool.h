@@ -40,8 +40,6 @@ class DevicePool {
     [[nodiscard]] std::size_t size() const { return devices_.size(); }
     [[nodiscard]] std::span<const std::unique_ptr<PoolDevice>> devices() const { return devices_; }
     [[nodiscard]] PoolDevice& leader() const { return *devices_.front(); }
-    /// The receivers_per_batch() of each device.
-    [[nodiscard]] std::vector<std::size_t> batch_receivers() const;
 
     /// The shapes of trees that the devices need, all devices together.
     [[nodiscard]] TreeShapes tree_shapes() const;

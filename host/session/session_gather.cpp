@@ -53,9 +53,10 @@ void make_monochrome(std::span<float> rows) {
 std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vpls,
                                               const GatherSettings& settings, uint seed) {
     const PixelWindow window = window_of(view, settings);
-    std::vector<std::size_t> batch_receivers = pool_.batch_receivers();
-    std::ranges::transform(remote_.devices, std::back_inserter(batch_receivers),
-                           &RemoteDevice::batch_receivers);
+    std::vector<RemoteDevice> devices = own_devices();
+    devices.insert(devices.end(), remote_.devices.begin(), remote_.devices.end());
+    std::vector<std::size_t> batch_receivers;
+    std::ranges::transform(devices, std::back_inserter(batch_receivers), &RemoteDevice::batch_receivers);
     const RenderPlan plan =
         make_plan(batch_receivers, {.width = view.camera.width,
                                     .height = view.camera.height,

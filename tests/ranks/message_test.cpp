@@ -55,5 +55,13 @@ TEST(Hellos, SayWhatARankHasOrLacks) {
     EXPECT_STREQ(lame.failure->what(), "no driver");
 }
 
+TEST(Hellos, OfOtherProgramsAreRefusals) {
+    for (const char* const text : {"", "hello", "{}", "[]", R"({"host": 1, "facts": "", "devices": []})"}) {
+        const Hello hello = parse_hello(text);
+        ASSERT_TRUE(hello.failure) << text;
+        EXPECT_EQ(hello.failure->kind(), ErrorKind::invalid_argument);
+    }
+}
+
 }  // namespace
 }  // namespace nearlight::core
