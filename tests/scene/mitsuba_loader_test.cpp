@@ -194,6 +194,10 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<emitter type='point'><float name='power' value='1'/></emitter>", "power"},
         {"<bsdf type='twosided' id='a'><ref id='a'/></bsdf><shape type='cube'><ref id='a'/></shape>",
          "itself"},
+        {"<shape type='merge' id='m'><ref id='m'/></shape>", "one contains itself"},
+        {"<shape type='shapegroup' id='g'><shape type='instance'><ref id='g'/></shape></shape>"
+         "<shape type='instance'><ref id='g'/></shape>",
+         "only plain shapes"},
         {"<sensor type='perspective'><float name='fov' value='190'/></sensor>", "between 0 and 180"},
         {"<shape type='cube'><transform name='to_world'><matrix value='1 2 3'/></transform></shape>",
          "16 or 9"},

@@ -72,11 +72,11 @@ void ShapeMaker::add_all(const std::vector<const Object*>& shapes) {
                           " facets each, because there are so many");
     }
     for (const Object* shape : shapes) {
-        add(*shape);
+        add(*shape, 0);
     }
 }
 
-void ShapeMaker::add(const Object& shape) {
+void ShapeMaker::add(const Object& shape, uint depth) {
     if (shape.type == "shapegroup") {
         return;
     }
@@ -85,8 +85,11 @@ void ShapeMaker::add(const Object& shape) {
         return;
     }
     if (shape.type == "merge") {
+        if (depth == kMaxMergeDepth) {
+            fail(shape.where, "merges lie too deep in one another, or one contains itself");
+        }
         for (const Object* part : shape.nested("shape")) {
-            add(*part);
+            add(*part, depth + 1);
         }
         shape.report_unused(notes_);
         return;

@@ -20,7 +20,8 @@ class ShapeMaker {
     void add_all(const std::vector<const Object*>& shapes);
 
   private:
-    void add(const Object& shape);
+    /// Adds a shape that lies in `depth` merges.
+    void add(const Object& shape, uint depth);
     /// Adds the shape as an object of its name, after that of the instance whose part it is.
     void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                     const std::string& instance = {});

@@ -18,14 +18,21 @@ double mean_radius(const Object& sphere) {
     return std::cbrt(std::abs(linear_determinant(sphere.transform("to_world") * sphere_placement(sphere))));
 }
 
-void collect_radii(const Object& shape, std::vector<double>& radii) {
+// Of a shape that lies in `depth` merges. Groups hold plain shapes only.
+void collect_radii(const Object& shape, uint depth, std::vector<double>& radii) {
     if (shape.type == "sphere") {
         radii.push_back(mean_radius(shape));
-    }
-    const bool holds_shapes = shape.type == "merge" || shape.type == "instance" || shape.type == "shapegroup";
-    if (holds_shapes) {
+    } else if (shape.type == "merge" && depth < kMaxMergeDepth) {
         for (const Object* part : shape.nested("shape")) {
-            collect_radii(*part, radii);
+            collect_radii(*part, depth + 1, radii);
+        }
+    } else if (shape.type == "instance") {
+        for (const Object* group : shape.nested("shape")) {
+            for (const Object* part : group->nested("shape")) {
+                if (part->type == "sphere") {
+                    radii.push_back(mean_radius(*part));
+                }
+            }
         }
     }
 }
@@ -41,9 +48,7 @@ Mat4 sphere_placement(const Object& sphere) {
 SphereDetail::SphereDetail(const std::vector<const Object*>& shapes) {
     std::vector<double> radii;
     for (const Object* shape : shapes) {
-        if (shape->type != "shapegroup") {
-            collect_radii(*shape, radii);
-        }
+        collect_radii(*shape, 0, radii);
     }
     is_reduced_ = static_cast<double>(radii.size() * sphere_triangle_count(kFinestStacks)) > kMaxTriangles;
     for (const double radius : radii) {

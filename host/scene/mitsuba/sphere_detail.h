@@ -9,6 +9,9 @@
 
 namespace nearlight::core::mitsuba {
 
+/// How deep merges may lie in one another.
+inline constexpr uint kMaxMergeDepth = 100;
+
 /// Where the shape's unit sphere stands before `to_world`.
 Mat4 sphere_placement(const Object& sphere);
 
