@@ -212,9 +212,15 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
         Walk walk(run, options);
         Stopwatch total = whole;
         for (const int frame : frames) {
+            if (interrupted()) {
+                break;
+            }
             walk.go_to(frame);
             if (frame == frames.front() && has_screen_pictures(options.picture) && !run.look().exposure) {
                 run.options.picture.screen.exposure = fmt::format("{}", walk.exposure());
+                if (interrupted()) {
+                    break;
+                }
             }
             if (options.passes.seconds) {
                 run.settings.seconds = *options.passes.seconds - total.seconds();
