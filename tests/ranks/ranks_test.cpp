@@ -207,9 +207,8 @@ TEST_F(Ranks, CtrlCEndsAllRanksAndKeepsWhatThereIs) {
     ASSERT_EQ(kill(std::stoi(file_text(file("pid"))), SIGINT), 0);
     const ProgramResult result = running.get();
     EXPECT_NE(result.exit_code, 0);
-    const nlohmann::json json = nlohmann::json::parse(result.output, nullptr, false);
-    ASSERT_TRUE(json.is_object()) << result.output << result.errors;
-    EXPECT_TRUE(json["interrupted"].get<bool>());
+    // What goes to standard output then may be lost on its way through mpirun.
+    EXPECT_THAT(result.errors, HasSubstr("(interrupted: "));
     EXPECT_TRUE(std::filesystem::exists(file("out.exr")));
     for (const int rank : {0, 1, 2}) {
         EXPECT_EQ(process_of(rank, file("out.exr")), 0);

@@ -283,7 +283,9 @@ TEST(BandSharing, AWorkerWithoutABandIsToldOnceThatItMustWait) {
     uint told = 0;  // in the worker's thread, which has ended when it is looked at
     BandWorker quick = steady("quick");
     quick.wait = [&] { ++told; };
-    const Result result = share({quick, steady("slow", 20ms)});
+    BandWorker slow = steady("slow", 20ms);
+    slow.first_band = 0;  // so that the quick one does not make all of them before this one begins
+    const Result result = share({quick, slow});
     EXPECT_EQ(result.order, from_first_to_last());
     EXPECT_EQ(told, 1u);
 }

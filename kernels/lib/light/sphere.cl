@@ -39,8 +39,10 @@ inline float cone_density(const SeenSphere* seen) {
 /// The density of sample_sphere() in a unit direction.
 inline float sphere_pdf(const global Emitter* emitter, float3 x, float3 direction) {
     const SeenSphere seen = seen_sphere(emitter, x);
-    const float3 past = seen.to_center - dot(seen.to_center, direction) * direction;
-    return dot(past, past) < emitter->radius * emitter->radius ? cone_density(&seen) : 0.0f;
+    const float along = dot(seen.to_center, direction);
+    const float3 past = seen.to_center - along * direction;
+    const bool meets = along > 0.0f && dot(past, past) < emitter->radius * emitter->radius;
+    return meets ? cone_density(&seen) : 0.0f;
 }
 
 /// A direction from x to a sphere or cylinder.
