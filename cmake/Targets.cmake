@@ -53,6 +53,20 @@ function(nearlight_library name)
   endif()
 endfunction()
 
+# nearlight_module(NAME ROOM … SOURCES … PRIVATE …): the module nearlight-NAME, which the room loads when it first needs
+# it, from the run path of the program or of the shared library.
+function(nearlight_module name)
+  cmake_parse_arguments(ARG "" "ROOM" "SOURCES;PRIVATE" ${ARGN})
+  set(target nearlight_${name})
+  add_library(${target} MODULE ${ARG_SOURCES})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include"
+    "${PROJECT_SOURCE_DIR}/kernels")
+  target_link_libraries(${target} PRIVATE nearlight_options ${ARG_PRIVATE})
+  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME nearlight-${name}
+    LIBRARY_OUTPUT_DIRECTORY "${NEARLIGHT_MODULE_DIR}")
+  add_dependencies(${ARG_ROOM} ${target})
+endfunction()
+
 # nearlight_test(NAME [ALONE] SOURCES … LIBRARIES … LABELS … TIMEOUT … ENVIRONMENT VARIABLE=value …): one GoogleTest
 # binary, of which each case is a test of ctest. With ALONE no other test runs beside them.
 function(nearlight_test name)

@@ -21,10 +21,10 @@ const std::string kScene =
 
 class Overrides : public testing::Test {
   protected:
-    [[nodiscard]] Scene load(const SceneOverrides& overrides) const {
+    [[nodiscard]] Scene load(const SceneOverrides& overrides, const std::string& content = kScene) const {
         LoadOptions options;
         options.overrides = overrides;
-        return files_.load_xml(kScene, options);
+        return files_.load_xml(content, options);
     }
     void expect_refused(const SceneOverrides& overrides, const std::string& part) const {
         try {
@@ -65,14 +65,10 @@ TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
 
 TEST_F(Overrides, TurnNoCameraFarAwayThatOnlyGetsAnotherLens) {
     const auto frame = [&](const SceneOverrides& overrides) {
-        LoadOptions options;
-        options.overrides = overrides;
-        return files_
-            .load_xml(
-                "<shape type='rectangle'/><sensor type='perspective'><transform name='to_world'>"
-                "<lookat origin='100000,3,-100000' target='100000.3,3.2,-100000.7' up='0,1,0'/>"
-                "</transform></sensor>",
-                options)
+        return load(overrides,
+                    "<shape type='rectangle'/><sensor type='perspective'><transform name='to_world'>"
+                    "<lookat origin='100000,3,-100000' target='100000.3,3.2,-100000.7' up='0,1,0'/>"
+                    "</transform></sensor>")
             .camera.to_world;
     };
     const Mat4 own = frame({});
@@ -92,13 +88,10 @@ TEST_F(Overrides, TurnNoCameraFarAwayThatOnlyGetsAnotherLens) {
 /// The scale of an orthographic camera is half the width of what it sees, of which a lens knows nothing.
 TEST_F(Overrides, OrthographicCamerasStaySoWithoutAFieldOfView) {
     const auto camera = [&](const SceneOverrides& overrides) {
-        LoadOptions options;
-        options.overrides = overrides;
-        return files_
-            .load_xml(
-                "<shape type='rectangle'/><sensor type='orthographic'><transform name='to_world'>"
-                "<scale value='7'/><lookat origin='0,0,4' target='0,0,0' up='0,1,0'/></transform></sensor>",
-                options)
+        return load(overrides,
+                    "<shape type='rectangle'/><sensor type='orthographic'><transform name='to_world'>"
+                    "<scale value='7'/><lookat origin='0,0,4' target='0,0,0' "
+                    "up='0,1,0'/></transform></sensor>")
             .camera;
     };
     const SceneCamera moved = camera({.origin = std::array{0.0, 0.0, -3.0}});

@@ -111,6 +111,24 @@ class OtherSession {
     std::size_t early_bands_ = 0;
 };
 
+/// A session alone, and one that is helped by remote devices, of which there are `count`.
+struct HelpedSession {
+    std::unique_ptr<Device> own;
+    std::unique_ptr<Device> other;
+    OtherSession helper;
+    Session alone;
+    Session helped;
+
+    HelpedSession(std::unique_ptr<Device> a, std::unique_ptr<Device> b, const Scene& scene, std::size_t count)
+        : own(std::move(a)),
+          other(std::move(b)),
+          helper(*other, scene),
+          alone(*own, scene),
+          helped(*own, scene) {
+        helped.enlist(helper.devices(count));
+    }
+};
+
 class RemoteDevicesTest : public test::DeviceTest {
   protected:
     /// The entry of the first device, which each session opens for itself.
@@ -138,12 +156,8 @@ std::vector<RenderSettings> kinds_of_pictures() {
 }
 
 TEST_F(RemoteDevicesTest, GiveTheBitsOfOneProcess) {
-    const auto own = open();
-    const auto other = open();
-    OtherSession helper(*other, scene_);
-    Session alone(*own, scene_);
-    Session helped(*own, scene_);
-    helped.enlist(helper.devices(3));
+    HelpedSession sessions(open(), open(), scene_, 3);
+    auto& [own, other, helper, alone, helped] = sessions;
     for (const RenderSettings& settings : kinds_of_pictures()) {
         const test::Rendering picture = test::render_image(helped, settings);
         expect_equal(test::render_image(alone, settings), picture);
@@ -154,12 +168,8 @@ TEST_F(RemoteDevicesTest, GiveTheBitsOfOneProcess) {
 }
 
 TEST_F(RemoteDevicesTest, BeginThePassAfterThePresentOne) {
-    const auto own = open();
-    const auto other = open();
-    OtherSession helper(*other, scene_);
-    Session alone(*own, scene_);
-    Session helped(*own, scene_);
-    helped.enlist(helper.devices(2));
+    HelpedSession sessions(open(), open(), scene_, 2);
+    auto& [own, other, helper, alone, helped] = sessions;
     RenderSettings settings = test::few_vpls();
     settings.pass_samples = {2, 4, 2, 1, 2, 2};
     helper.awaited = 6;
@@ -170,13 +180,9 @@ TEST_F(RemoteDevicesTest, BeginThePassAfterThePresentOne) {
 
 TEST_F(RemoteDevicesTest, AreLeftOutWhenTheyFail) {
     for (const uint good_bands : {0u, 2u}) {
-        const auto own = open();
-        const auto other = open();
-        OtherSession helper(*other, scene_);
+        HelpedSession sessions(open(), open(), scene_, 2);
+        auto& [own, other, helper, alone, helped] = sessions;
         helper.good_bands = good_bands;
-        Session alone(*own, scene_);
-        Session helped(*own, scene_);
-        helped.enlist(helper.devices(2));
         RenderSettings settings = test::few_vpls();
         settings.passes = 3;
         const test::Rendering picture = test::render_image(helped, settings);
@@ -188,11 +194,8 @@ TEST_F(RemoteDevicesTest, AreLeftOutWhenTheyFail) {
 }
 
 TEST_F(RemoteDevicesTest, StopWhenTheCallerWantsNoMore) {
-    const auto own = open();
-    const auto other = open();
-    OtherSession helper(*other, scene_);
-    Session helped(*own, scene_);
-    helped.enlist(helper.devices(2));
+    HelpedSession sessions(open(), open(), scene_, 2);
+    auto& [own, other, helper, alone, helped] = sessions;
     RenderSettings settings = test::few_vpls();
     settings.passes = 4;
     const test::Rendering picture = test::render_image(
