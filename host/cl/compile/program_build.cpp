@@ -10,8 +10,10 @@
 #include "host/base/memory.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
+#include "host/cl/compile/build_lock.h"
 #include "host/cl/compile/compile_worker.h"
 #include "host/cl/compile/program_cache.h"
+#include "host/cl/devices/driver_cache.h"
 #include "host/cl/opencl_error.h"
 
 namespace nearlight::core {
@@ -180,10 +182,16 @@ std::optional<Compiled> compile_in(CompileWorker* worker, const ProgramRequest& 
     return std::nullopt;
 }
 
+/// The folder that processes which build the same program share; empty if they need not wait for one another.
+std::filesystem::path shared_folder(const ProgramRequest& request) {
+    return request.entry.kind == DeviceKind::cpu ? driver_cache() : "";
+}
+
 /// Makes the program as build_program() does. Throws cl::Error too.
 cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
     const ProgramCache cache(request.cache_dir);
     const std::string key = request.key();
+    const BuildLock lock(shared_folder(request), key, [&] { return worker != nullptr && worker->stopped(); });
     if (auto kept = cache.find(key)) {
         if (auto program = from_binary(request, std::move(*kept))) {
             return *program;

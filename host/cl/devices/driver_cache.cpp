@@ -21,18 +21,6 @@ fs::path path_in(const char* variable) {
     return value == nullptr ? "" : value;
 }
 
-/// The folder in which PoCL 3 to 6 keep files; empty if there is none, and they take one in /tmp.
-fs::path pocl_cache() {
-    if (const fs::path set = path_in("POCL_CACHE_DIR"); !set.empty()) {
-        return set;
-    }
-    if (const fs::path cache = path_in("XDG_CACHE_HOME"); !cache.empty()) {
-        return cache / "pocl";
-    }
-    const fs::path home = path_in("HOME");
-    return home.empty() ? home : home / ".cache" / "pocl";
-}
-
 /// What the disk must have room for: several times what all kernels of one command take.
 constexpr std::uintmax_t kMinFreeBytes = std::uintmax_t{32} << 20;
 
@@ -80,8 +68,20 @@ class TemporaryCache {
 
 }  // namespace
 
+// PoCL 3 to 6 look in this order.
+fs::path driver_cache() {
+    if (const fs::path set = path_in("POCL_CACHE_DIR"); !set.empty()) {
+        return set;
+    }
+    if (const fs::path cache = path_in("XDG_CACHE_HOME"); !cache.empty()) {
+        return cache / "pocl";
+    }
+    const fs::path home = path_in("HOME");
+    return home.empty() ? home : home / ".cache" / "pocl";
+}
+
 void ensure_driver_cache() {
-    const fs::path cache = pocl_cache();
+    const fs::path cache = driver_cache();
     const std::string reason = cache.empty() ? "" : reason_not_to_keep(fs::absolute(cache));
     if (reason.empty()) {
         return;
