@@ -8,13 +8,14 @@ import os
 import sys
 import time
 
+import mitsuba_scene
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../tests/peers'))
 SAMPLES_A_PASS = 64      # the LLVM variants keep all rays of a pass in memory
 
 
 def loaded(mi, request):
-    # Mitsuba 3.9.1 merges meshes that share a BSDF when it optimizes a scene, and open rooms then get wrong light.
-    scene = mi.load_file(request['scene'], optimize=False)
+    scene = mitsuba_scene.loaded(mi, request['scene'])
     parameters = mi.traverse(scene)
     size, = (name for name in parameters.keys() if name.endswith('film.size'))
     parameters[size] = [request['width'], request['height']]

@@ -15,6 +15,14 @@ TRUTH_SEEDS = (1_000_001, 1_000_002)     # of the two halves; no measured pictur
 
 
 @dataclass
+class Truth:
+    """What the renderers of one limit converge to."""
+    picture: np.ndarray
+    file: str
+    variance: float          # the relative MSE that the picture itself has
+
+
+@dataclass
 class Race:
     """What all scenes have in common."""
     renderers: list
@@ -23,43 +31,62 @@ class Race:
     seeds: int
     seconds: float           # a curve ends with the first point that takes longer
     doublings: int           # or with this number of points: work 1, 2, 4, ...
-    truth_work: dict         # of each half of a converged picture, by the renderer's label
+    truth_work: tuple        # of each half of a converged picture: passes of nearlight, and the work of others
     denoise: tuple           # (False,), or (False, True)
 
     def scene(self, path, size, tell):
-        """All results of a scene as plain values."""
-        truth, agreement = self._truth(path, size, tell)
-        truth_file = os.path.join(self.folder, f'truth-{key_of(path, size)}.exr')
-        write_exr(truth_file, truth['picture'])
+        """All results of a scene as plain values. Renderers that cannot read it are left out, with a line that says why."""
+        renderers, notes = self._able(path, size, tell)
+        halves = self._halves(renderers, path, size, tell)
+        truths = {limit: self._truth(limit, renderers, halves, key_of(path, size)) for limit in {r.limit for r in renderers}}
         curves = []
-        for renderer in self.renderers:
+        for renderer in renderers:
             for denoise in self.denoise:
                 tell(f'{renderer.label}{", denoised" if denoise else ""}')
-                curves.append({'renderer': renderer.label, 'denoised': denoise,
-                               'points': self._points(renderer, path, size, denoise, truth['picture'], truth_file, tell)})
-        return {'scene': os.path.basename(os.path.dirname(os.path.abspath(path))), 'size': list(size), 'agreement': agreement,
-                'truth_relative_mse': truth['variance'], 'curves': curves}
-
-    def _truth(self, path, size, tell):
-        pictures = {}
-        for renderer in self.renderers:
-            work = self.truth_work[renderer.label]
-            if work == 0:
-                continue
-            tell(f'{renderer.label}: converged picture')
-            pictures[renderer.label] = [self._kept(renderer, Task(path, size, work, seed))[0] for seed in TRUTH_SEEDS]
-        picture, variance = measures.combined(list(pictures.values()))
-        names = list(pictures)
-        agreement = [dict(zip(('ratio', 'error'), map(float, measures.mean_ratio(pictures[names[0]], pictures[other]))),
+                points = self._points(renderer, path, size, denoise, truths[renderer.limit], tell)
+                curves.append({'renderer': renderer.label, 'denoised': denoise, 'points': points})
+        names = list(halves)
+        agreement = [dict(zip(('ratio', 'error'), map(float, measures.mean_ratio(halves[names[0]], halves[other]))),
                           renderers=[names[0], other]) for other in names[1:]]
-        return {'picture': picture, 'variance': float(variance)}, agreement
+        return {'scene': os.path.basename(os.path.dirname(os.path.abspath(path))), 'size': list(size), 'agreement': agreement,
+                'truth_relative_mse': {limit: truth.variance for limit, truth in sorted(truths.items(), reverse=True)},
+                'curves': curves, 'notes': notes}
 
-    def _points(self, renderer, path, size, denoise, truth, truth_file, tell):
+    def _able(self, path, size, tell):
+        able, notes = [], []
+        for renderer in self.renderers:
+            try:
+                self._kept(renderer, Task(path, size, 1, 0))
+                able.append(renderer)
+            except RenderFailure as failure:
+                if renderer is self.nearlight:
+                    raise
+                notes.append(f'{renderer.label} is left out: {failure}')
+                tell(notes[-1])
+        return able, notes
+
+    def _halves(self, renderers, path, size, tell):
+        """Two converged pictures by the first renderer of each family."""
+        halves = {}
+        for renderer in {r.family: r for r in reversed(renderers)}.values():
+            tell(f'{renderer.label}: converged picture')
+            work = self.truth_work[0 if renderer is self.nearlight else 1]
+            halves[renderer.family] = [self._kept(renderer, Task(path, size, work, seed))[0] for seed in TRUTH_SEEDS]
+        return dict(sorted(halves.items(), key=lambda item: item[0] != self.nearlight.family))
+
+    def _truth(self, limit, renderers, halves, key):
+        families = dict.fromkeys(r.family for r in renderers if r.limit == limit)
+        picture, variance = measures.combined([halves[family] for family in families])
+        file = os.path.join(self.folder, f"truth-{limit.replace(' ', '-')}-{key}.exr")
+        write_exr(file, picture)
+        return Truth(picture, file, float(variance))
+
+    def _points(self, renderer, path, size, denoise, truth, tell):
         points = []
         for work in (1 << i for i in range(self.doublings)):
             runs = []
             for seed in range(1, self.seeds + 1):
-                runs.append(self._run(renderer, Task(path, size, work, seed, denoise), truth, truth_file))
+                runs.append(self._run(renderer, Task(path, size, work, seed, denoise), truth))
             points.append({'work': work, 'runs': runs})
             tell(f"  work {work}: {np.median([r['seconds']['render'] for r in runs]):.2f} s, "
                  f"relMSE {np.median([r['relative_mse'] for r in runs]):.5f}")
@@ -67,12 +94,12 @@ class Race:
                 break
         return points
 
-    def _run(self, renderer, task, truth, truth_file):
+    def _run(self, renderer, task, truth):
         if task.seed == 1 and task.work == 1:
             self._warm_up(renderer, task)
         picture, seconds, file = self._kept(renderer, task)
-        return {'seed': task.seed, 'seconds': seconds, 'relative_mse': measures.relative_mse(picture, truth),
-                'flip': self.nearlight.flip(file, truth_file), 'spectrum': measures.spectrum(picture, truth)}
+        return {'seed': task.seed, 'seconds': seconds, 'relative_mse': measures.relative_mse(picture, truth.picture),
+                'flip': self.nearlight.flip(file, truth.file), 'spectrum': measures.spectrum(picture, truth.picture)}
 
     def _warm_up(self, renderer, task):
         """Fills the caches of programs and trees, so that whole processes are measured warm."""

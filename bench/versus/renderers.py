@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The renderers of the race. Each makes a picture of a scene with a given amount of work and says how long that took."""
+"""The renderers of the race. Each makes a picture of a scene with a given amount of work and says how long that took.
+
+Renderers with the same `limit` converge to the same picture, those of one `family` by the same code.
+"""
 from dataclasses import dataclass
+import hashlib
 import importlib.metadata
 import importlib.util
 import json
@@ -15,6 +19,7 @@ import numpy as np
 import oidn
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+EXPORT = os.path.join(HERE, 'scene_export.py')
 
 
 class RenderFailure(Exception):
@@ -37,14 +42,14 @@ class Picture:
     seconds: dict        # "render" alone, the "process" from start to end, and all "processor" seconds
 
 
-def timed(command, limit):
+def timed(command, max_seconds):
     """Runs a program. Returns its output, and the seconds and processor seconds that it took."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     started = time.perf_counter()
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=max_seconds)
     except subprocess.TimeoutExpired:
-        raise RenderFailure(f'it took more than {limit} s') from None
+        raise RenderFailure(f'it took more than {max_seconds} s') from None
     seconds = time.perf_counter() - started
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
@@ -55,9 +60,11 @@ def timed(command, limit):
 class Nearlight:
     """nearlight at its defaults. Its work is passes."""
     label = 'nearlight'
+    family = 'nearlight'
+    limit = 'the scene'
 
-    def __init__(self, program, folder, limit):
-        self.program, self.folder, self.limit = program, folder, limit
+    def __init__(self, program, folder, max_seconds):
+        self.program, self.folder, self.max_seconds = program, folder, max_seconds
 
     def missing(self):
         if not os.path.exists(self.program):
@@ -68,21 +75,20 @@ class Nearlight:
 
     def version(self):
         with open(self.program, 'rb') as file:
-            import hashlib
             return hashlib.sha256(file.read()).hexdigest()[:12]
 
     def render(self, task):
         out = os.path.join(self.folder, 'nearlight.exr')
         command = [self.program, 'render', task.scene, '-o', out, '--json', '--layers', 'beauty', '--passes', str(task.work),
                    '--seed', str(task.seed), '--size', f'{task.size[0]}x{task.size[1]}']
-        output, process, processor = timed(command + (['--denoise'] if task.denoise else []), self.limit)
+        output, process, processor = timed(command + (['--denoise'] if task.denoise else []), self.max_seconds)
         seconds = json.loads(output)['seconds']
         render = seconds['generate'] + seconds['gather'] + seconds.get('denoise', 0)
         return Picture(read_exr(out), {'render': render, 'process': process, 'processor': processor})
 
     def flip(self, picture, truth):
         """The mean FLIP of two files."""
-        output, _, _ = timed([self.program, 'diff', picture, truth, '--json'], self.limit)
+        output, _, _ = timed([self.program, 'diff', picture, truth, '--json'], self.max_seconds)
         report = json.loads(output)
         return (report['layers'][0] if 'layers' in report else report)['flip']
 
@@ -90,8 +96,11 @@ class Nearlight:
 class Mitsuba:
     """Mitsuba 3's integrator of the scene. Its work is 16 samples a pixel."""
 
-    def __init__(self, variant, folder, limit):
-        self.variant, self.folder, self.limit = variant, folder, limit
+    family = 'Mitsuba 3'
+    limit = 'the scene'
+
+    def __init__(self, variant, folder, max_seconds):
+        self.variant, self.folder, self.max_seconds = variant, folder, max_seconds
         self.label = 'Mitsuba 3 ' + {'llvm_ad_rgb': 'LLVM', 'scalar_rgb': 'scalar'}[variant]
 
     def missing(self):
@@ -106,17 +115,43 @@ class Mitsuba:
         request = {'scene': task.scene, 'variant': self.variant, 'width': task.size[0], 'height': task.size[1],
                    'spp': 16 * task.work, 'seed': task.seed, 'denoise': task.denoise, 'out': out}
         program = [sys.executable, os.path.join(HERE, 'mitsuba_run.py'), json.dumps(request)]
-        output, process, processor = timed(program, self.limit)
+        output, process, processor = timed(program, self.max_seconds)
         seconds = json.loads(output.strip().splitlines()[-1])
         return Picture(np.load(out), {'render': seconds['render'], 'process': process, 'processor': processor})
 
 
 class Cycles:
-    """Blender's path tracer, which wants scenes in Blender's own form."""
-    label = 'Cycles'
+    """Blender's path tracer. Its work is 16 samples a pixel. It wants scenes in Blender's own form, with materials of which some
+    differ from Mitsuba's, and it weighs samples by a filter of its own: it has a limit of its own."""
+    family = 'Cycles'
+    limit = 'Cycles'
+
+    def __init__(self, guided, folder, max_seconds):
+        self.guided, self.folder, self.max_seconds = guided, folder, max_seconds
+        self.label = 'Cycles, guided' if guided else 'Cycles'
 
     def missing(self):
-        return 'it is not covered yet: no converter of scenes for the Python package bpy'
+        absent = [name for name in ('numpy', 'mitsuba', 'bpy') if importlib.util.find_spec(name) is None]
+        return f"it needs the Python package {' and '.join(absent)} (pip install mitsuba numpy bpy)" if absent else None
+
+    def version(self):
+        return importlib.metadata.version('bpy')
+
+    def render(self, task):
+        out = os.path.join(self.folder, 'cycles.exr')
+        request = {'scene': self._exported(task.scene), 'width': task.size[0], 'height': task.size[1], 'spp': 16 * task.work,
+                   'seed': task.seed, 'guided': self.guided, 'denoise': task.denoise, 'out': out}
+        program = [sys.executable, os.path.join(HERE, 'cycles_run.py'), json.dumps(request)]
+        output, process, processor = timed(program, self.max_seconds)
+        seconds = json.loads(output.strip().splitlines()[-1])
+        return Picture(read_exr(out), {'render': seconds['render'], 'process': process, 'processor': processor})
+
+    def _exported(self, scene):
+        """The scene in a neutral form, which is not part of what is measured."""
+        out = os.path.join(self.folder, 'scene-' + hashlib.sha256(os.path.abspath(scene).encode()).hexdigest()[:16] + '.npz')
+        if not os.path.exists(out) or os.path.getmtime(out) < max(os.path.getmtime(f) for f in (scene, EXPORT)):
+            timed([sys.executable, EXPORT, json.dumps({'scene': scene, 'out': out})], self.max_seconds)
+        return out
 
 
 def bitmaps():

@@ -43,7 +43,9 @@ def scene_lines(result, folder, base, arguments):
     lines = [f"## {result['scene']}", '']
     for pair in result['agreement']:
         lines.append(f"Converged means, {pair['renderers'][0]} ÷ {pair['renderers'][1]}: {pair['ratio']:.4f} ± {pair['error']:.4f}. ")
-    lines += [f"The truth has a relative MSE of its own of about {result['truth_relative_mse']:.1e}.", '']
+    for limit, error in result['truth_relative_mse'].items():
+        lines.append(f"The truth of {limit} has a relative MSE of its own of about {error:.1e}. ")
+    lines += [*[f'{note}. ' for note in result['notes']], '']
     for measure, name in MEASURES.items():
         stem = f"{result['scene']}-{measure.replace('_', '-')}.svg"
         with open(os.path.join(folder, stem), 'w', encoding='utf-8') as out:

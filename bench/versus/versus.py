@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders scenes with nearlight and with path tracers, and shows the error of each over the seconds that it took.
 
-Needs the Python packages mitsuba and numpy. Renderers that are not installed are left out with a line that says why.
+Needs the Python packages mitsuba and numpy, and bpy for Cycles. Renderers that are not installed are left out with a line that says why.
 """
 import argparse
 import importlib.util
@@ -26,8 +26,8 @@ def parsed_arguments():
     parser.add_argument('--seconds', type=float, default=60, help='a curve goes on until a picture takes longer')
     parser.add_argument('--doublings', type=int, default=10, help='maximum points of a curve: 1, 2, 4, ... passes, or times 16 samples')
     parser.add_argument('--truth', type=int, nargs=2, default=(64, 128), metavar=('PASSES', 'WORK'),
-                        help="passes of nearlight and 16 samples of Mitsuba for each half of a converged picture")
-    parser.add_argument('--only', default='', help='renderers whose names contain this, besides nearlight')
+                        help='passes of nearlight, and times 16 samples of others, for each half of a converged picture')
+    parser.add_argument('--only', default='', help='renderers whose names contain one of these, separated by commas, besides nearlight')
     parser.add_argument('--raw', action='store_true', help='no denoised pictures')
     parser.add_argument('--limit', type=float, default=7200, help='maximum seconds of one picture')
     parser.add_argument('--clock', choices=('render', 'process', 'processor'), default='render', help='the seconds of the plots')
@@ -39,8 +39,9 @@ def chosen_renderers(arguments):
     """The renderers that are there, nearlight first, and lines about the others."""
     from renderers import Cycles, Mitsuba, Nearlight
     nearlight = Nearlight(arguments.nearlight, arguments.out, arguments.limit)
-    others = [Mitsuba('llvm_ad_rgb', arguments.out, arguments.limit), Mitsuba('scalar_rgb', arguments.out, arguments.limit), Cycles()]
-    wanted = [nearlight] + [r for r in others if arguments.only.lower() in r.label.lower()]
+    others = [Mitsuba('llvm_ad_rgb', arguments.out, arguments.limit), Mitsuba('scalar_rgb', arguments.out, arguments.limit),
+              Cycles(False, arguments.out, arguments.limit), Cycles(True, arguments.out, arguments.limit)]
+    wanted = [nearlight] + [r for r in others if any(part in r.label.lower() for part in arguments.only.lower().split(','))]
     absent = [f'{r.label} is left out: {r.missing()}' for r in wanted if r.missing()]
     return nearlight, [r for r in wanted if not r.missing()], absent
 
@@ -60,11 +61,8 @@ def run(arguments):
         notes.append('denoised pictures are left out: no Open Image Denoise; run scripts/setup --denoise')
     for note in notes:
         print(note, file=sys.stderr)
-    # The scalar variant has the same picture as LLVM's; one of them is enough for the truth.
-    converged = {r.label: arguments.truth[0] if r is nearlight else arguments.truth[1] for r in renderers}
-    if any('LLVM' in r.label for r in renderers):
-        converged = {label: 0 if 'scalar' in label else work for label, work in converged.items()}
-    race = Race(renderers, nearlight, arguments.out, arguments.seeds, arguments.seconds, arguments.doublings, converged, denoise)
+    race = Race(renderers, nearlight, arguments.out, arguments.seeds, arguments.seconds, arguments.doublings,
+                tuple(arguments.truth), denoise)
     size = tuple(int(n) for n in arguments.size.split('x'))
     results, failures = [], 0
     for path in arguments.scenes:

@@ -20,6 +20,7 @@ import numpy as np
 import measures
 import plots
 import report
+import scene_export
 
 
 def grey(values):
@@ -77,6 +78,55 @@ class Measures(unittest.TestCase):
         self.assertLess(abs(ratio - 1), 5 * error + 0.02)
 
 
+class Transform:
+    """As Mitsuba's transforms of textures are, as far as an export looks at them."""
+
+    def __init__(self, matrix):
+        self.matrix = matrix
+
+
+class Export(unittest.TestCase):
+    def setUp(self):
+        self.archive = scene_export.Archive()
+
+    def material(self, text, values):
+        return scene_export.named_material(text, values, '', self.archive)
+
+    def test_nested_materials_keep_their_parameters(self):
+        text = 'Mask[\n  opacity = 0.5,\n  nested_bsdf = TwoSided[\n    brdf[0] = RoughPlastic[\n  ],\n    brdf[1] = SmoothDiffuse[]]]'
+        inner = 'nested_bsdf.brdf_0.'
+        material = self.material(text, {'opacity.value': 0.5, inner + 'diffuse_reflectance.value': [0.1, 0.2, 0.3],
+                                        inner + 'alpha': 0.25, inner + 'eta': 1.5})
+        self.assertEqual(material['kind'], 'mask')
+        self.assertEqual(material['opacity'], [0.5, 0.5, 0.5])
+        self.assertEqual(material['inner']['kind'], 'plastic')
+        self.assertEqual((material['inner']['alpha'], material['inner']['eta']), (0.25, 1.5))
+        np.testing.assert_allclose(material['inner']['reflectance'], [0.1, 0.2, 0.3], rtol=1e-6)
+
+    def test_textures_become_linear(self):
+        pixels = np.array([[[0, 128, 255]]], dtype=np.uint8)
+        for raw, middle in ((0, 0.2158605), (1, 128 / 255)):
+            material = self.material(f'SmoothDiffuse[\n  reflectance = BitmapTexture[\n    raw = {raw},', {
+                'reflectance.data': pixels, 'reflectance.to_uv': Transform([[2, 0, 0], [0, 3, 0], [0, 0, 1]])})
+            texture = material['reflectance']
+            self.assertEqual(texture['to_uv'], [[2, 0, 0], [0, 3, 0]])
+            np.testing.assert_allclose(self.archive.arrays[texture['texture']['array']][0, 0], [0, middle, 1], atol=1e-5)
+
+    def test_what_has_no_counterpart_is_refused_by_name(self):
+        with self.assertRaisesRegex(scene_export.Unsupported, 'Principled'):
+            self.material('Principled[]', {})
+        with self.assertRaisesRegex(scene_export.Unsupported, 'reflectance'):
+            self.material('SmoothDiffuse[]', {})
+
+    def test_a_disc_has_its_place_and_nearly_its_area(self):
+        corners, faces = scene_export.disc([[2, 0, 0, 5], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]])
+        a, b, c = (corners[faces[:, i]] for i in range(3))
+        across = np.cross(b - a, c - a)
+        self.assertTrue((across[:, 2] > 0).all())
+        self.assertAlmostEqual(np.linalg.norm(across, axis=1).sum() / 2, 4 * np.pi, delta=0.01)
+        np.testing.assert_allclose(corners[0], [5, 0, 0])
+
+
 class Report(unittest.TestCase):
     def test_a_race_becomes_tables_and_plots(self):
         def curve(name, denoised, factor):
@@ -85,7 +135,7 @@ class Report(unittest.TestCase):
                                             'relative_mse': factor / w, 'flip': factor / w ** 0.5, 'spectrum': spectrum} for s in (1, 2)]}
                       for w in (1, 2, 4)]
             return {'renderer': name, 'denoised': denoised, 'points': points}
-        result = {'scene': 'a<b', 'size': [4, 3], 'truth_relative_mse': 1e-5,
+        result = {'scene': 'a<b', 'size': [4, 3], 'truth_relative_mse': {'the scene': 1e-5}, 'notes': ['third is left out: it is not there'],
                   'agreement': [{'renderers': ['nearlight', 'other'], 'ratio': 1.001, 'error': 0.002}],
                   'curves': [curve('nearlight', False, 0.1), curve('other', False, 0.8)]}
         with tempfile.TemporaryDirectory() as folder:
@@ -96,6 +146,7 @@ class Report(unittest.TestCase):
             for plot in os.listdir(os.path.join(folder, 'versus-plots')):
                 xml.etree.ElementTree.parse(os.path.join(folder, 'versus-plots', plot))
         self.assertIn('1.0010 ± 0.0020', lines)
+        self.assertIn('third is left out: it is not there.', lines)
         self.assertIn('| relative MSE, raw | render | ~ 8 (8 to 8) |', lines)
 
     def test_axes_have_ticks(self):

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads scenes of Mitsuba 3 and of its predecessors for the race."""
+import os
+
+
+def loaded(mi, path):
+    """The scene of a file. Properties that Mitsuba 3 no longer knows are passed over."""
+    config = mi.parser.ParserConfig(mi.variant())
+    config.unused_properties = mi.LogLevel.Debug
+    # Mitsuba 3.9.1 merges meshes that share a BSDF when it optimizes a scene, and open rooms then get wrong light.
+    config.merge_meshes = False
+    config.merge_equivalent = False
+    mi.file_resolver().prepend(os.path.dirname(os.path.abspath(path)))
+    state = mi.parser.parse_file(config, path)
+    mi.parser.transform_all(config, state)
+    scene = mi.parser.instantiate(config, state)
+    return scene[0] if isinstance(scene, list) else scene
