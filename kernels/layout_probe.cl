@@ -10,7 +10,10 @@
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);
-#define OFFSET(Type, member) *out++ = (uint)(size_t)(&(((Type*)0)->member));
+// The offset is that of a member from its struct. A struct at address 0 would be a null pointer, which some
+// devices keep as another number.
+#define OFFSET(Type, member) \
+    *out++ = (uint)((global const char*)&((global const Type*)out)->member - (global const char*)out);
 #define VALUE(expression) *out++ = (uint)(expression);
 #define LAYER_PLACES(constant, name, channels, samples, passes, files, storage) \
     VALUE(NEARLIGHT_LAYER_##constant)                                           \

@@ -3,7 +3,9 @@
 #ifndef NEARLIGHT_LIB_LANES
 #define NEARLIGHT_LIB_LANES
 
-#ifdef __has_builtin
+// These are functions of the compiler for a processor. Compilers for SPIR have them too, but drivers that
+// read SPIR may not know what becomes of them: that of Mesa's rusticl ends the process.
+#if defined(__has_builtin) && (defined(__x86_64__) || defined(__aarch64__))
 #if __has_builtin(__builtin_reduce_or)
 #define LANES_REDUCE_OR
 #endif
@@ -119,6 +121,8 @@ LANES_INLINE void prefetch_lines(const global void* at) {
     __builtin_prefetch((const global char*)at + 64);
     __builtin_prefetch((const global char*)at + 128);
     __builtin_prefetch((const global char*)at + 192);
+#else
+    prefetch((const global char*)at, 256);
 #endif
 }
 
