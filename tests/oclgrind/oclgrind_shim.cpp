@@ -26,7 +26,6 @@
 #include <set>
 #include <string>
 #include <thread>
-#include <vector>
 
 #define NEARLIGHT_EXPORTED extern "C" __attribute__((visibility("default")))
 
