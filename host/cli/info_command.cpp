@@ -22,6 +22,7 @@ ExitCode run_info(const SceneOptions& options, const GlobalOptions& global) {
 
 void add_info_command(CommandLine& line) {
     auto options = std::make_shared<SceneOptions>();
+    options->lists_animations = true;
     CLI::App& command = line.add_command(
         "info", "Show what a scene contains, what is approximated, and how much memory it needs",
         [options](const GlobalOptions& global) { return run_info(*options, global); });

@@ -85,6 +85,7 @@ LoadOptions load_options(const SceneOptions& options) {
     result.camera = options.camera;
     result.overrides = options.overrides;
     result.moment = options.moment;
+    result.lists_animations = options.lists_animations;
     for (const std::string& definition : options.definitions) {
         const std::size_t equals = definition.find('=');
         if (equals == std::string::npos || equals == 0) {

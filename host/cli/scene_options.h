@@ -22,6 +22,7 @@ struct SceneOptions {
     std::string camera;  ///< name or number; empty: the first one
     SceneOverrides overrides;
     std::optional<SceneMoment> moment{};  ///< of the file's animations; empty: at rest
+    bool lists_animations = false;        ///< whether Scene::animations is filled
 };
 
 /// Adds the positional SCENE, -D, --strict and the options of override_options.h.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/base/printable.h"
 #include "host/base/words.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
@@ -215,6 +216,62 @@ Json json_notes(const Scene& scene) {
     return notes;
 }
 
+Json json_animations(const Scene& scene) {
+    Json animations = Json::array();
+    for (const SceneAnimation& animation : scene.animations) {
+        Json motions = Json::array();
+        for (const auto& [node, property] : animation.motions) {
+            motions.push_back({{"node", node}, {"property", property}});
+        }
+        const auto& span = animation.span;
+        animations.push_back({{"name", animation.name},
+                              {"begin_seconds", span ? Json(span->begin) : Json()},
+                              {"end_seconds", span ? Json(span->end) : Json()},
+                              {"moves", std::move(motions)},
+                              {"fault", animation.fault.empty() ? Json() : Json(animation.fault)}});
+    }
+    return animations;
+}
+
+/// The nodes that an animation moves, of which there may be hundreds, each with how it moves.
+std::string text_motions(const SceneAnimation& animation) {
+    constexpr std::size_t kMaxNamed = 4;
+    std::vector<std::pair<std::string, std::string>> nodes;
+    for (const auto& [node, property] : animation.motions) {  // those of a node follow one another
+        if (nodes.empty() || nodes.back().first != node) {
+            nodes.emplace_back(node, property);
+        } else {
+            nodes.back().second += ", " + property;
+        }
+    }
+    const std::size_t more = nodes.size() > kMaxNamed ? nodes.size() - kMaxNamed : 0;
+    nodes.resize(nodes.size() - more);
+    const std::string text = joined(nodes, ", ", [](const auto& node) {
+        return fmt::format("{} ({})", printable_line(node.first), node.second);
+    });
+    return text + (more > 0 ? fmt::format(" and {} more nodes", more) : "");
+}
+
+std::string text_animation(const SceneAnimation& animation) {
+    if (!animation.fault.empty()) {
+        return "cannot be played: " + printable_line(animation.fault);
+    }
+    return animation.span ? fmt::format("{:.4g} to {:.4g} s, moves {}", animation.span->begin,
+                                        animation.span->end, text_motions(animation))
+                          : "moves nothing";
+}
+
+/// One row for each animation of the file.
+std::string text_animations(const Scene& scene) {
+    std::string text;
+    for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+        const std::string name = printable_line(scene.animations[i].name);
+        text += fmt::format("{:<12}{}{}: {}\n", i == 0 ? "animations" : "", i + 1,
+                            name.empty() ? "" : " '" + name + "'", text_animation(scene.animations[i]));
+    }
+    return text;
+}
+
 }  // namespace
 
 MemoryEstimate estimate_memory(const Scene& scene) {
@@ -284,6 +341,7 @@ nlohmann::ordered_json scene_summary_json(const Scene& scene) {
          box.is_empty() ? Json() : Json{{"min", json_vector(box.min)}, {"max", json_vector(box.max)}}},
         {"max_depth", scene.max_depth > 0 ? Json(scene.max_depth) : Json()},
         {"samples_per_pixel", scene.samples_per_pixel > 0 ? Json(scene.samples_per_pixel) : Json()},
+        {"animations", json_animations(scene)},
         {"notes", json_notes(scene)},
         {"memory_bytes", {{"host", json_parts(memory.host)}, {"device", json_parts(memory.device)}}}};
 }
@@ -315,7 +373,7 @@ std::string scene_summary_text(const Scene& scene) {
                            scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),
                            text_vector(camera_direction(scene)))) +
            row("film", text_film(scene.camera)) + row("max depth", text_limit(scene.max_depth, "not given")) +
-           row("samples", text_limit(scene.samples_per_pixel, "not given")) +
+           row("samples", text_limit(scene.samples_per_pixel, "not given")) + text_animations(scene) +
            row("host", text_parts(memory.host)) + row("device", text_parts(memory.device)) +
            row("notes", scene.notes.empty() ? "none" : std::to_string(scene.notes.size()));
 }

@@ -104,6 +104,19 @@ struct TimeSpan {
     double end = 0;
 };
 
+/// An animation that a file has, whether or not it is played.
+struct SceneAnimation {
+    /// A property of a node: "translation", "rotation", "scale" or "weights".
+    struct Motion {
+        std::string node;
+        std::string property;
+    };
+    std::string name{};              ///< empty if it has none
+    std::optional<TimeSpan> span{};  ///< from its first to its last key; empty if it moves nothing
+    std::vector<Motion> motions{};
+    std::string fault{};  ///< why it cannot be played; empty if it can be
+};
+
 struct Scene {
     std::string name;              ///< name of the folder or file
     std::filesystem::path source;  ///< the file that was asked for
@@ -135,6 +148,7 @@ struct Scene {
     bool has_open_exposure = false;
     /// From the first to the last key of the animations that are played; empty if the scene is at rest.
     std::optional<TimeSpan> animation{};
+    std::vector<SceneAnimation> animations;  ///< of the file, if LoadOptions::lists_animations asked for them
     /// Tells scenes that one animated file is at several moments: those with equal poses differ in their
     /// camera only.
     std::uint64_t pose = 0;

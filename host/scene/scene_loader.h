@@ -29,6 +29,7 @@ struct LoadOptions {
     std::string camera{};
     SceneOverrides overrides{};
     std::optional<SceneMoment> moment{};  ///< empty: the file's nodes are at rest
+    bool lists_animations = false;        ///< whether Scene::animations is filled
     /// Every approximation is an error instead of a note.
     bool strict = false;
 };

@@ -73,6 +73,40 @@ TEST(SceneSummary, TextTellsTheSame) {
     }
 }
 
+TEST(SceneSummary, AnimationsAndWhatTheyMove) {
+    Scene scene = one_lamp();
+    EXPECT_EQ(scene_summary_json(scene)["animations"].dump(), "[]");
+    EXPECT_EQ(scene_summary_text(scene).find("animations"), std::string::npos);
+    scene.animations = {{.name = "walk",
+                         .span = TimeSpan{0.5, 2},
+                         .motions = {{"eye", "rotation"},
+                                     {"eye", "translation"},
+                                     {"a", "weights"},
+                                     {"b", "scale"},
+                                     {"c", "scale"},
+                                     {"d", "scale"},
+                                     {"e", "scale"}}},
+                        {.name = "two\nlines"},
+                        {.fault = "room.glb: has no key"}};
+    const std::string text = scene_summary_text(scene);
+    for (const char* part :
+         {"animations  1 'walk': 0.5 to 2 s, moves eye (rotation, translation), a (weights), "
+          "b (scale), c (scale) and 2 more nodes\n",
+          "            2 'two lines': moves nothing\n",
+          "            3: cannot be played: room.glb: has no key\n"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    }
+    const nlohmann::ordered_json json = scene_summary_json(scene)["animations"];
+    EXPECT_EQ(json[0]["name"], "walk");
+    EXPECT_EQ(json[0]["begin_seconds"], 0.5);
+    EXPECT_EQ(json[0]["end_seconds"], 2.0);
+    EXPECT_EQ(json[0]["moves"].size(), 7);
+    EXPECT_EQ(json[0]["moves"][1].dump(), R"({"node":"eye","property":"translation"})");
+    EXPECT_TRUE(json[0]["fault"].is_null());
+    EXPECT_TRUE(json[1]["end_seconds"].is_null());
+    EXPECT_EQ(json[2]["fault"], "room.glb: has no key");
+}
+
 TEST(SceneSummary, EmptySceneIsNoProblem) {
     EXPECT_TRUE(scene_summary_json(Scene{})["bounds"].is_null());
     EXPECT_NE(scene_summary_text(Scene{}).find("empty"), std::string::npos);

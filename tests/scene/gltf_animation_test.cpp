@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -219,6 +220,47 @@ TEST_F(GltfAnimation, WithoutACameraThePictureStaysInItsFrame) {
     EXPECT_EQ(rest.camera.to_world.m, end.camera.to_world.m);
     ASSERT_TRUE(camera_at(end, {.moment = SceneMoment{1, {}}}).has_value());
     EXPECT_EQ(camera_at(end, {.moment = SceneMoment{1, {}}})->to_world.m, rest.camera.to_world.m);
+}
+
+TEST_F(GltfAnimation, ACameraThatIsAddedIsNotedOnceAndSeesAllThatTheSceneAtRestHas) {
+    // An open surface that shines has a back of its own, whose corners count as well.
+    gltf_.material()["emissiveFactor"] = {1, 1, 1};
+    gltf_.material()["doubleSided"] = true;
+    animate(0, "translation", times({0, 1}), gltf_.points({0, 0, 0, 0, 0, 20}));
+    const Scene rest = load();
+    const Scene end = load_at(1);
+    EXPECT_EQ(rest.camera.to_world.m, end.camera.to_world.m);
+    EXPECT_EQ(end.triangles.size(), rest.triangles.size());
+    EXPECT_EQ(end.materials.size(), rest.materials.size());
+    EXPECT_EQ(end.object_names, rest.object_names);
+    for (const Scene* scene : {&rest, &end}) {
+        EXPECT_EQ(std::ranges::count_if(
+                      scene->notes,
+                      [](const Note& note) { return note.text.find("has no camera") != std::string::npos; }),
+                  1);
+    }
+}
+
+TEST_F(GltfAnimation, AreListedWithWhatTheyMoveAndWhyTheyCannotBePlayed) {
+    add_walking_camera();
+    animate(0, "scale", times({1, 9}), gltf_.points({1, 1, 1, 9, 9, 9}), "LINEAR", "swell");
+    gltf_.root["animations"][1]["channels"].push_back(
+        {{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}});
+    animate(0, "weights", times({0, 1}), gltf_.points({1, 1, 1, 9, 9, 9}));
+    animate(0, "color", times({0, 1}), gltf_.points({1, 1, 1, 9, 9, 9}), "LINEAR", "later");
+    const std::vector<SceneAnimation> listed = load({.lists_animations = true}).animations;
+    EXPECT_TRUE(load().animations.empty());
+    ASSERT_EQ(listed.size(), 4u);
+    EXPECT_EQ(listed[0].name, "walk");
+    EXPECT_EQ(listed[0].motions.at(0).node, "eye");
+    EXPECT_EQ(listed[0].motions.at(0).property, "translation");
+    EXPECT_EQ(listed[1].span.value().begin, 1.0);
+    EXPECT_EQ(listed[1].span.value().end, 9.0);
+    EXPECT_EQ(listed[1].motions.size(), 2u);
+    EXPECT_EQ(listed[1].fault, "");
+    EXPECT_THAT(listed[2].fault, HasSubstr("animation 3 has weights for node 'thing', which has no morph"));
+    EXPECT_FALSE(listed[3].span.has_value());
+    EXPECT_TRUE(listed[3].motions.empty());
 }
 
 TEST_F(GltfAnimation, MotionsOfSeveralThingsArePlayedTogether) {

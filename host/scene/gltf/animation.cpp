@@ -10,6 +10,7 @@
 #include "host/base/hash.h"
 #include "host/scene/gltf/key_curve.h"
 #include "host/scene/named_choice.h"
+#include "host/scene/scene_names.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
@@ -134,6 +135,12 @@ std::vector<double>& property_of(tinygltf::Node& node, const std::string& path) 
                                  : node.weights;
 }
 
+/// Both spans and what lies between them.
+TimeSpan united(const std::optional<TimeSpan>& span, const KeyCurve& curve) {
+    const TimeSpan keys{double{curve.times.front()}, double{curve.times.back()}};
+    return span ? TimeSpan{std::min(span->begin, keys.begin), std::max(span->end, keys.end)} : keys;
+}
+
 }  // namespace
 
 TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes) {
@@ -149,8 +156,7 @@ TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes) 
     for (const std::size_t animation : played_animations(file, moment.animations, notes)) {
         for (const auto& [target, channel] : targets_of(file, animation)) {
             const KeyCurve curve = curve_of(file, animation, *channel);
-            const TimeSpan keys{double{curve.times.front()}, double{curve.times.back()}};
-            span = span ? TimeSpan{std::min(span->begin, keys.begin), std::max(span->end, keys.end)} : keys;
+            span = united(span, curve);
             property_of(file.model.nodes[static_cast<std::size_t>(target.first)], target.second) =
                 value_at(curve, moment.seconds);
         }
@@ -159,6 +165,26 @@ TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes) 
         file.fail("its animations move nothing");
     }
     return *span;
+}
+
+std::vector<SceneAnimation> list_animations(const GltfFile& file) {
+    std::vector<SceneAnimation> animations;
+    for (std::size_t i = 0; i < file.model.animations.size(); ++i) {
+        SceneAnimation& animation = animations.emplace_back();
+        animation.name = file.model.animations[i].name;
+        try {
+            for (const auto& [target, channel] : targets_of(file, i)) {
+                const std::string& node = file.model.nodes[static_cast<std::size_t>(target.first)].name;
+                animation.motions.push_back(
+                    {name_or_number(node, "node", static_cast<std::size_t>(target.first) + 1),
+                     target.second});
+                animation.span = united(animation.span, curve_of(file, i, *channel));
+            }
+        } catch (const Error& error) {
+            animation.fault = error.what();
+        }
+    }
+    return animations;
 }
 
 std::uint64_t pose_hash(const GltfFile& file, const std::vector<PlacedNode>& nodes) {

@@ -17,6 +17,9 @@ namespace nearlight::core::gltf {
 /// move the same node in the same way.
 TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes);
 
+/// The animations of the file. What pose_nodes() would say of a broken one is its fault.
+std::vector<SceneAnimation> list_animations(const GltfFile& file);
+
 /// A hash of where nodes with surfaces and lights stand, how surfaces are bent, and nothing else: scenes of
 /// one file with equal hashes differ in their camera only.
 std::uint64_t pose_hash(const GltfFile& file, const std::vector<PlacedNode>& nodes);

@@ -24,14 +24,25 @@ std::vector<gltf::PlacedCamera> cameras_of(const gltf::GltfFile& file,
     return cameras;
 }
 
-/// A camera that frames the scene, and stays where it is while nodes move.
-void add_still_camera(Scene& scene, LoadOptions options, NoteSink& notes) {
-    if (options.moment) {
-        options.moment.reset();
-        scene.camera = load_gltf_scene(scene.source, options).camera;
-    } else {
-        add_default_camera(scene, notes);
+void add_meshes(const gltf::GltfFile& file, const std::vector<gltf::PlacedNode>& nodes,
+                gltf::MaterialMaker& materials, Scene& scene, NoteSink& notes) {
+    gltf::MeshMaker meshes(file, scene, materials, notes);
+    for (const gltf::PlacedNode& placed : nodes) {
+        meshes.add(placed);
     }
+}
+
+/// A camera that frames the nodes at rest, so that it stays where it is while they move. Their meshes are
+/// made once more, of the same file and with the same materials.
+void add_still_camera(gltf::GltfFile& file, std::vector<tinygltf::Node> nodes_at_rest,
+                      gltf::MaterialMaker& materials, Scene& scene, NoteSink& notes) {
+    Scene rest;
+    rest.source = scene.source;
+    file.model.nodes.swap(nodes_at_rest);
+    add_meshes(file, gltf::place_nodes(file), materials, rest, notes);
+    file.model.nodes.swap(nodes_at_rest);
+    add_default_camera(rest, notes);
+    scene.camera = rest.camera;
 }
 
 }  // namespace
@@ -42,23 +53,30 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     scene.source = path;
     scene.name = path.stem().string();
     NoteSink notes(scene.notes, options.strict);
+    if (options.lists_animations) {
+        scene.animations = gltf::list_animations(file);
+    }
+    std::vector<tinygltf::Node> nodes_at_rest;
     if (options.moment) {
+        nodes_at_rest = file.model.nodes;
         scene.animation = gltf::pose_nodes(file, *options.moment, notes);
     }
     const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(file);
     scene.pose = options.moment ? gltf::pose_hash(file, nodes) : 0;
-    gltf::MeshMaker meshes(file, scene, notes);
+    gltf::MaterialMaker materials(file, scene, notes);
+    add_meshes(file, nodes, materials, scene, notes);
     std::vector<gltf::PlacedLight> lights;
     for (const gltf::PlacedNode& placed : nodes) {
-        meshes.add(placed);
         gltf::find_light(file, node_of(file, placed), placed.to_world, lights);
     }
     gltf::add_lights(file, lights, scene, notes);
     const std::vector<gltf::PlacedCamera> cameras = cameras_of(file, nodes);
     if (!options.camera.empty() || !cameras.empty()) {
         scene.camera = gltf::choose_camera(file, cameras, options.camera);
+    } else if (options.moment) {
+        add_still_camera(file, std::move(nodes_at_rest), materials, scene, notes);
     } else {
-        add_still_camera(scene, options, notes);
+        add_default_camera(scene, notes);
     }
     if (!options.overrides.bring_light()) {
         // A file with a camera is a scene, which surfaces that shine light. Without one it is a model, of

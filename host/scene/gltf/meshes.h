@@ -14,8 +14,9 @@ namespace nearlight::core::gltf {
 /// Adds the triangles of nodes to the scene, in the pose in which the file has them.
 class MeshMaker {
   public:
-    MeshMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
-        : file_(file), scene_(scene), notes_(notes), materials_(file, scene, notes) {}
+    /// The materials may be those of another scene, of which `scene` then only has the shapes.
+    MeshMaker(const GltfFile& file, Scene& scene, MaterialMaker& materials, NoteSink& notes)
+        : file_(file), scene_(scene), notes_(notes), materials_(materials) {}
 
     /// Adds the node's mesh, if it has one, once for each instance (EXT_mesh_gpu_instancing). Points and
     /// lines are left out, with a note.
@@ -36,7 +37,7 @@ class MeshMaker {
     const GltfFile& file_;
     Scene& scene_;
     NoteSink& notes_;
-    MaterialMaker materials_;
+    MaterialMaker& materials_;
     std::optional<std::vector<Mat4>> world_;  ///< of all nodes, once a skin asks for it
 };
 
