@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 
 #include "host/cli/log.h"
@@ -38,10 +37,6 @@ bool are_there(const std::vector<std::string>& files) {
 
 }  // namespace
 
-int FrameOptions::key_step() const {
-    return vpl_keys.value_or(std::max(1, static_cast<int>(std::lround(std::min(fps, 1e6)))));
-}
-
 void add_frame_options(CLI::App& command, FrameOptions& options) {
     auto* const frames =
         command
@@ -53,18 +48,18 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                 "before the extension")
             ->type_name("A[:B]");
     const auto needs_frames = [frames](CLI::Option* option) { return option->needs(frames); };
-    needs_frames(command.add_option("--fps", options.fps, "Frames per second, with --frames"))
+    needs_frames(command.add_option("--fps", options.animation.fps, "Frames per second, with --frames"))
         ->check(number_from(0.001, 1e6))
         ->type_name("N")
         ->capture_default_str();
-    needs_frames(command.add_option("--animation", options.animations,
+    needs_frames(command.add_option("--animation", options.animation.animations,
                                     "Animation to play, by its name or number; may be given several times "
                                     "(default: all, but of those that move the same thing only the first)"))
         ->type_name("NAME|N")
         ->allow_extra_args(false);
     needs_frames(
         command.add_option(
-            "--vpl-keys", options.vpl_keys,
+            "--vpl-keys", options.animation.vpl_keys,
             "Where only the camera moves, VPLs are made for the views of every N-th frame, and fade "
             "from one to the next so that nothing flickers; 0: anew for each frame (default: as many "
             "as --fps)"))
@@ -131,8 +126,8 @@ std::vector<int> frames_to_make(const FrameOptions& options, const std::vector<s
 
 void tell_range(const FrameOptions& options, const Scene& scene) {
     constexpr double kRounding = 1e-3;  // of a frame
-    const double begin = scene.animation->begin * options.fps;
-    const double end = scene.animation->end * options.fps;
+    const double begin = scene.animation->begin * options.animation.fps;
+    const double end = scene.animation->end * options.animation.fps;
     if (options.range->first < begin - kRounding) {
         spdlog::warn("the animation begins at frame {:.4g}; the frames before show its begin", begin);
     }

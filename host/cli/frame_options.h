@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "host/cli/command.h"
-#include "host/scene/scene_loader.h"
+#include "host/scene/scene.h"
+#include "nearlight/settings.h"
 
 namespace nearlight::core {
 
@@ -17,15 +18,9 @@ struct FrameRange {
 };
 
 struct FrameOptions {
-    std::optional<FrameRange> range{};      ///< empty: one picture of the scene at rest
-    double fps = 24.0;                      ///< frames per second
-    std::vector<std::string> animations{};  ///< as SceneMoment has them
-    std::optional<int> vpl_keys{};          ///< frames from one key view to the next; 0: there are none
+    std::optional<FrameRange> range{};  ///< empty: one picture of the scene at rest
+    AnimationOptions animation{};
     bool skip_existing = false;
-
-    [[nodiscard]] SceneMoment moment(int frame) const { return {frame / fps, animations}; }
-    /// Frames from one key view to the next; 0: each frame has VPLs of its own.
-    [[nodiscard]] int key_step() const;
 };
 
 /// Adds --frames, --fps, --animation, --vpl-keys and --skip-existing. Options of checkpoints and VPL files

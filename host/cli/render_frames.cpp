@@ -2,8 +2,6 @@
 #include "host/cli/render_frames.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -11,7 +9,7 @@
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/image/exposure_meter.h"
-#include "host/session/key_vpls.h"
+#include "host/session/frame_walk.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -21,7 +19,7 @@ namespace {
 RenderOptions options_of(const RenderOptions& options, int frame) {
     RenderOptions result = options;
     result.picture.outputs = numbered(options.picture.outputs, frame);
-    result.scene.moment = options.frames.moment(frame);
+    result.scene.moment = moment_of(options.frames.animation, frame);
     return result;
 }
 
@@ -33,116 +31,35 @@ void check_frames(const RenderOptions& options) {
     }
 }
 
-/// The scene and what is made for it, from one frame to the next.
-class Walk {
-  public:
-    Walk(RenderRun& run, const RenderOptions& options)
-        : run_(run), options_(options), vpls_(run.settings.view) {}
-
-    /// Goes to a frame; the first one must be that at which the run's scene was loaded.
-    void go_to(int frame);
-    [[nodiscard]] Session& session() { return *session_; }
-    /// Empty if the frame has VPLs of its own.
-    [[nodiscard]] VplMaker vpl_maker();
-    /// The exposure that the first moment of the animation asks for, in stops, which frames share so that
-    /// their brightness does not flicker.
-    float exposure();
-
-  private:
-    void load(int frame);
-    /// The camera at a frame, if its light is that of the present one.
-    std::optional<SceneCamera> camera_at_frame(int frame);
-    std::vector<KeyView> key_views(int frame);
-
-    RenderRun& run_;
-    const RenderOptions& options_;
-    std::optional<Session> session_;
-    std::map<int, std::optional<SceneCamera>> cameras_;  ///< of the key frames about the present one
-    KeyVpls vpls_;
-};
-
-void Walk::load(int frame) {
-    session_.reset();
-    cameras_.clear();
-    run_.hash.wait();
-    run_.scene.reset();
-    run_.scene = std::make_unique<Scene>(load_scene(options_of(options_, frame).scene));
+/// What a run has of a walk. The scene's hash is computed in the background, where it must not change.
+FrameSource source_for(RenderRun& run, const RenderOptions& options) {
+    const auto scene_at = [&options](const SceneMoment& moment) {
+        SceneOptions scene = options.scene;
+        scene.moment = moment;
+        return scene;
+    };
+    return {.load = [scene_at](const SceneMoment& moment) { return load_scene(scene_at(moment)); },
+            .camera_at = [scene_at](const Scene& scene,
+                                    const SceneMoment& moment) { return camera_at(scene, scene_at(moment)); },
+            .before_change = [&run] { run.hash.wait(); },
+            .after_change =
+                [&run](double seconds) {
+                    run.load_seconds = seconds;
+                    run.begin_hash();
+                }};
 }
 
-std::optional<SceneCamera> Walk::camera_at_frame(int frame) {
-    return camera_at(*run_.scene, options_of(options_, frame).scene);
-}
-
-void Walk::go_to(int frame) {
-    const Stopwatch loading;
-    const bool is_first = !session_;
-    if (!is_first) {
-        if (const std::optional<SceneCamera> camera = camera_at_frame(frame)) {
-            run_.hash.wait();
-            run_.scene->camera = *camera;
-        } else {
-            load(frame);
-        }
-        run_.load_seconds = loading.seconds();
-        run_.begin_hash();
-    }
-    if (!session_) {
-        session_.emplace(run_.plain_devices(), *run_.scene, options_.session);
-        if (!is_first) {
-            static_cast<void>(session_->new_compile_seconds());  // earlier frames have counted them
-        }
-    }
-    const RenderOptions of_frame = options_of(options_, frame);
-    run_.options.picture.outputs = of_frame.picture.outputs;
-    run_.options.scene.moment = of_frame.scene.moment;
-    std::vector<KeyView> views = key_views(frame);
-    run_.frame = FrameFacts{.frame = frame};
-    for (const KeyView& view : views) {
-        std::string& text = run_.frame->vpl_keys;
+/// Makes the run that of a frame.
+void go_to(FrameWalk& walk, RenderRun& run, const RenderOptions& options, int frame) {
+    walk.go_to(frame, run.settings.view, run.settings.sampling);
+    const RenderOptions of_frame = options_of(options, frame);
+    run.options.picture.outputs = of_frame.picture.outputs;
+    run.options.scene.moment = of_frame.scene.moment;
+    run.frame = FrameFacts{.frame = frame};
+    for (const KeyView& view : walk.views()) {
+        std::string& text = run.frame->vpl_keys;
         text += fmt::format("{}{}:{:.4g}", text.empty() ? "" : " ", view.frame, view.weight);
     }
-    vpls_.set_views(std::move(views));
-}
-
-/// The key views before and after the frame in which the light is the same, weighted by how near they are.
-std::vector<KeyView> Walk::key_views(int frame) {
-    const SamplingSettings& sampling = run_.settings.sampling;
-    const int step = options_.frames.key_step();
-    if (step == 0 || sampling.sampler == SamplerKind::local || !sampling.file.empty()) {
-        return {};
-    }
-    const int before = frame / step * step;
-    std::erase_if(cameras_, [before](const auto& entry) { return entry.first < before; });
-    std::vector<KeyView> views;
-    for (const int key : {before, before + step}) {
-        const float weight = 1.0f - static_cast<float>(std::abs(frame - key)) / static_cast<float>(step);
-        if (weight > 0.0f) {
-            const auto [entry, is_new] = cameras_.try_emplace(key);
-            if (is_new) {
-                entry->second = camera_at_frame(key);
-            }
-            if (entry->second) {
-                views.push_back({.frame = key, .camera = *entry->second, .weight = weight});
-            }
-        }
-    }
-    // Between two equal views the picture would still change, because samples take turns among all VPLs.
-    if (views.size() == 2 && views[0].camera.to_world.m == views[1].camera.to_world.m) {
-        views.pop_back();
-    }
-    if (views.size() == 1) {
-        views.front().weight = 1.0f;
-    }
-    return views;
-}
-
-VplMaker Walk::vpl_maker() {
-    if (!vpls_.has_views()) {
-        return {};
-    }
-    return [this](const ViewSettings& view, const SamplingSettings& sampling, uint seed) {
-        return vpls_.make(*session_, view, sampling, seed);
-    };
 }
 
 /// The exposure of a small and quick picture.
@@ -170,15 +87,17 @@ float metered(Session& session, const SceneCamera& camera, const RenderSettings&
     return automatic_exposure(layer_channels(), pixels);
 }
 
-float Walk::exposure() {
-    SceneOptions begin = options_.scene;
-    begin.moment = SceneMoment{run_.scene->animation->begin, options_.frames.animations};
-    if (const std::optional<SceneCamera> camera = camera_at(*run_.scene, begin)) {
-        return metered(*session_, *camera, run_.settings);
+/// The exposure that the first moment of the animation asks for, in stops, which frames share so that their
+/// brightness does not flicker.
+float shared_exposure(FrameWalk& walk, const RenderRun& run, const RenderOptions& options) {
+    SceneOptions begin = options.scene;
+    begin.moment = SceneMoment{run.scene->animation->begin, options.frames.animation.animations};
+    if (const std::optional<SceneCamera> camera = camera_at(*run.scene, begin)) {
+        return metered(walk.session(), *camera, run.settings);
     }
     const Scene scene = load_scene(begin);
-    Session session(run_.plain_devices(), scene, options_.session);
-    return metered(session, scene.camera, run_.settings);
+    Session session(run.plain_devices(), scene, options.session);
+    return metered(session, scene.camera, run.settings);
 }
 
 /// Says what has become of the frames.
@@ -209,15 +128,16 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
         RenderRun run = get_ready(first, global, choice);
         tell_range(options.frames, *run.scene);
         catch_interrupts();
-        Walk walk(run, options);
+        FrameWalk walk(source_for(run, options), options.frames.animation, run.plain_devices(),
+                       options.session, run.scene, frames.front());
         Stopwatch total = whole;
         for (const int frame : frames) {
             if (interrupted()) {
                 break;
             }
-            walk.go_to(frame);
+            go_to(walk, run, options, frame);
             if (frame == frames.front() && has_screen_pictures(options.picture) && !run.look().exposure) {
-                run.options.picture.screen.exposure = fmt::format("{}", walk.exposure());
+                run.options.picture.screen.exposure = fmt::format("{}", shared_exposure(walk, run, options));
                 if (interrupted()) {
                     break;
                 }

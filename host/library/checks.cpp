@@ -16,6 +16,7 @@ constexpr std::uint32_t kMaxSamples = 65536;
 constexpr std::uint32_t kMaxDirectSamples = 1'000'000;
 constexpr std::uint32_t kMaxDepth = 1024;
 constexpr std::uint32_t kMaxPasses = 1'000'000;
+constexpr int kMaxFrame = 999'999;
 constexpr float kMaxLength = 1e9f;
 constexpr float kMaxRoulette = 1000.0f;
 /// The maximum deviation of a normal's length from 1. Rounding stays below it; a larger deviation means that
@@ -86,6 +87,15 @@ void check(const RenderSettings& settings) {
     for (const std::uint32_t samples : settings.pass_samples) {
         check_range("pass_samples", samples, 1u, kMaxSamples);
     }
+}
+
+void check(const AnimationOptions& options) {
+    check_range("fps", options.fps, 0.001, 1e6);
+    check_range("vpl_keys", options.vpl_keys, 0, kMaxFrame);
+}
+
+void check_frame(int frame) {
+    check_range("frame", frame, 0, kMaxFrame);
 }
 
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {

@@ -14,6 +14,9 @@ void check(const SamplingSettings& settings);
 void check(const GatherSettings& settings);
 void check(const IrradianceSettings& settings);
 void check(const RenderSettings& settings);
+void check(const AnimationOptions& options);
+/// The number of a frame.
+void check_frame(int frame);
 
 /// Throws Error(ErrorKind::invalid_argument) unless there are as many normals as points, points are finite
 /// and normals have length 1.

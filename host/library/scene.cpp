@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "host/library/parts.h"
 #include "host/library/states.h"
 #include "host/scene/camera.h"
-#include "host/scene/scene_loader.h"
 
 namespace nearlight {
 namespace {
@@ -19,7 +19,9 @@ std::optional<std::array<double, 3>> point_of(const std::optional<Vec3>& v) {
     return v ? std::optional(Point{v->x, v->y, v->z}) : std::nullopt;
 }
 
-core::LoadOptions core_options(const LoadOptions& options) {
+}  // namespace
+
+core::LoadOptions core_options(const LoadOptions& options, std::optional<core::SceneMoment> moment) {
     core::LoadOptions wanted{
         .parameters = options.definitions, .camera = options.camera, .strict = options.strict};
     core::SceneOverrides& overrides = wanted.overrides;
@@ -34,17 +36,21 @@ core::LoadOptions core_options(const LoadOptions& options) {
         overrides.sun = core::SunPosition{options.sun->azimuth, options.sun->elevation};
     }
     overrides.light_scale = options.light_scale;
+    wanted.moment = std::move(moment);
     return wanted;
 }
 
-}  // namespace
+core::Scene load_core_scene(const std::filesystem::path& file, const LoadOptions& options,
+                            std::optional<core::SceneMoment> moment) {
+    core::Scene scene = core::load_scene(file, core_options(options, std::move(moment)));
+    scene.clear_glass = options.clear_glass;
+    return scene;
+}
 
 Scene::Scene(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Scene Scene::load(const std::filesystem::path& file, const LoadOptions& options) {
-    core::Scene scene = core::load_scene(file, core_options(options));
-    scene.clear_glass = options.clear_glass;
-    return Scene(std::make_shared<const State>(State{std::move(scene)}));
+    return Scene(std::make_shared<const State>(State{load_core_scene(file, options)}));
 }
 
 const std::string& Scene::name() const {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "host/library/checks.h"
+#include "host/library/parts.h"
 #include "host/library/states.h"
 #include "host/scene/camera.h"
 #include "host/session/picture_window.h"
-#include "host/session/render.h"
 #include "host/stages/film_layers.h"
 #include "nearlight/error.h"
 
@@ -190,15 +190,21 @@ std::vector<LightShare> Session::light_shares(Vec3 point, Vec3 normal, const Vpl
 
 Picture Session::render(const RenderSettings& settings, const Progress& progress) {
     check(settings);
+    return render_picture(state_->session, settings, progress);
+}
+
+Picture render_picture(core::Session& session, const RenderSettings& settings, const Progress& progress,
+                       const core::VplMaker& vpls) {
     Picture picture;
     ImageFiller fill(picture.image);
     const core::RenderReport report = core::render(
-        state_->session, settings,
+        session, settings,
         [&](const core::RenderReport& started, const core::View&, const core::VplSet&) {
             picture.image = blank_picture(started.width, started.height);
         },
         [&](std::span<const float> rows) { fill(rows); },
-        [&](const std::string&, double fraction) { return !progress || progress(fraction); });
+        [&](const std::string&, double fraction) { return !progress || progress(fraction); }, {}, {}, {},
+        vpls);
     picture.passes = report.passes;
     picture.vpl_count = report.totals.close_vpls + report.totals.distant_vpls;
     picture.interrupted = report.interrupted;

@@ -40,6 +40,7 @@ class KeyVpls {
     /// The key views of the next picture, whose weights add up to 1. Sets of others are dropped.
     void set_views(std::vector<KeyView> views);
     [[nodiscard]] bool has_views() const { return !views_.empty(); }
+    [[nodiscard]] const std::vector<KeyView>& views() const { return views_; }
 
     /// The VPLs of a pass of the picture, of whose view only the pilot is asked for.
     VplSet make(Session& session, const ViewSettings& view, const SamplingSettings& sampling, uint seed);

@@ -63,6 +63,7 @@ class NEARLIGHT_API Devices {
     [[nodiscard]] const std::vector<DeviceInfo>& infos() const;
 
   private:
+    friend class Animation;
     friend class Session;
     struct State;
     explicit Devices(std::shared_ptr<State> state);

@@ -3,6 +3,7 @@
 // their light in pixels or at points. docs/api.md walks through it.
 #pragma once
 
+#include "nearlight/animation.h"
 #include "nearlight/device.h"
 #include "nearlight/error.h"
 #include "nearlight/image.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of a view, of a set of virtual point lights, of a gather and of a session.
+// The settings of a view, of a set of virtual point lights, of a gather, of a session and of an animation.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "nearlight/vec3.h"
@@ -52,6 +53,8 @@ struct CameraPose {
     /// The horizontal field of view of the film in degrees, between 0 and 180, with which an orthographic
     /// camera becomes a perspective one; empty: the scene's.
     std::optional<double> fov_x_degrees{};
+
+    friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
 /// What to look at. The scene and a pilot view of about 1000 receivers decide the options that are empty.
@@ -69,6 +72,8 @@ struct ViewSettings {
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
     /// the scene's, or 8 if the scene has none.
     std::optional<std::uint32_t> max_depth{};
+
+    friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
 /// How to make VPLs.
@@ -95,6 +100,8 @@ struct SamplingSettings {
         const bool has_cuts = cuts && sampler != SamplerKind::local && vpl_count > 0;
         return has_cuts ? std::max(set_count.value_or(many), vpl_count) : vpl_count;
     }
+
+    friend bool operator==(const SamplingSettings&, const SamplingSettings&) = default;
 
     /// Whether bundles of receivers ask about a part of the set only.
     [[nodiscard]] bool asks_part() const { return set_count_or_auto() > vpl_count; }
@@ -167,6 +174,17 @@ struct RenderSettings {
 struct SessionOptions {
     GatherKernel gather_kernel = GatherKernel::automatic;
     BvhQuality bvh_quality = BvhQuality::quality;
+};
+
+/// How the frames of an animation are made.
+struct AnimationOptions {
+    double fps = 24.0;  ///< frames per second: frame N shows the time N / fps
+    /// The animations to play: their names, or their numbers counted from 1. Empty: all but those that move
+    /// what an earlier one moves.
+    std::vector<std::string> animations{};
+    /// Where only the camera moves, VPLs are made for the views of every so many frames, and fade from one to
+    /// the next; 0: anew for each frame; empty: as many as fps.
+    std::optional<int> vpl_keys{};
 };
 
 /// How Session::irradiance() estimates the light at points.

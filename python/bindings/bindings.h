@@ -22,11 +22,14 @@ struct SharedDevices {
 /// Opens what `choice` names; the caller holds the GIL, because drivers read the environment meanwhile, which
 /// Python's os.environ changes.
 SharedDevices choose_devices(const std::string& choice, const DeviceOptions& options);
+/// The same for an argument `devices`: Devices, or a choice.
+SharedDevices devices_of(const py::object& devices);
 
 void add_errors(py::module_& module);
 void add_devices(py::module_& module);
 void add_scenes(py::module_& module);
 void add_images(py::module_& module);
 void add_sessions(py::module_& module);
+void add_animations(py::module_& module);
 
 }  // namespace nearlight::python

@@ -125,6 +125,20 @@ std::vector<std::uint32_t> Convert<std::vector<std::uint32_t>>::from(const char*
     return numbers;
 }
 
+std::vector<std::string> Convert<std::vector<std::string>>::from(const char* name, py::handle value) {
+    if (is_text(value) || PySequence_Check(value.ptr()) == 0) {
+        fail_type(name, "a sequence of names or numbers", value);
+    }
+    std::vector<std::string> texts;
+    for (const py::handle item : value) {
+        if (is_boolean(item) || (!py::isinstance<py::str>(item) && PyIndex_Check(item.ptr()) == 0)) {
+            fail_type(name, "a sequence of names or numbers", value);
+        }
+        texts.push_back(encoded(py::str(item)));
+    }
+    return texts;
+}
+
 std::map<std::string, std::string> Convert<std::map<std::string, std::string>>::from(const char* name,
                                                                                      py::handle value) {
     const py::object mapping = py::module_::import("collections.abc").attr("Mapping");

@@ -85,6 +85,12 @@ struct Convert<std::vector<std::uint32_t>> {
     static std::vector<std::uint32_t> from(const char* name, py::handle value);
 };
 
+/// Numbers may stand for names, as those of animations do.
+template <>
+struct Convert<std::vector<std::string>> {
+    static std::vector<std::string> from(const char* name, py::handle value);
+};
+
 template <>
 struct Convert<std::map<std::string, std::string>> {
     static std::map<std::string, std::string> from(const char* name, py::handle value);
@@ -129,6 +135,13 @@ inline py::object to_python(const std::vector<std::uint32_t>& values) {
 
 /// The str that encoded() makes this text of (os.fsdecode()).
 py::object to_python(const std::string& text);
+inline py::object to_python(const std::vector<std::string>& texts) {
+    py::list list;
+    for (const std::string& text : texts) {
+        list.append(to_python(text));
+    }
+    return list;
+}
 inline py::object to_python(const std::filesystem::path& path) {
     return to_python(path.string());
 }

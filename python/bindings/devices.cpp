@@ -48,6 +48,11 @@ SharedDevices choose_devices(const std::string& choice, const DeviceOptions& opt
     return {with_messages([&] { return Devices::choose(choice, options); })};
 }
 
+SharedDevices devices_of(const py::object& devices) {
+    return py::isinstance<SharedDevices>(devices) ? devices.cast<SharedDevices>()
+                                                  : choose_devices(encoded(py::str(devices)), {});
+}
+
 void add_devices(py::module_& module) {
     add_device_info(module);
     py::class_<SharedDevices>(

@@ -21,5 +21,6 @@ PYBIND11_MODULE(_core, module) {
     bindings::add_devices(module);
     bindings::add_scenes(module);
     bindings::add_sessions(module);
+    bindings::add_animations(module);
     py::delattr(module, "__module__");
 }

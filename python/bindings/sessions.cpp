@@ -64,9 +64,7 @@ std::shared_ptr<PySession> make_session(const py::object& scene, const py::objec
     const Scene loaded = py::isinstance<Scene>(scene)
                              ? scene.cast<Scene>()
                              : py::module_::import("nearlight").attr("load")(scene).cast<Scene>();
-    const SharedDevices on = py::isinstance<SharedDevices>(devices)
-                                 ? devices.cast<SharedDevices>()
-                                 : choose_devices(encoded(py::str(devices)), {});
+    const SharedDevices on = devices_of(devices);
     return std::make_shared<PySession>(
         in_turn(*on.turns, [&] { return Session(on.devices, loaded, chosen); }), on.turns);
 }

@@ -140,6 +140,7 @@ void add_settings(py::module_& module) {
     add_class<RenderSettings>(module);
     add_class<SessionOptions>(module);
     add_class<IrradianceSettings>(module);
+    add_class<AnimationOptions>(module);
     add_class<SunPosition>(module);
     add_class<LoadOptions>(module);
     add_class<DeviceOptions>(module);

@@ -141,6 +141,18 @@ struct FieldsOf<IrradianceSettings> {
 };
 
 template <>
+struct FieldsOf<AnimationOptions> {
+    static constexpr const char* name = "AnimationOptions";
+    static constexpr const char* text = "How the frames of an animation are made.";
+    static constexpr auto fields = std::tuple{
+        Field{"fps", &AnimationOptions::fps, "frames per second: frame N shows the time N / fps"},
+        Field{"animations", &AnimationOptions::animations,
+              "names or numbers, from 1, of those to play; []: all but those that move the same thing"},
+        Field{"vpl_keys", &AnimationOptions::vpl_keys,
+              "where only the camera moves, VPLs are made every so many frames; 0: for each; None: as fps"}};
+};
+
+template <>
 struct FieldsOf<LoadOptions> {
     static constexpr const char* name = "LoadOptions";
     static constexpr const char* text = "How to load a scene.";

@@ -15,6 +15,7 @@ Its parts:
     picture["indirect"]                            # a layer, as a NumPy array on the picture's memory
     vpls.lights()["position"]                      # the VPLs, as an array of records
     session.irradiance(points, normals, vpls)      # W/m² at points
+    nearlight.Animation("walk.glb").render(24)     # a frame of an animated glTF file
 
 Settings are keyword arguments, or objects such as ViewSettings with the same names. What fails raises
 nearlight.Error; warnings go to the logger "nearlight". Ctrl-C and a progress function stop a picture.
@@ -22,6 +23,8 @@ nearlight.Error; warnings go to the logger "nearlight". Ctrl-C and a progress fu
 
 from ._comparison import Comparison, ComparisonRow, compare
 from ._core import (
+    Animation,
+    AnimationOptions,
     BvhQuality,
     CameraPose,
     DeviceInfo,
@@ -60,6 +63,8 @@ from ._core import (
 from ._errors import Error, InvalidArgument
 
 __all__ = [
+    "Animation",
+    "AnimationOptions",
     "BvhQuality",
     "CameraPose",
     "Comparison",

@@ -160,6 +160,17 @@ class IrradianceSettings:
     direct_samples: int
     paths: int
 
+class _AnimationOptions(TypedDict, total=False):
+    fps: float
+    animations: Sequence[str | int]
+    vpl_keys: int | None
+
+class AnimationOptions:
+    def __init__(self, **fields: Unpack[_AnimationOptions]) -> None: ...
+    fps: float
+    animations: Sequence[str | int]
+    vpl_keys: int | None
+
 class SunPosition(_Settings):
     azimuth: float = ...
     elevation: float = ...
@@ -383,6 +394,30 @@ class Session:
         seed: int = 0,
         **fields: Unpack[_IrradianceSettings],
     ) -> npt.NDArray[np.float32]: ...
+
+class Animation:
+    def __init__(
+        self,
+        file: _Path,
+        devices: Devices | str | int = "auto",
+        options: AnimationOptions | None = None,
+        *,
+        load: LoadOptions | None = None,
+        session: SessionOptions | None = None,
+        **fields: Unpack[_AnimationOptions],
+    ) -> None: ...
+    @property
+    def begin(self) -> float: ...
+    @property
+    def end(self) -> float: ...
+    def render(
+        self,
+        frame: int,
+        settings: RenderSettings | None = None,
+        *,
+        progress: _Progress | None = None,
+        **fields: Unpack[_RenderSettings],
+    ) -> Picture: ...
 
 def list_devices() -> list[DeviceInfo]: ...
 def load(file: _Path, options: LoadOptions | None = None, **fields: Unpack[_LoadOptions]) -> Scene: ...

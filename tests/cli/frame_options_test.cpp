@@ -62,15 +62,5 @@ TEST(FrameOptions, FramesOfWhichAllFilesAreThereMayBeSkipped) {
     EXPECT_THAT(frames_to_make(options, outputs), IsEmpty());
 }
 
-TEST(FrameOptions, TimesAndKeyViewsFollowTheRate) {
-    FrameOptions options{.fps = 25};
-    EXPECT_DOUBLE_EQ(options.moment(50).seconds, 2.0);
-    EXPECT_EQ(options.key_step(), 25);
-    options.fps = 0.25;
-    EXPECT_EQ(options.key_step(), 1);
-    options.vpl_keys = 0;
-    EXPECT_EQ(options.key_step(), 0);
-}
-
 }  // namespace
 }  // namespace nearlight::core

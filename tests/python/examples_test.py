@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import nearlight
+from gltf import animated_room
 
 
 @pytest.fixture
@@ -56,6 +57,16 @@ def test_vpls_that_stay_put_do_not_flicker(run, corner, tmp_path):
     fresh = change(run("steady_animation.py", *arguments, "--fresh"))
     assert steady < 0.5 * fresh
     assert len(list((tmp_path / "frames").glob("*.png"))) == 4
+
+
+def test_strips_of_an_animation_show_it_move(run, tmp_path):
+    text = run("animation_strip.py", animated_room(tmp_path), tmp_path / "strip.png", "--count", 3, "--width", 32)
+    assert [line.split(":")[0] for line in text.splitlines()] == ["0.00 s", "1.00 s", "2.00 s"]
+    strip = nearlight.read_image(tmp_path / "strip.png")["beauty"]
+    assert strip.shape == (24, 96, 3)
+    begin, middle, end = np.split(strip, 3, axis=1)
+    assert abs(begin - middle).mean() > 0.01  # the camera has walked
+    assert 1e-3 < abs(middle - end).mean()  # and then the lamp has risen
 
 
 def test_data_set_has_views_and_cameras(run, corner, tmp_path):
