@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "host/base/words.h"
-#include "host/scene/named_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/file_text.h"
+#include "host/scene/named_choice.h"
 #include "host/scene/obj_materials.h"
 #include "host/scene/obj_text.h"
 #include "nearlight/error.h"
@@ -42,7 +42,7 @@ class ObjBuilder {
 
     void add_face(const tinyobj::index_t* corners, int count) {
         if (count < 3) {
-            ++short_faces_;
+            ++obj_.short_faces;
             ++faces_;
             return;
         }
@@ -79,7 +79,6 @@ class ObjBuilder {
 
     std::vector<Vec3> positions, normals;
     std::vector<std::array<float, 2>> uvs;
-    [[nodiscard]] std::size_t short_faces() const { return short_faces_; }
 
   private:
     /// Adds an object that has faces. Names come back in files that switch between objects.
@@ -147,7 +146,7 @@ class ObjBuilder {
     std::optional<std::string> next_object_;                // that faces have yet to begin
     std::unordered_map<Corner, uint, CornerHash> corners_;  // their vertices
     std::unordered_map<std::string, uint> groups_;
-    std::size_t faces_ = 0, short_faces_ = 0;
+    std::size_t faces_ = 0;
     uint group_ = 0;
     bool any_uv_ = false, any_normal_ = false;
 };
@@ -181,7 +180,7 @@ tinyobj::callback_t make_callbacks() {
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_text) {
+ObjFile read_obj(const std::filesystem::path& file, bool keep_text) {
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
@@ -200,15 +199,18 @@ ObjFile read_obj(const std::filesystem::path& file, NoteSink& notes, bool keep_t
     if (obj.mesh.triangles.empty()) {
         throw Error(ErrorKind::file, file.string() + ": has no triangles");
     }
-    if (builder.short_faces() > 0) {
-        notes.approximation(
-            file, 0,
-            std::to_string(builder.short_faces()) + " faces with fewer than three corners are left out");
-    }
     if (!keep_text) {
         obj.text = {};
     }
     return obj;
+}
+
+void note_short_faces(const Mesh& mesh, std::size_t short_faces, NoteSink& notes) {
+    if (short_faces > 0) {
+        notes.approximation(
+            mesh.source, 0,
+            std::to_string(short_faces) + " faces with fewer than three corners are left out");
+    }
 }
 
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
@@ -217,7 +219,8 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
     scene.name = file.stem().string();
     NoteSink notes(scene.notes, options.strict);
     {
-        const ObjFile obj = read_obj(file, notes, true);
+        const ObjFile obj = read_obj(file, true);
+        note_short_faces(obj.mesh, obj.short_faces, notes);
         const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
         append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
     }

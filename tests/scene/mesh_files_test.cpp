@@ -268,5 +268,42 @@ TEST(Mesh, SmoothNormalsAreWeightedByAngle) {
     expect_near(n[2], {0, 0, 1});
 }
 
+/// Files are read ahead by other threads, of which the scene must show nothing.
+TEST(Obj, ManyFilesOfASceneComeInItsOrder) {
+    const SceneFiles files;
+    std::string body;
+    for (int i = 0; i < 40; ++i) {
+        std::string text = "v " + std::to_string(i) + " 0 0\nv " + std::to_string(i) + " 1 0\nv 0 0 1\n";
+        for (int face = 0; face < (i % 3 == 0 ? 500 : 1); ++face) {  // some take longer
+            text += "f 1 2 3\n";
+        }
+        const std::string name = "m" + std::to_string(i) + (i == 7 ? ".obj" : "_.obj");
+        files.write(name, text + (i == 20 ? "f 1 2\n" : ""));
+        const std::string shape =
+            "<shape type='obj'><string name='filename' value='" + name + "'/></shape>\n";
+        body += i % 5 == 4   ? "<shape type='rectangle'/>\n" + shape
+                : i % 7 == 6 ? "<shape type='merge'>" + shape + "</shape>\n"
+                             : shape;
+    }
+    const Scene scene = files.load_xml(body);
+    std::vector<float> xs;
+    for (const ObjectRun& run : scene.objects) {
+        if (scene.object_names[run.name].find("rectangle") == std::string::npos) {
+            xs.push_back(scene.vertices[scene.triangles[run.first_triangle].v0].position.x);
+        }
+    }
+    ASSERT_EQ(xs.size(), 40u);
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+        EXPECT_EQ(xs[i], static_cast<float>(i));
+    }
+    EXPECT_TRUE(has_note(scene, "m20_.obj: 1 faces with fewer than three corners are left out"));
+    // What is wrong first in the scene is what one is told, wherever the threads are.
+    files.write("m7.obj", "v 0 0 0\nf 1 2 3\n");
+    files.write("m8_.obj", "nothing");
+    const std::string error = file_error([&] { files.load_xml(body); });
+    EXPECT_TRUE(mentions(error, "m7.obj:2: face refers to vertex 2")) << error;
+    EXPECT_TRUE(mentions(error, "scene.xml:11: ")) << error;
+}
+
 }  // namespace
 }  // namespace nearlight::core

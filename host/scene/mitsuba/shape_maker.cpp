@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/shape_maker.h"
 
-#include "host/scene/file_text.h"
 #include "host/scene/mitsuba/round_lamp.h"
-#include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj_loader.h"
-#include "host/scene/ply_loader.h"
 #include "host/scene/scene_names.h"
 #include "nearlight/error.h"
 
@@ -48,15 +45,6 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
-// Which of the meshes of a file the shape is.
-int shape_index(const Object& shape) {
-    const double index = shape.number("shape_index", 0.0);
-    if (!(index >= 0.0 && index < 1e9)) {
-        fail(shape.where, "'shape_index' should be 0 or greater");
-    }
-    return static_cast<int>(index);
-}
-
 // Mitsuba turns a mirrored sphere or cylinder inside out, and no other shape.
 bool turns_inside_out(const Object& shape, const Mat4& to_world) {
     return (shape.type == "sphere" || shape.type == "cylinder") && linear_determinant(to_world) < 0.0;
@@ -71,6 +59,7 @@ void ShapeMaker::add_all(const std::vector<const Object*>& shapes) {
                       "spheres have fewer than " + std::to_string(sphere_triangle_count(kFinestStacks)) +
                           " facets each, because there are so many");
     }
+    reader_ = MeshReader(shapes);
     for (const Object* shape : shapes) {
         add(*shape, 0);
     }
@@ -186,16 +175,14 @@ Mesh ShapeMaker::load(const Object& shape) {
 // A file's v counts from the bottom of the texture in OBJ and from the top in the others, unless the scene
 // says otherwise.
 Mesh ShapeMaker::load_file(const Object& shape) {
-    const std::filesystem::path file = resolve_path(*shape.where.file, shape.required_string("filename"));
-    const bool is_obj = shape.type == "obj";
+    std::future<MeshFile> file = reader_.read(shape);
     try {
-        Mesh mesh = is_obj                       ? read_obj(file, notes_).mesh
-                    : shape.type == "serialized" ? read_serialized(file, shape_index(shape))
-                                                 : read_ply(file);
+        auto [mesh, short_faces] = file.get();
+        note_short_faces(mesh, short_faces, notes_);
         mesh.groups.clear();
         mesh.objects.clear();
         mesh.object_names.clear();
-        if (!shape.boolean("flip_tex_coords", is_obj)) {
+        if (!shape.boolean("flip_tex_coords", shape.type == "obj")) {
             flip_v(mesh);
         }
         return mesh;

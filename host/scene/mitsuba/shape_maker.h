@@ -6,6 +6,7 @@
 
 #include "host/scene/mesh.h"
 #include "host/scene/mitsuba/material_maker.h"
+#include "host/scene/mitsuba/mesh_reader.h"
 #include "host/scene/mitsuba/sphere_detail.h"
 
 namespace nearlight::core::mitsuba {
@@ -36,6 +37,7 @@ class ShapeMaker {
     TextureMaker& textures_;
     MaterialMaker& materials_;
     SphereDetail spheres_{{}};
+    MeshReader reader_{{}};
     std::map<const Object*, Mesh> group_meshes_;
     std::size_t shape_count_ = 0;  ///< shapes and instances so far
 };

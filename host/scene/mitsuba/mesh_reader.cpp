@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mitsuba/mesh_reader.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "host/scene/file_text.h"
+#include "host/scene/mitsuba/serialized_mesh.h"
+#include "host/scene/obj_loader.h"
+#include "host/scene/ply_loader.h"
+
+namespace nearlight::core::mitsuba {
+namespace {
+
+/// More files at once would take memory without being read faster.
+constexpr unsigned kMaxAhead = 8;
+
+/// What it takes to read a file. Objects note which of their properties are asked for, so that only one
+/// thread may look at them.
+struct MeshSource {
+    std::filesystem::path file;
+    std::string type;
+    int index = 0;  ///< among the meshes of a serialized file
+};
+
+// Which of the meshes of a file the shape is.
+int shape_index(const Object& shape) {
+    const double index = shape.number("shape_index", 0.0);
+    if (!(index >= 0.0 && index < 1e9)) {
+        fail(shape.where, "'shape_index' should be 0 or greater");
+    }
+    return static_cast<int>(index);
+}
+
+MeshSource source_of(const Object& shape) {
+    return {.file = resolve_path(*shape.where.file, shape.required_string("filename")),
+            .type = shape.type,
+            .index = shape.type == "serialized" ? shape_index(shape) : 0};
+}
+
+MeshFile read_source(const MeshSource& source) {
+    if (source.type == "obj") {
+        ObjFile obj = read_obj(source.file);
+        return {.mesh = std::move(obj.mesh), .short_faces = obj.short_faces};
+    }
+    return {.mesh = source.type == "serialized" ? read_serialized(source.file, source.index)
+                                                : read_ply(source.file)};
+}
+
+/// Whether a file can be read ahead, and what is wrong with a shape can wait until it is its turn.
+bool can_be_ahead(const Object& shape) {
+    const Property* const file = shape.find("filename");
+    return (shape.type == "obj" || shape.type == "ply") && file != nullptr &&
+           std::holds_alternative<std::string>(file->value);
+}
+
+}  // namespace
+
+void MeshReader::read_ahead() {
+    const unsigned most = std::clamp(std::thread::hardware_concurrency(), 1u, kMaxAhead);
+    while (!coming_.empty() && ahead_.size() < most) {
+        const Object* const shape = coming_.front();
+        coming_.pop_front();
+        if (can_be_ahead(*shape)) {
+            ahead_.push_back({shape, std::async(std::launch::async, read_source, source_of(*shape))});
+        }
+    }
+}
+
+std::future<MeshFile> MeshReader::read(const Object& shape) {
+    read_ahead();
+    if (ahead_.empty() || ahead_.front().shape != &shape) {
+        return std::async(std::launch::deferred, read_source, source_of(shape));
+    }
+    std::future<MeshFile> file = std::move(ahead_.front().file);
+    ahead_.pop_front();
+    read_ahead();
+    return file;
+}
+
+}  // namespace nearlight::core::mitsuba
