@@ -16,8 +16,12 @@ namespace {
 
 constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kUpdateInterval{100};
-/// Minimum time after which an estimate of the time left is shown; earlier ones are too inaccurate.
-constexpr double kFirstEstimateSeconds = 1.0;
+/// The pace is measured after this much of the work or of time, because drivers compile kernels when they
+/// first run.
+constexpr double kIgnoredPart = 0.03;
+constexpr double kIgnoredSeconds = 1.0;
+/// For how long it is measured before it says anything.
+constexpr double kMeasuredSeconds = 1.0;
 
 std::string minutes_and_seconds(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
@@ -26,11 +30,40 @@ std::string minutes_and_seconds(double seconds) {
     return text.data();
 }
 
+double bounded(double fraction) {
+    return std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
-std::string progress_line(std::string_view label, double fraction, double elapsed_seconds,
-                          std::optional<double> seconds_left) {
-    const double done = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
+std::optional<double> TimeLeft::at(double fraction, double seconds) {
+    const News now{bounded(fraction), seconds};
+    if (now.fraction <= 0.0) {
+        return std::nullopt;
+    }
+    first_ = first_.value_or(now);
+    if (!mark_) {
+        if (now.fraction >= kIgnoredPart || seconds - first_->seconds >= kIgnoredSeconds) {
+            mark_ = now;
+        }
+        return std::nullopt;
+    }
+    // A step is silent for s = t - p·f seconds if the first news came after t seconds at the fraction f.
+    // Between the mark and now, k steps began, so that p·(fraction - mark) + k·s seconds have passed.
+    const auto begun = [&](double part) { return std::clamp(std::ceil(part * steps_), 1.0, 1.0 * steps_); };
+    const double k = begun(now.fraction) - begun(mark_->fraction);
+    const double passed = now.fraction - mark_->fraction - k * first_->fraction;
+    const double elapsed = seconds - mark_->seconds;
+    if (passed <= 0.0 || elapsed < kMeasuredSeconds) {
+        return std::nullopt;
+    }
+    const double pace = std::max(0.0, elapsed - k * first_->seconds) / passed;
+    const double silence = std::max(0.0, first_->seconds - pace * first_->fraction);
+    return pace * (1.0 - now.fraction) + silence * (steps_ - begun(now.fraction));
+}
+
+std::string progress_line(std::string_view label, double fraction, std::optional<double> seconds_left) {
+    const double done = bounded(fraction);
     std::string bar(kBarWidth, '.');
     std::fill_n(bar.begin(), static_cast<int>(done * kBarWidth), '#');
     std::string percent = std::to_string(static_cast<int>(done * 100.0));
@@ -38,21 +71,20 @@ std::string progress_line(std::string_view label, double fraction, double elapse
     std::string line = std::string(label) + " " + percent + " %  [" + bar + "]";
     if (seconds_left) {
         line += "  " + minutes_and_seconds(*seconds_left) + " left";
-    } else if (done > 0.0 && elapsed_seconds >= kFirstEstimateSeconds) {
-        line += "  " + minutes_and_seconds(elapsed_seconds * (1.0 - done) / done) + " left";
     }
     return line;
 }
 
-ProgressBar::ProgressBar(std::string label, const GlobalOptions& global)
+ProgressBar::ProgressBar(std::string label, const GlobalOptions& global, int steps)
     : style_(global.quiet            ? Style::none
              : isatty(STDERR_FILENO) ? Style::line
                                      : Style::messages) {
-    start(std::move(label));
+    start(std::move(label), steps);
 }
 
-void ProgressBar::start(std::string label) {
+void ProgressBar::start(std::string label, int steps) {
     clear();
+    time_left_ = TimeLeft(steps);
     label_ = std::move(label);
     start_ = Clock::now();
     last_update_ = start_ - kUpdateInterval;
@@ -62,12 +94,12 @@ void ProgressBar::start(std::string label) {
 void ProgressBar::update(double fraction, std::optional<double> seconds_left) {
     if (style_ == Style::line) {
         const auto now = Clock::now();
+        const auto estimate = time_left_.at(fraction, std::chrono::duration<double>(now - start_).count());
         if (now - last_update_ >= kUpdateInterval) {
             last_update_ = now;
             visible_ = true;
-            const double elapsed = std::chrono::duration<double>(now - start_).count();
-            std::fprintf(stderr, "\r%s\033[K",
-                         progress_line(label_, fraction, elapsed, seconds_left).c_str());
+            const std::string line = progress_line(label_, fraction, seconds_left ? seconds_left : estimate);
+            std::fprintf(stderr, "\r%s\033[K", line.c_str());
             std::fflush(stderr);
         }
     } else if (style_ == Style::messages && static_cast<int>(fraction * 10.0) > last_tenth_) {

@@ -11,24 +11,47 @@
 
 namespace nearlight::core {
 
-/// A line such as "gathering 42 % [########............] 0:12 left". The time left is `seconds_left` if that
-/// is given, otherwise an estimate from `fraction` and `elapsed_seconds`, which is absent at first.
-std::string progress_line(std::string_view label, double fraction, double elapsed_seconds,
+/// A line such as "gathering 42 % [########............] 0:12 left", where the time left is known.
+std::string progress_line(std::string_view label, double fraction,
                           std::optional<double> seconds_left = std::nullopt);
+
+/// Estimates how long a piece of work still takes, from how far it is at what time. What comes before the
+/// first news of it, and a little after, has its own pace: a scene is looked at, and drivers compile.
+class TimeLeft {
+  public:
+    /// The work consists of so many equal steps, each with as long a silence at its beginning as the first.
+    explicit TimeLeft(int steps = 1) : steps_(steps) {}
+
+    /// `fraction` of the work, 0 to 1, is done, `seconds` after it began; both ascend. Returns the seconds
+    /// that are left, or nothing as long as that would be a guess.
+    std::optional<double> at(double fraction, double seconds);
+
+  private:
+    struct News {
+        double fraction = 0;
+        double seconds = 0;
+    };
+    int steps_;
+    std::optional<News> first_{};
+    std::optional<News> mark_{};  ///< where the pace is measured from
+};
 
 /// Shows a line on standard error if that is a terminal, updates it at most ten times a second, and removes
 /// it at the end. Elsewhere it logs a debug message at each tenth. With --quiet it shows nothing. Only one
 /// thread may use it.
 class ProgressBar {
   public:
-    ProgressBar(std::string label, const GlobalOptions& global);
+    /// As start().
+    ProgressBar(std::string label, const GlobalOptions& global, int steps = 1);
     ~ProgressBar() { clear(); }
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Begins another step with the name `label`, and restarts the clock.
-    void start(std::string label);
-    /// Shows that `fraction` of the step, 0 to 1, is done. It may be called at any rate.
+    /// Begins another piece of work with the name `label`, and restarts the clock. It consists of so many
+    /// steps, see TimeLeft.
+    void start(std::string label, int steps = 1);
+    /// Shows that `fraction` of the work, 0 to 1, is done, and how long it still takes, which is estimated
+    /// unless the caller knows. It may be called at any rate.
     void update(double fraction, std::optional<double> seconds_left = std::nullopt);
     /// Removes the line, so that other text can be written. The next update() shows it again.
     void clear();
@@ -41,6 +64,7 @@ class ProgressBar {
     Style style_;
     Clock::time_point start_;
     Clock::time_point last_update_;
+    TimeLeft time_left_;
     int last_tenth_ = 0;
     bool visible_ = false;
 };

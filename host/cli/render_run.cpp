@@ -106,6 +106,15 @@ MatteSource mattes_of(Session& session, const RenderRun& run, const RenderReport
     };
 }
 
+/// How many passes a picture has, where limits of time or error do not decide it.
+int known_passes(const RenderSettings& settings) {
+    const std::size_t listed = settings.pass_samples.size();
+    const bool is_open = settings.seconds || settings.error;
+    return listed > 0 ? static_cast<int>(listed)
+           : is_open  ? 1
+                      : static_cast<int>(settings.passes.value_or(1));
+}
+
 /// Says how long an error will take, after the first pass only.
 ForecastSink tell_once(ProgressBar& bar, const RenderSettings& settings) {
     return [&bar, &settings, told = false](const PassForecast& forecast) mutable {
@@ -157,6 +166,12 @@ nlohmann::ordered_json json_of(const RenderRun& run, const RenderReport& report,
         json["vpl_keys"] = run.frame->vpl_keys;
     }
     return json;
+}
+
+/// What is left of the time that the picture may take.
+std::optional<double> seconds_left(const RenderRun& run, const Stopwatch& since_begin) {
+    const std::optional<double>& limit = run.options.passes.seconds;
+    return limit ? std::optional(std::max(0.0, *limit - since_begin.seconds())) : std::nullopt;
 }
 
 std::string bar_label(const RenderRun& run) {
@@ -242,7 +257,7 @@ void RowSinks::add_rows(std::span<const float> rows, const Stopwatch& since_begi
 
 MadePicture make_picture(Session& session, const RenderRun& run, PictureStart start, RowSinks& sinks,
                          const Stopwatch& since_begin) {
-    ProgressBar bar(bar_label(run), run.global);
+    ProgressBar bar(bar_label(run), run.global, known_passes(run.settings));
     PictureKeeper keeper = make_keeper(session, run, start.facts, sinks, bar, since_begin);
     // The file of a frame says that it is finished, so none is there before.
     const PassWatcher watcher =
@@ -255,7 +270,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         },
         [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); },
         [&](const std::string&, double fraction) {
-            bar.update(fraction);
+            bar.update(fraction, seconds_left(run, since_begin));
             return !interrupted();
         },
         tell_once(bar, run.settings), std::move(start.passes), watcher, start.vpls);

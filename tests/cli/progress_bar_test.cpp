@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 namespace nearlight::core {
 namespace {
@@ -18,28 +20,55 @@ namespace {
 TEST(ProgressBar, LineTellsLabelPartAndTimeLeft) {
     EXPECT_EQ(progress_line("gathering", 0.5, 75.0),
               "gathering  50 %  [############............]  1:15 left");
-    EXPECT_EQ(progress_line("gathering", 0.75, 30.0),
+    EXPECT_EQ(progress_line("gathering", 0.75, 9.1),
               "gathering  75 %  [##################......]  0:10 left");
-    EXPECT_EQ(progress_line("gathering", 1.0, 30.0),
-              "gathering 100 %  [########################]  0:00 left");
-}
-
-TEST(ProgressBar, NoGuessAtTheBeginning) {
-    EXPECT_EQ(progress_line("tracing", 0.0, 0.0), "tracing   0 %  [........................]");
-    EXPECT_EQ(progress_line("tracing", 0.0, 100.0), "tracing   0 %  [........................]");
-    EXPECT_EQ(progress_line("tracing", 0.5, 0.01), "tracing  50 %  [############............]");
-}
-
-TEST(ProgressBar, TakesTheCallersWordForTheTimeLeft) {
-    EXPECT_EQ(progress_line("cells", 0.5, 0.01, 61.0), "cells  50 %  [############............]  1:01 left");
-    EXPECT_EQ(progress_line("cells", 0.0, 0.0, 3.0), "cells   0 %  [........................]  0:03 left");
+    EXPECT_EQ(progress_line("gathering", 1.0, 0.0), "gathering 100 %  [########################]  0:00 left");
+    EXPECT_EQ(progress_line("tracing", 0.0), "tracing   0 %  [........................]");
 }
 
 TEST(ProgressBar, OddFractionsAreBounded) {
-    EXPECT_EQ(progress_line("a", 7.0, 0.0), progress_line("a", 1.0, 0.0));
-    EXPECT_EQ(progress_line("a", -7.0, 0.0), progress_line("a", 0.0, 0.0));
-    EXPECT_EQ(progress_line("a", std::numeric_limits<double>::quiet_NaN(), 0.0),
-              progress_line("a", 0.0, 0.0));
+    EXPECT_EQ(progress_line("a", 7.0), progress_line("a", 1.0));
+    EXPECT_EQ(progress_line("a", -7.0), progress_line("a", 0.0));
+    EXPECT_EQ(progress_line("a", std::numeric_limits<double>::quiet_NaN()), progress_line("a", 0.0));
+}
+
+TEST(TimeLeft, SaysNothingBeforeAPaceIsMeasured) {
+    TimeLeft left;
+    EXPECT_FALSE(left.at(0.0, 100.0));
+    EXPECT_FALSE(left.at(0.01, 100.1));  // the work is heard of
+    EXPECT_FALSE(left.at(0.05, 100.2));  // from here on it is measured
+    EXPECT_FALSE(left.at(0.10, 100.7));
+    EXPECT_TRUE(left.at(0.20, 101.7));
+    TimeLeft idle;
+    idle.at(0.1, 1.0);
+    EXPECT_FALSE(idle.at(0.1, 50.0)) << "without progress";
+    EXPECT_FALSE(idle.at(std::numeric_limits<double>::quiet_NaN(), 51.0));
+}
+
+TEST(TimeLeft, LooksAtTheWorkOnlyAndNotAtWhatComesBefore) {
+    TimeLeft left;
+    left.at(0.001, 60.0);  // a minute of getting ready, and ten seconds of compiling
+    left.at(0.002, 70.0);
+    for (const double part : {0.1, 0.25, 0.5, 0.9, 1.0}) {
+        EXPECT_NEAR(left.at(part, 70.0 + 100.0 * (part - 0.002)).value(), 100.0 * (1.0 - part), 1e-9) << part;
+    }
+}
+
+/// Passes that look and place VPLs for 5 s each before they gather for 10 s.
+TEST(TimeLeft, KnowsThatEachStepBeginsInSilence) {
+    constexpr int kSteps = 4;
+    TimeLeft left(kSteps);
+    const auto seconds_at = [](double part) {
+        const double step = std::min(std::floor(part * kSteps), kSteps - 1.0);
+        return 5.0 * (step + 1) + 10.0 * part * kSteps;
+    };
+    for (const double part : {0.01, 0.02, 0.04, 0.1, 0.2, 0.24, 0.26, 0.4, 0.6, 0.76, 0.9, 1.0}) {
+        const std::optional<double> now = left.at(part, seconds_at(part));
+        if (part >= 0.1) {
+            ASSERT_TRUE(now.has_value()) << part;
+            EXPECT_NEAR(*now, seconds_at(1.0) - seconds_at(part), 1e-9) << part;
+        }
+    }
 }
 
 /// Replaces standard error by a terminal during its lifetime.
@@ -91,7 +120,7 @@ TEST(ProgressBar, OnTheTerminalItIsDrawnSeldomAndCleared) {
         }
     }
     const std::string text = terminal.read_all();
-    EXPECT_TRUE(text.starts_with("\r" + progress_line("gathering", 0.25, 0.0) + "\033[K")) << text;
+    EXPECT_TRUE(text.starts_with("\r" + progress_line("gathering", 0.25) + "\033[K")) << text;
     EXPECT_TRUE(text.ends_with("\033[K\r\033[K")) << text;
     // A thousand updates take far less than a tenth of a second, after which a line is drawn again. On a busy
     // machine they may take longer, but not a hundred times as long.
