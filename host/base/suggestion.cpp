@@ -35,7 +35,9 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
     std::string best;
     for (const std::string& known : words) {
         const std::size_t distance = edit_distance(word, known);
-        if (distance < best_distance || (distance == best_distance && best.empty())) {
+        // Of words that are equally near, people rather leave out the end than mistake a letter.
+        const bool is_better = best.empty() || (known.starts_with(word) && !best.starts_with(word));
+        if (distance < best_distance || (distance == best_distance && is_better)) {
             best_distance = distance;
             best = known;
         }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,20 @@ std::string full_name(const CLI::App& command) {
     return (parent != nullptr ? full_name(*parent) + " " : std::string()) + command.get_name();
 }
 
+/// What the parser says of an option without its value begins with the option, and ends with what it takes:
+/// "--size: 1 required WxH missing".
+std::string describe_mismatch(const std::string& text) {
+    constexpr std::string_view kMiddle = ": 1 required ";
+    constexpr std::string_view kEnd = " missing";
+    const std::size_t middle = text.find(kMiddle);
+    if (middle == std::string::npos || !text.ends_with(kEnd)) {
+        return text;
+    }
+    const std::size_t begin = middle + kMiddle.size();
+    return text.substr(0, middle) + " needs a value, " +
+           text.substr(begin, text.size() - kEnd.size() - begin);
+}
+
 /// Describes what is wrong with the line. An unknown word comes first, because it often causes the other
 /// errors.
 std::string describe(const CLI::ParseError& error, const CLI::App& app, const CLI::App& command) {
@@ -68,13 +84,18 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
     if (option != extras.end()) {
         return unknown("option", option->substr(0, option->find('=')), option_names(command));
     }
+    std::error_code ignored;
+    if (!extras.empty() && &command == &app && std::filesystem::exists(extras.front(), ignored)) {
+        return "'" + extras.front() + "' is a file; say what to do with it, as in: nearlight render " +
+               shell_word(extras.front());
+    }
     if (!extras.empty() && !command_names(command).empty()) {
         return unknown(&command == &app ? "command" : "part", extras.front(), command_names(command));
     }
     if (!extras.empty()) {
         return "unexpected argument '" + extras.front() + "'";
     }
-    return error.what();
+    return describe_mismatch(error.what());
 }
 
 /// The line with which the program was called.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <vector>
 
@@ -91,6 +92,14 @@ EnvironmentLight environment_named(const std::string& name, const Scene& scene, 
         light.width = light.height = 1;
         light.radiance = {*color};
         return light;
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored)) {
+        throw Error(ErrorKind::file,
+                    "the environment '" + name +
+                        "' is neither 'sky', nor a colour such as 0.5 or #88aaff, nor an "
+                        "image file that is there",
+                    "environment");
     }
     std::size_t bad_pixels = 0;
     light = load_environment(name, 1.0f, bad_pixels);

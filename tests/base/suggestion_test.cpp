@@ -24,6 +24,9 @@ TEST(Suggestion, NearestWord) {
     EXPECT_EQ(nearest_word("--pases", words), "--passes");
     EXPECT_EQ(nearest_word("--frobnicate", words), "");
     EXPECT_EQ(nearest_word("--seed", {}), "");
+    const std::vector<std::string> near{"--up", "--spp", "--fps", "--spq"};
+    EXPECT_EQ(nearest_word("--sp", near), "--spp");
+    EXPECT_EQ(nearest_word("--spx", near), "--spp");
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <vector>
 
+#include "host/base/shell_word.h"
 #include "host/cli/command.h"
 #include "tests/cli/run_program.h"
 #include "tests/image/temporary_folder.h"
@@ -89,8 +91,18 @@ TEST(CommandLine, TyposGetSuggestions) {
 TEST(CommandLine, WrongLinesAreUsageErrors) {
     expect_error(run_program("diff a"), 2, "B is required");
     expect_error(run_program("diff a b c"), 2, "unexpected argument 'c'");
-    expect_error(run_program("diff a b --layer"), 2, "--layer");
+    expect_error(run_program("diff a b --layer"), 2, "--layer needs a value, ");
+    expect_error(run_program("render a.xml --size"), 2,
+                 "--size needs a value, WxH; see 'nearlight render --help'");
     expect_error(run_program("diff a b --quiet --verbose"), 2, "contradict");
+}
+
+TEST(CommandLine, AFileAloneGetsTheCommandThatRendersIt) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "my room.glb";
+    std::ofstream(file) << "model";
+    expect_error(run_program(quoted(file)), 2,
+                 "is a file; say what to do with it, as in: nearlight render " + shell_word(file.string()));
 }
 
 TEST(CommandLine, FullStandardOutputIsAnError) {

@@ -189,7 +189,7 @@ TEST_F(Frames, BadInputIsOneClearMessage) {
                             {"--frames 1 --save-vpls v", "room.gltf", 2, "--save-vpls"},
                             {"--frames 1 --animation run", "room.gltf", 2, "has no animation 'run'"},
                             {"--frames 1 --origin 0,1,2", "room.gltf", 2, "needs --target too"},
-                            {"--frames 1", "still.gltf", 3, "has no animations"}}) {
+                            {"--frames 1", "still.gltf", 3, "has no animations; leave out --frames for a picture of it"}}) {
         const ProgramResult result = run_program("render " + bad.options + " " + quoted(folder_ / bad.scene) +
                                                  " -o " + quoted(folder_ / "x.exr"));
         EXPECT_EQ(result.exit_code, bad.exit_code) << bad.options << ": " << result.errors;

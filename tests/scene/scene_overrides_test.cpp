@@ -142,8 +142,10 @@ TEST_F(Overrides, EnvironmentsAreColoursFilesOrTheSky) {
     expect_refused({.environment = "1,-1,1"}, "not below 0");
     const std::filesystem::path text = files_.write("sky.txt", "not a picture");
     EXPECT_THAT(file_error([&] { static_cast<void>(load({.environment = text})); }), HasSubstr("sky.txt"));
+    EXPECT_THAT(file_error([&] { static_cast<void>(load({.environment = "skye"})); }),
+                HasSubstr("the environment 'skye' is neither 'sky', nor a colour"));
     EXPECT_THAT(file_error([&] { static_cast<void>(load({.environment = files_.path("none.exr")})); }),
-                HasSubstr("no such file"));
+                HasSubstr("none.exr' is neither 'sky', nor a colour such as 0.5 or #88aaff, nor an image"));
 }
 
 TEST_F(Overrides, EnvironmentsTurnAboutTheVertical) {
