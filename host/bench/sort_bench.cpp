@@ -11,6 +11,7 @@
 #include <memory>
 #include <numeric>
 
+#include "host/base/fork_join.h"
 #include "host/base/random.h"
 #include "host/bench/statistics.h"
 #include "host/stages/morton_sort.h"
@@ -111,11 +112,13 @@ SortContestant copy(const SortWork& work) {
     const auto to = std::make_shared<std::vector<std::uint64_t>>(work.pairs.size());
     return {"copy of the pairs", 2.0 * sizeof(std::uint64_t), [] {},
             [to, &work] {
-                tbb::parallel_for(
-                    tbb::blocked_range<std::size_t>(0, to->size(), 1u << 16u), [&](const auto& range) {
-                        std::memcpy(to->data() + range.begin(), work.pairs.data() + range.begin(),
-                                    range.size() * sizeof(std::uint64_t));
-                    });
+                const auto copy_part = [&](const auto& range) {
+                    std::memcpy(to->data() + range.begin(), work.pairs.data() + range.begin(),
+                                range.size() * sizeof(std::uint64_t));
+                };
+                ForkJoin fork;
+                tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to->size(), 1u << 16u),
+                                  fork.task(copy_part));
             },
             [to, &work] { return *to == work.pairs; }};
 }

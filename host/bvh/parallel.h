@@ -10,6 +10,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
+
+#include "host/base/fork_join.h"
 #endif
 
 namespace nearlight::core {
@@ -21,8 +23,9 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     static_cast<void>(grain);
     body(std::size_t{0}, count);
 #else
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const auto& part) { body(part.begin(), part.end()); });
+    const auto work = [&](const auto& part) { body(part.begin(), part.end()); };
+    ForkJoin fork;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), fork.task(work));
 #endif
 }
 
@@ -36,16 +39,17 @@ Sum parallel_sum(std::size_t count, std::size_t grain, const Sum& empty, const A
     add(sum, std::size_t{0}, count);
     return sum;
 #else
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, count, grain), empty,
-        [&](const auto& part, Sum sum) {
-            add(sum, part.begin(), part.end());
-            return sum;
-        },
-        [](Sum left, const Sum& right) {
-            left.add(right);
-            return left;
-        });
+    const auto sum_of_part = [&](const auto& part, Sum sum) {
+        add(sum, part.begin(), part.end());
+        return sum;
+    };
+    const auto sum_of_both = [](Sum left, const Sum& right) {
+        left.add(right);
+        return left;
+    };
+    ForkJoin fork;
+    return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, count, grain), empty,
+                                fork.task(sum_of_part), fork.combination(sum_of_both));
 #endif
 }
 
@@ -55,7 +59,8 @@ void parallel_invoke(const First& first, const Second& second) {
     first();
     second();
 #else
-    tbb::parallel_invoke(first, second);
+    ForkJoin fork;
+    tbb::parallel_invoke(fork.task(first), fork.task(second));
 #endif
 }
 

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "host/base/fork_join.h"
 #include "host/base/math.h"
 #include "host/base/stopwatch.h"
 #include "host/reference/arena_size.h"
@@ -106,7 +107,8 @@ void trace_round(const PathTracer& tracer, const PathTracerSettings& settings, i
         }
         gate.advance(double(tile.rows().size()) * double(tile.cols().size()));
     };
-    tbb::parallel_for(film, trace_tile, tbb::simple_partitioner());
+    ForkJoin fork;
+    tbb::parallel_for(film, fork.task(trace_tile), tbb::simple_partitioner());
 }
 
 /// The sums of the earlier picture, or empty sums without one.

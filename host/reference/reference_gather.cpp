@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "host/base/fork_join.h"
 #include "host/base/receivers.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/light_sampler.h"
@@ -31,23 +32,25 @@ Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radiu
 template <typename Term>
 void sum_terms(std::span<const ReceiverPacket> receivers, std::span<IrradiancePacket> irradiance, int threads,
                std::size_t count, const Term& term) {
+    const auto sum_one = [&](std::size_t index) {
+        const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
+        const auto [position, normal] = receiver_at(receivers, index);
+        double sum[3] = {0, 0, 0};
+        for (std::size_t i = 0; i < count && !is_zero(normal); ++i) {
+            const Vec3 e = term(position, normal, i);
+            sum[0] += e.x;
+            sum[1] += e.y;
+            sum[2] += e.z;
+        }
+        IrradiancePacket& out = irradiance[index / NEARLIGHT_PACKET_SIZE];
+        out.r[lane] = static_cast<float>(sum[0]);
+        out.g[lane] = static_cast<float>(sum[1]);
+        out.b[lane] = static_cast<float>(sum[2]);
+    };
     tbb::task_arena arena(arena_size(threads));
     arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, receivers.size() * NEARLIGHT_PACKET_SIZE, [&](std::size_t index) {
-            const std::size_t lane = index % NEARLIGHT_PACKET_SIZE;
-            const auto [position, normal] = receiver_at(receivers, index);
-            double sum[3] = {0, 0, 0};
-            for (std::size_t i = 0; i < count && !is_zero(normal); ++i) {
-                const Vec3 e = term(position, normal, i);
-                sum[0] += e.x;
-                sum[1] += e.y;
-                sum[2] += e.z;
-            }
-            IrradiancePacket& out = irradiance[index / NEARLIGHT_PACKET_SIZE];
-            out.r[lane] = static_cast<float>(sum[0]);
-            out.g[lane] = static_cast<float>(sum[1]);
-            out.b[lane] = static_cast<float>(sum[2]);
-        });
+        ForkJoin fork;
+        tbb::parallel_for(std::size_t{0}, receivers.size() * NEARLIGHT_PACKET_SIZE, fork.task(sum_one));
     });
 }
 
