@@ -14,6 +14,20 @@ if(NEARLIGHT_SANITIZE)
   target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
+# The sanitizer's runtime wants to be loaded first: before a library that stands before OpenCL's, and by programs that are
+# not built with it, such as Python. Clang's runtime is part of the programs and cannot be loaded so.
+set(NEARLIGHT_CAN_PRELOAD ON)
+set(NEARLIGHT_SANITIZER_RUNTIME "")
+if(NEARLIGHT_SANITIZE MATCHES "(address|thread)")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    string(SUBSTRING "${CMAKE_MATCH_1}" 0 1 initial)
+    execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -print-file-name=lib${initial}san.so
+      OUTPUT_VARIABLE NEARLIGHT_SANITIZER_RUNTIME OUTPUT_STRIP_TRAILING_WHITESPACE)
+  else()
+    set(NEARLIGHT_CAN_PRELOAD OFF)
+  endif()
+endif()
+
 # Programs load their modules when they need them, and find them by their run path.
 set(NEARLIGHT_MODULE_DIR "${PROJECT_BINARY_DIR}/modules")
 set(CMAKE_BUILD_RPATH "${NEARLIGHT_MODULE_DIR}")

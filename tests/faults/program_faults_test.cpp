@@ -154,9 +154,11 @@ TEST_F(ProgramFaults, OneOfTwoDevicesIsLost) {
     expect_right_or_error(task, {.mode = "late"}, 1, 10);
 }
 
+#ifndef NEARLIGHT_SANITIZED
 TEST_F(ProgramFaults, ADriverAborts) {
     expect_right_or_error(render(), {.mode = "abort"}, 0, 3);
 }
+#endif
 
 // The program then compiles by itself.
 TEST_F(ProgramFaults, AProcessThatCompilesFails) {
