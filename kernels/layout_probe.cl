@@ -10,16 +10,17 @@
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);
-// The offset is that of a member from its struct. A struct at address 0 would be a null pointer, which some
-// devices keep as another number.
+// The offset is that of a member from its struct, for which any address but 0 serves: some devices keep a null
+// pointer as another number.
 #define OFFSET(Type, member) \
-    *out++ = (uint)((global const char*)&((global const Type*)out)->member - (global const char*)out);
+    *out++ = (uint)((global const char*)&((global const Type*)some)->member - (global const char*)some);
 #define VALUE(expression) *out++ = (uint)(expression);
 #define LAYER_PLACES(constant, name, channels, samples, passes, files, storage) \
     VALUE(NEARLIGHT_LAYER_##constant)                                           \
     VALUE(NEARLIGHT_SUM_##constant)
 
 kernel void layout_probe(global uint* out) {
+    const global uint* const some = out;
     NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE)
     NEARLIGHT_FILM_LAYERS(LAYER_PLACES)
 }
