@@ -16,12 +16,15 @@ namespace {
 
 constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kUpdateInterval{100};
-/// The pace is measured after this much of the work or of time, because drivers compile kernels when they
-/// first run.
-constexpr double kIgnoredPart = 0.03;
-constexpr double kIgnoredSeconds = 1.0;
-/// For how long it is measured before it says anything.
+/// After this much of the work or of time, drivers have compiled what they compile when kernels first run.
+constexpr double kIgnoredPart = 0.05;
+constexpr double kIgnoredSeconds = 10.0;
+/// From there on the pace is measured when this much more is done; before, from the first news on, because
+/// work comes in pieces whose halves may differ.
+constexpr double kSurePart = 0.15;
+/// It says something after this time and this much of the work, or after ten times as long.
 constexpr double kMeasuredSeconds = 1.0;
+constexpr double kMeasuredPart = 0.05;
 
 std::string minutes_and_seconds(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
@@ -38,23 +41,21 @@ double bounded(double fraction) {
 
 std::optional<double> TimeLeft::at(double fraction, double seconds) {
     const News now{bounded(fraction), seconds};
-    if (now.fraction <= 0.0) {
-        return std::nullopt;
-    }
     first_ = first_.value_or(now);
-    if (!mark_) {
-        if (now.fraction >= kIgnoredPart || seconds - first_->seconds >= kIgnoredSeconds) {
-            mark_ = now;
-        }
-        return std::nullopt;
+    if (!mark_ &&
+        (now.fraction >= first_->fraction + kIgnoredPart || seconds >= first_->seconds + kIgnoredSeconds)) {
+        mark_ = now;
     }
+    const bool is_sure = mark_ && now.fraction >= mark_->fraction + kSurePart;
+    const News& from = is_sure ? *mark_ : *first_;
     // A step is silent for s = t - p·f seconds if the first news came after t seconds at the fraction f.
-    // Between the mark and now, k steps began, so that p·(fraction - mark) + k·s seconds have passed.
+    // Since `from`, k steps began, so that p·(fraction - from.fraction) + k·s seconds have passed.
     const auto begun = [&](double part) { return std::clamp(std::ceil(part * steps_), 1.0, 1.0 * steps_); };
-    const double k = begun(now.fraction) - begun(mark_->fraction);
-    const double passed = now.fraction - mark_->fraction - k * first_->fraction;
-    const double elapsed = seconds - mark_->seconds;
-    if (passed <= 0.0 || elapsed < kMeasuredSeconds) {
+    const double k = begun(now.fraction) - begun(from.fraction);
+    const double passed = now.fraction - from.fraction - k * first_->fraction;
+    const double elapsed = seconds - from.seconds;
+    const double needed = passed >= kMeasuredPart ? kMeasuredSeconds : 10.0 * kMeasuredSeconds;
+    if (passed <= 0.0 || elapsed < needed) {
         return std::nullopt;
     }
     const double pace = std::max(0.0, elapsed - k * first_->seconds) / passed;

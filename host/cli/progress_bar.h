@@ -33,7 +33,7 @@ class TimeLeft {
     };
     int steps_;
     std::optional<News> first_{};
-    std::optional<News> mark_{};  ///< where the pace is measured from
+    std::optional<News> mark_{};  ///< where the pace is measured from, once that says enough
 };
 
 /// Shows a line on standard error if that is a terminal, updates it at most ten times a second, and removes

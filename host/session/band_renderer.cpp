@@ -3,12 +3,10 @@
 
 #include <algorithm>
 
+#include "host/session/receiver_weight.h"
+
 namespace nearlight::core {
 namespace {
-
-/// Reflections that weigh less than this get no receiver. A receiver asks all VPLs, and reflections lie
-/// scattered, so that theirs cost most; the noise of a traced path weighs as little as the reflection does.
-constexpr float kMinReceiverWeight = 0.2f;
 
 /// The part of `per_pixel` that each camera sample takes, at least 1.
 uint per_sample(uint per_pixel, const GatherSettings& settings) {
@@ -28,7 +26,7 @@ ReceiverPathSettings path_settings(const Picture& picture) {
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.
 CameraBand with_light(CameraBand batch, const Picture& picture) {
     batch.max_depth = picture.max_depth;
-    batch.min_weight = picture.settings.compensate ? kMinReceiverWeight : 0.0f;
+    batch.min_weight = min_receiver_weight(picture.settings);
     batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
     return batch;

@@ -5,7 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "host/session/band_progress.h"
 #include "host/session/picture_window.h"
+#include "host/session/receiver_weight.h"
 #include "host/session/session.h"
 #include "host/stages/film_layers.h"
 
@@ -46,6 +48,21 @@ void make_monochrome(std::span<float> rows) {
             std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
         }
     }
+}
+
+/// The work of a picture's strips, by which its progress goes, unless it is made too soon for that to matter.
+std::vector<double> work_of(DevicePool& pool, const Picture& picture, const View& view) {
+    constexpr double kFewSamples = 1e6;
+    const PixelWindow& cover = picture.plan.cover;
+    if (1.0 * cover.width * cover.height * picture.plan.samples_per_pixel < kFewSamples) {
+        return {1.0};
+    }
+    return pool.on_leader([&](PoolDevice& leader) {
+        return work_of_strips(
+            leader.device(), leader.bands.camera_pass, leader.scene, view.scene_camera,
+            {.branch_count = picture.plan.branch_count, .min_weight = min_receiver_weight(picture.settings)},
+            picture.seed);
+    });
 }
 
 }  // namespace
@@ -102,14 +119,16 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
             sink(rows);
         }
     };
+    const std::vector<double> strips = work_of(pool_, planned->picture, view);
     std::vector<BandWorker> workers = band_workers(pool_, planned->picture, vpls.vpls);
     NextPicture next;
     if (order.next) {
         next.prepare_by(workers.front(), order.next);
     }
     add_remote_workers(remote_, *planned, next, workers);
-    BandOutcome shared =
-        share_bands(plan.band_count(), max_waiting_bands(plan, workers.size()), workers, take_band, progress);
+    BandOutcome shared = share_bands(
+        plan.band_count(), max_waiting_bands(plan, workers.size()), workers, take_band,
+        [&](double fraction) { return progress(part_of_work(plan, view.camera.height, strips, fraction)); });
     drop_failed(shared.shares);
     outcome.shares = std::move(shared.shares);
     outcome.interrupted = shared.interrupted;

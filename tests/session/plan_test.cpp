@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "host/session/band_progress.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -56,6 +59,56 @@ TEST_F(PlanTest, FirstBandIsShort) {
         if (device.is_cpu()) {  // other devices may need all rows for full load
             EXPECT_EQ(plan.batches(0).front().tile_row_count, 1u);
             EXPECT_GT(plan.batches(1).front().tile_row_count, 1u);
+        }
+    });
+}
+
+/// The progress of a picture is that of its work: bands differ in how many rows they have, and rows in what
+/// they show.
+TEST(BandProgress, GoesByTheWorkOfRows) {
+    RenderPlan plan;
+    plan.tile_row_count = 16;  // 2, 5, 5 and 4
+    plan.tile_rows_in_first = 2;
+    plan.tile_rows_per_band = 5;
+    plan.cover = {.x = 0, .y = 0, .width = 8, .height = 128};
+    ASSERT_EQ(plan.band_count(), 4u);
+    double before = 0;
+    for (uint band = 0; band < plan.band_count(); ++band) {
+        const double rows = plan.batches(band).front().tile_row_count;
+        EXPECT_DOUBLE_EQ(part_of_work(plan, 128, {1}, band / 4.0), before / 16) << band;
+        EXPECT_DOUBLE_EQ(part_of_work(plan, 128, {1}, (band + 0.25) / 4.0), (before + 0.25 * rows) / 16);
+        before += rows;
+    }
+    // The upper half is a quarter of the work.
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 128, {1, 3}, 0.25), 2.0 / 8 * 0.25);
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 128, {1, 3}, 0.75), 0.25 + 4.0 / 8 * 0.75);
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 128, {1, 3}, 1.0), 1.0);
+    // A window that holds the last eight rows of tiles of a picture twice as high.
+    plan.cover.y = 128;
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 256, {7, 1, 1, 3}, 0.75), (8.0 + 4.0 * 3) / (8.0 + 8.0 * 3));
+    plan.tile_row_count = 1;  // a picture of one band, which is shorter than a first one could be
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 256, {1}, 0.5), 0.5);
+    plan.tile_row_count = 0;
+    EXPECT_DOUBLE_EQ(part_of_work(plan, 256, {1}, 1.0), 1.0);
+}
+
+/// The lower half of the picture shows a wall; above is the sky.
+class StripWorkTest : public test::DeviceTest {};
+TEST_F(StripWorkTest, SkyCostsNothing) {
+    on_each_device([](Device& device) {
+        Scene scene;
+        small_scenes::add_quad(
+            scene, {-9, -9, 1}, {0, 9, 0}, {18, 0, 0},
+            small_scenes::add_material(scene, small_scenes::lambertian({0.5f, 0.5f, 0.5f})));
+        small_scenes::set_camera(scene, {0, 0, -1}, {0, 0, 1}, 60);
+        scene.camera.width = scene.camera.height = 64;
+        const test::SceneOnDevice on_device(device, scene);
+        CameraPass camera_pass(device);
+        const std::vector<double> work =
+            work_of_strips(device, camera_pass, on_device.buffers, scene.camera, {.branch_count = 1}, 1);
+        ASSERT_EQ(work.size(), 12u);
+        for (std::size_t i = 0; i < work.size(); ++i) {
+            EXPECT_NEAR(work[i] / work.back(), i < 6 ? 0.05 / 1.05 : 1.0, 0.01) << i;
         }
     });
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/session/band_progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/receivers.h"
+#include "host/scene/camera.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr int kStripCount = 12;
+constexpr int kMaxSmallWidth = 256;
+/// Of a pixel whose camera ray meets nothing, beside that of a receiver.
+constexpr double kRayWork = 0.05;
+
+/// The pixel row of `cover` to which so many bands reach; the first and the last may have fewer tile rows.
+double row_after(const RenderPlan& plan, double bands) {
+    const double first = std::min(plan.tile_row_count, plan.tile_rows_in_first);
+    const double whole = std::clamp(std::floor(bands), 0.0, std::max(0.0, plan.band_count() - 1.0));
+    const auto tile_rows = [&](double band) {
+        return band <= 0.0
+                   ? 0.0
+                   : std::min<double>(plan.tile_row_count, first + (band - 1.0) * plan.tile_rows_per_band);
+    };
+    const double begun = tile_rows(whole);
+    return NEARLIGHT_TILE_SIZE * (begun + (bands - whole) * (tile_rows(whole + 1.0) - begun));
+}
+
+/// The work above a pixel row.
+double work_above(const std::vector<double>& strips, uint height, double row) {
+    const double at = std::clamp(row / height, 0.0, 1.0) * static_cast<double>(strips.size());
+    double work = 0;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+        work += strips[i] * std::clamp(at - static_cast<double>(i), 0.0, 1.0);
+    }
+    return work;
+}
+
+}  // namespace
+
+std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
+                                   const SceneCamera& camera, const CameraBand& like, uint seed) {
+    constexpr int kHeight = kStripCount * NEARLIGHT_TILE_SIZE;
+    const int width =
+        std::clamp(static_cast<int>(std::int64_t{kHeight} * camera.width / std::max(camera.height, 1)), 8,
+                   kMaxSmallWidth);
+    SceneCamera unfiltered = camera;
+    unfiltered.filter = {};
+    const Camera small = make_camera(unfiltered, width, kHeight);
+    const CameraBand band{
+        .tile_row_count = kStripCount, .branch_count = like.branch_count, .min_weight = like.min_weight};
+    const std::size_t packets = packet_count(band, small.width);
+    Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
+    const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
+    const CloseRange nothing{};
+    const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
+    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, receivers, vertices);
+    const std::vector<ReceiverPacket> found = receivers.download();
+    std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
+    for (std::size_t i = 0; i < packets; ++i) {
+        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            work[i * kStripCount / packets] += is_zero(receiver_at(found[i], lane).normal) ? 0.0 : 1.0;
+        }
+    }
+    return work;
+}
+
+double part_of_work(const RenderPlan& plan, uint height, const std::vector<double>& strips,
+                    double part_of_bands) {
+    const double top = plan.cover.y;
+    const double bands = plan.band_count();
+    const double before = work_above(strips, height, top);
+    const double all = work_above(strips, height, top + row_after(plan, bands)) - before;
+    const double done = work_above(strips, height, top + row_after(plan, part_of_bands * bands)) - before;
+    return all > 0.0 ? done / all : part_of_bands;
+}
+
+}  // namespace nearlight::core

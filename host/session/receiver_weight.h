@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which reflections get receivers of their own.
+#pragma once
+
+#include "nearlight/settings.h"
+
+namespace nearlight::core {
+
+/// CameraBand::min_weight. Reflections that weigh less than this get no receiver if rays can bring their
+/// light. A receiver asks all VPLs, and reflections lie scattered, so that theirs cost most; the noise of a
+/// traced path weighs as little as the reflection does.
+inline float min_receiver_weight(const GatherSettings& settings) {
+    constexpr float kMinReceiverWeight = 0.2f;
+    return settings.compensate ? kMinReceiverWeight : 0.0f;
+}
+
+}  // namespace nearlight::core
