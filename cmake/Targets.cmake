@@ -14,8 +14,8 @@ if(NEARLIGHT_SANITIZE)
   target_link_options(nearlight_options INTERFACE -fsanitize=${NEARLIGHT_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
-# The sanitizer's runtime wants to be loaded first: before a library that stands before OpenCL's, and by programs that are
-# not built with it, such as Python. Clang's runtime is part of the programs and cannot be loaded so.
+# The sanitizer's runtime wants to be loaded first, before a library that stands before OpenCL's. Clang's runtime is part of
+# the programs and cannot be loaded so.
 set(NEARLIGHT_CAN_PRELOAD ON)
 set(NEARLIGHT_SANITIZER_RUNTIME "")
 if(NEARLIGHT_SANITIZE MATCHES "(address|thread)")
