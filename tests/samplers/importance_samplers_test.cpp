@@ -20,6 +20,8 @@ using test::SamplingBench;
 
 constexpr uint kDepths = 3;
 
+class BidirectionalTest : public test::DeviceTest {};
+
 std::string test_name(const ::testing::TestParamInfo<SamplerKind>& info) {
     return to_string(info.param);
 }
@@ -163,6 +165,23 @@ TEST_P(ImportanceSamplerTest, WithoutLightThereAreNoVpls) {
         SamplingBench bench(device, divided_room());
         EXPECT_TRUE(bench.sample(GetParam(), 0, 1).vpls.empty());
         EXPECT_TRUE(bench.sample(GetParam(), 100, 1, 0).vpls.empty());
+    });
+}
+
+/// Its two kinds of VPLs lie in the same places, and the weights of both must add up to 1.
+TEST_F(BidirectionalTest, BringsTheLightOfWalks) {
+    on_each_device([](Device& device) {
+        SamplingBench bench(device, divided_room());
+        const double expected =
+            total(bench.contributions(bench.sample(SamplerKind::instant_radiosity, 100'000, 1)));
+        std::vector<double> brought;
+        for (uint seed = 0; seed < 40; ++seed) {
+            brought.push_back(
+                total(bench.contributions(bench.sample(SamplerKind::bidirectional, 300, 500 + seed))));
+        }
+        const test::Spread found = test::spread_of(brought);
+        EXPECT_NEAR(found.mean, expected, 4 * found.error + 0.01 * expected);
+        EXPECT_LT(found.error, 0.02 * expected) << "too noisy to tell";
     });
 }
 
