@@ -3,6 +3,7 @@
 // parts of one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 
@@ -82,10 +83,24 @@ test::Rendering render_on(std::vector<Device*> devices, const RenderSettings& se
     return test::render_image(session, settings);
 }
 
+/// A picture of which each of two devices has made a part. On a busy machine one of them may be done before
+/// the other begins, so it is made again then, but not for ever.
+test::Rendering render_on_both(Device* first, Device* second, const RenderSettings& settings) {
+    constexpr int kMaxPictures = 20;
+    for (int picture = 1;; ++picture) {
+        test::Rendering both = render_on({first, second}, settings);
+        const auto& shares = both.report.shares;
+        if (picture == kMaxPictures ||
+            std::ranges::all_of(shares, [](const auto& s) { return s.bands > 0; })) {
+            return both;
+        }
+    }
+}
+
 TEST_F(SeveralDevices, GiveTheBitsOfOne) {
     for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
         const test::Rendering one = render_on({&device(0)}, test::few_vpls(sampler));
-        const test::Rendering two = render_on({&device(0), &device(1)}, test::few_vpls(sampler));
+        const test::Rendering two = render_on_both(&device(0), &device(1), test::few_vpls(sampler));
         EXPECT_EQ(two.report.image_hash, one.report.image_hash) << to_string(sampler);
         EXPECT_EQ(two.image.values, one.image.values) << "in a layer other than the beauty";
         EXPECT_EQ(two.report.totals.local_lights, one.report.totals.local_lights);
