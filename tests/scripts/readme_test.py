@@ -23,16 +23,16 @@ SKIPPED = 77  # the exit status that says so
 # Values of options that commands of the README have, and options that they get besides.
 SMALLER = {"--size": "48x36", "--vpls": "50", "--spp": "1", "--time": "3", "--error": "0.5"}
 BESIDES = {
-    "render": ["--size", "48x36", "--vpls", "50"],
-    "view": ["--size", "48x36", "--vpls", "50", "--frames", "1"],
-    "reference": ["--size", "48x36"],
-    "compare": ["--size", "32x24", "--vpls", "50,100", "--seeds", "2", "--reference-spp", "16", "--samplers"]
-    + ["close-range:complete,instant-radiosity"],
-    "tune": ["--repeats", "1", "--triangles", "500", "--dry-run"],
-    "bench gather": ["--size", "64x64", "--vpls", "16", "--repeats", "1"],
-    "bench build": ["--repeats", "1"],
-    "bench trace": ["--size", "64x64", "--repeats", "1"],
-    "bench sort": ["--repeats", "1", "--count", "100000"],
+    "render": ["--size 48x36", "--vpls 50"],
+    "view": ["--size 48x36", "--vpls 50", "--frames 1"],
+    "reference": ["--size 48x36"],
+    "compare": ["--size 32x24", "--vpls 50,100", "--seeds 2", "--reference-spp 16"]
+    + ["--samplers close-range:complete,instant-radiosity"],
+    "tune": ["--repeats 1", "--triangles 500", "--dry-run"],
+    "bench gather": ["--size 64x64", "--vpls 16", "--repeats 1"],
+    "bench build": ["--repeats 1"],
+    "bench trace": ["--size 64x64", "--repeats 1"],
+    "bench sort": ["--repeats 1", "--count 100000"],
 }
 
 
@@ -47,10 +47,9 @@ def smaller(words):
     """The command on a smaller scale."""
     words = [SMALLER.get(before, word) for before, word in zip([None, *words], words)]
     name = " ".join(words[:2]) if words[0] == "bench" else words[0]
-    besides = BESIDES.get(name, [])
-    for option, value in zip(besides[::2], besides[1::2]):
-        if option not in words:
-            words += [option, value]
+    for besides in map(str.split, BESIDES.get(name, [])):
+        if besides[0] not in words:
+            words += besides
     return words
 
 
