@@ -10,8 +10,8 @@
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);
-// The offset is that of a member from its struct, for which any address but 0 serves: some devices keep a null
-// pointer as another number.
+// The offset is that of a member from its struct, for which any address but 0 serves: some devices keep a
+// null pointer as another number.
 #define OFFSET(Type, member) \
     *out++ = (uint)((global const char*)&((global const Type*)some)->member - (global const char*)some);
 #define VALUE(expression) *out++ = (uint)(expression);

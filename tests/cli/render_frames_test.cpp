@@ -179,17 +179,18 @@ TEST_F(Frames, BadInputIsOneClearMessage) {
         int exit_code;
         std::string message;
     };
-    for (const Case& bad : {Case{"--frames 5:2", "room.gltf", 2, "ends before it begins; give 2:5"},
-                            {"--frames 1:2000000", "room.gltf", 2, "with numbers from 0 to 999999"},
-                            {"--frames x", "room.gltf", 2, "--frames must be A:B or A"},
-                            {"--fps 25", "room.gltf", 2, "--fps requires --frames"},
-                            {"--frames 1 --fps 0", "room.gltf", 2, "--fps"},
-                            {"--frames 1 --fps nan", "room.gltf", 2, "--fps"},
-                            {"--frames 1 --checkpoint c", "room.gltf", 2, "--checkpoint"},
-                            {"--frames 1 --save-vpls v", "room.gltf", 2, "--save-vpls"},
-                            {"--frames 1 --animation run", "room.gltf", 2, "has no animation 'run'"},
-                            {"--frames 1 --origin 0,1,2", "room.gltf", 2, "needs --target too"},
-                            {"--frames 1", "still.gltf", 3, "has no animations; leave out --frames for a picture of it"}}) {
+    for (const Case& bad :
+         {Case{"--frames 5:2", "room.gltf", 2, "ends before it begins; give 2:5"},
+          {"--frames 1:2000000", "room.gltf", 2, "with numbers from 0 to 999999"},
+          {"--frames x", "room.gltf", 2, "--frames must be A:B or A"},
+          {"--fps 25", "room.gltf", 2, "--fps requires --frames"},
+          {"--frames 1 --fps 0", "room.gltf", 2, "--fps"},
+          {"--frames 1 --fps nan", "room.gltf", 2, "--fps"},
+          {"--frames 1 --checkpoint c", "room.gltf", 2, "--checkpoint"},
+          {"--frames 1 --save-vpls v", "room.gltf", 2, "--save-vpls"},
+          {"--frames 1 --animation run", "room.gltf", 2, "has no animation 'run'"},
+          {"--frames 1 --origin 0,1,2", "room.gltf", 2, "needs --target too"},
+          {"--frames 1", "still.gltf", 3, "has no animations; leave out --frames for a picture of it"}}) {
         const ProgramResult result = run_program("render " + bad.options + " " + quoted(folder_ / bad.scene) +
                                                  " -o " + quoted(folder_ / "x.exr"));
         EXPECT_EQ(result.exit_code, bad.exit_code) << bad.options << ": " << result.errors;

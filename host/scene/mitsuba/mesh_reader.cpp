@@ -52,8 +52,7 @@ MeshFile read_source(const MeshSource& source) {
 /// Whether a file can be read ahead, and what is wrong with a shape can wait until it is its turn.
 bool can_be_ahead(const Object& shape) {
     const Property* const file = shape.find("filename");
-    return shape.type == "obj" && file != nullptr &&
-           std::holds_alternative<std::string>(file->value);
+    return shape.type == "obj" && file != nullptr && std::holds_alternative<std::string>(file->value);
 }
 
 }  // namespace
