@@ -119,18 +119,27 @@ def named_material(text, values, prefix, archive):
     raise Unsupported(f'no counterpart of the BSDF {kind}')
 
 
+def is_mirrored(to_world):
+    return np.linalg.det(np.array(to_world, dtype=np.float64).reshape(4, 4)[:3, :3]) < 0
+
+
 def disc(to_world):
     turn = np.linspace(0, 2 * np.pi, DISC_CORNERS, endpoint=False)
     corners = np.stack([np.cos(turn), np.sin(turn), 0 * turn, 1 + 0 * turn], axis=1)
     corners = np.concatenate([[[0, 0, 0, 1]], corners]) @ np.array(to_world, dtype=np.float64).T
     last = np.arange(DISC_CORNERS)
-    return corners[:, :3], np.stack([0 * last, 1 + last, 1 + (last + 1) % DISC_CORNERS], axis=1)
+    faces = np.stack([0 * last, 1 + last, 1 + (last + 1) % DISC_CORNERS], axis=1)
+    return corners[:, :3], faces[:, ::-1] if is_mirrored(to_world) else faces     # lamps shine along their own +z
 
 
 def mesh(mi, shape, archive):
+    to_world = dict(mi.traverse(shape)).get('to_world')
     if shape.is_mesh():
+        faces = np.asarray(shape.faces_buffer(), dtype=np.int32).reshape(-1, 3)
+        if shape.class_name() == 'Rectangle' and is_mirrored(to_world.matrix):
+            faces = faces[:, ::-1]
         written = {'positions': archive.add(numbers(shape.vertex_positions_buffer()).reshape(-1, 3)),
-                   'faces': archive.add(np.asarray(shape.faces_buffer(), dtype=np.int32).reshape(-1, 3))}
+                   'faces': archive.add(faces)}
         if shape.has_vertex_normals():
             written['normals'] = archive.add(numbers(shape.vertex_normals_buffer()).reshape(-1, 3))
         if shape.has_vertex_texcoords():
@@ -138,7 +147,7 @@ def mesh(mi, shape, archive):
         return written
     if shape.class_name() != 'Disk':
         raise Unsupported(f'no counterpart of the shape {shape.class_name()}')
-    positions, faces = disc(np.array(dict(mi.traverse(shape))['to_world'].matrix).reshape(4, 4))
+    positions, faces = disc(np.array(to_world.matrix).reshape(4, 4))
     return {'positions': archive.add(positions.astype(np.float32)), 'faces': archive.add(faces.astype(np.int32))}
 
 
