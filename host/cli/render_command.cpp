@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "host/bvh/thread_limit.h"
+#include "host/base/thread_limit.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/mpi_options.h"
 #include "host/cli/output.h"
@@ -154,8 +154,8 @@ void add_render_command(CommandLine& line) {
     add_mpi_option(command, options->mpi);
     command
         .add_option("--threads", options->threads,
-                    "CPU threads for building trees and for PoCL's CPU device (other CPU drivers ignore "
-                    "this); 0: one per core")
+                    "CPU threads for reading meshes, building trees and for PoCL's CPU device (other CPU "
+                    "drivers ignore this); 0: one per core")
         ->check(CLI::Range(0, 1024))
         ->type_name("N")
         ->capture_default_str();

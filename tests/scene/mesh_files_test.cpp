@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstring>
 
+#include "host/base/thread_limit.h"
 #include "host/scene/mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/obj_text.h"
@@ -285,18 +286,21 @@ TEST(Obj, ManyFilesOfASceneComeInItsOrder) {
                 : i % 7 == 6 ? "<shape type='merge'>" + shape + "</shape>\n"
                              : shape;
     }
-    const Scene scene = files.load_xml(body);
-    std::vector<float> xs;
-    for (const ObjectRun& run : scene.objects) {
-        if (scene.object_names[run.name].find("rectangle") == std::string::npos) {
-            xs.push_back(scene.vertices[scene.triangles[run.first_triangle].v0].position.x);
+    for (const int threads : {0, 1}) {
+        const ThreadLimit limit(threads);
+        const Scene scene = files.load_xml(body);
+        std::vector<float> xs;
+        for (const ObjectRun& run : scene.objects) {
+            if (scene.object_names[run.name].find("rectangle") == std::string::npos) {
+                xs.push_back(scene.vertices[scene.triangles[run.first_triangle].v0].position.x);
+            }
         }
+        ASSERT_EQ(xs.size(), 40u);
+        for (std::size_t i = 0; i < xs.size(); ++i) {
+            EXPECT_EQ(xs[i], static_cast<float>(i));
+        }
+        EXPECT_TRUE(has_note(scene, "m20_.obj: 1 faces with fewer than three corners are left out"));
     }
-    ASSERT_EQ(xs.size(), 40u);
-    for (std::size_t i = 0; i < xs.size(); ++i) {
-        EXPECT_EQ(xs[i], static_cast<float>(i));
-    }
-    EXPECT_TRUE(has_note(scene, "m20_.obj: 1 faces with fewer than three corners are left out"));
     // What is wrong first in the scene is what one is told, wherever the threads are.
     files.write("m7.obj", "v 0 0 0\nf 1 2 3\n");
     files.write("m8_.obj", "nothing");

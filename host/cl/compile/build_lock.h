@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One build of a program at a time among all processes that share a driver's folder.
 //
-// PoCL 3.1 to 6.0 replace the file of a program by removing it first. A process that builds the same program
-// at that moment finds no file, and an assertion of PoCL ends it.
+// PoCL 3.1, which Debian 12 has, removes the file of a program before it writes it again. A process that
+// builds the same program at that moment finds no file, and an assertion of PoCL ends it. PoCL 6.0 renames a
+// new file over the old one.
 #pragma once
 
 #include <filesystem>

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <string>
-#include <thread>
 #include <utility>
 
+#include "host/base/thread_limit.h"
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/obj_loader.h"
@@ -15,7 +15,7 @@ namespace nearlight::core::mitsuba {
 namespace {
 
 /// More files at once would take memory without being read faster.
-constexpr unsigned kMaxAhead = 8;
+constexpr int kMaxAhead = 8;
 
 /// What it takes to read a file. Objects note which of their properties are asked for, so that only one
 /// thread may look at them.
@@ -58,7 +58,9 @@ bool can_be_ahead(const Object& shape) {
 }  // namespace
 
 void MeshReader::read_ahead() {
-    const unsigned most = std::clamp(std::thread::hardware_concurrency(), 1u, kMaxAhead);
+    // With one thread allowed, the caller reads each file itself when its turn comes.
+    const int allowed = allowed_threads();
+    const std::size_t most = allowed == 1 ? 0 : static_cast<std::size_t>(std::min(allowed, kMaxAhead));
     while (!coming_.empty() && ahead_.size() < most) {
         const Object* const shape = coming_.front();
         coming_.pop_front();

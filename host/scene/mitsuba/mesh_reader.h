@@ -20,6 +20,7 @@ struct MeshFile {
 
 /// Reads mesh files. Those of a scene's own shapes, one after another, are read by other threads ahead of the
 /// caller, because scenes of hundreds of files would else keep one core busy while the others wait.
+/// ThreadLimit says how many threads.
 class MeshReader {
   public:
     /// The shapes of the scene, in the order in which they will be asked for.

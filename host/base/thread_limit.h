@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A limit on the threads of the host's own work, such as building trees and path tracing.
+// A limit on the threads of the host's own work, such as reading files, building trees and path tracing.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/bvh/thread_limit.h"
+#include "host/base/thread_limit.h"
 
 #include <gtest/gtest.h>
 
