@@ -3,7 +3,7 @@
 // by index. Between the first two kernels the host scans the counts of the runs. [paper section 3: the
 // triangles that are kept]
 //
-// Memory: `flags` holds `count` uint, of which all but 0 are set; `chunk_counts` holds one uint for each run;
+// Memory: `flags` holds `count` uint, and all but 0 count as set; `chunk_counts` holds one uint for each run;
 // `indices` has room for every set flag. Work-group size: any.
 
 #include "lib/chunk.cl"

@@ -3,7 +3,7 @@
 // sends rays, the remainder.
 //
 // One work-item for each receiver; any work-group size. Absent receivers (zero normal) get 0. Receivers of
-// one pixel share a sequence of random numbers, of which each takes its own part, so that all samples of the
+// one pixel share a sequence of random numbers, and each takes its own part of it, so that all samples of the
 // pixel are evenly spread. Other receivers have numbers of their own, keyed by position. So no split of the
 // work changes the result. A receiver with `surfaces` surfaces before it gets paths of at most max_edges −
 // surfaces edges. VPLs bring it longer ones, whose light the rays take away again.

@@ -6,7 +6,7 @@
 namespace nearlight::viewer {
 namespace {
 
-/// The set of VPLs has at least so many parts, of which a pixel asks one.
+/// The set of VPLs has at least so many parts; a pixel asks one of them.
 constexpr std::uint32_t kMinStrata = kInterleave * kInterleave;
 /// A pixel of a quick picture asks about so many VPLs: fewer save little, because camera and light rays cost
 /// as much.

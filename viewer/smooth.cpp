@@ -34,7 +34,7 @@ bool show_same_surface(const Texel& a, const Texel& b) {
            dot(a.normal, b.normal) >= kMinCosine;
 }
 
-/// Averages along rows or columns: over `side` pixels that lie `stride` apart, of which there are `length`.
+/// Averages along a row or a column, `length` pixels that lie `stride` apart, over `side` of them at a time.
 void average_line(const Texel* line, std::vector<Vec3>& light, std::size_t stride, int length, int side) {
     for (int i = 0; i < length; ++i) {
         const Texel& here = line[static_cast<std::size_t>(i) * stride];

@@ -38,7 +38,7 @@ std::string numbered(const std::string& file, int frame);
 /// The files of a frame.
 std::vector<std::string> numbered(const std::vector<std::string>& files, int frame);
 
-/// The frames to make, without those of which all files are there if the options say so.
+/// The frames to make. If the options say so, frames that have all their files are left out.
 std::vector<int> frames_to_make(const FrameOptions& options, const std::vector<std::string>& outputs);
 
 /// Warns of frames before and after the animation, which show its begin and end.

@@ -72,7 +72,7 @@ std::size_t RenderedPicture::pixel_floats() const {
     return denoiser_ ? kDenoisedPixelFloats : NEARLIGHT_LAYER_CHANNELS;
 }
 
-/// Writes the rows that there are, each pixel of which goes on with its mattes.
+/// Writes the finished rows. The channels of each pixel are followed by its mattes.
 void RenderedPicture::write_with(const MatteSource& mattes) {
     const Stopwatch watch;
     std::span<const float> rest = rows_;

@@ -233,7 +233,7 @@ Json json_animations(const Scene& scene) {
     return animations;
 }
 
-/// The nodes that an animation moves, of which there may be hundreds, each with how it moves.
+/// The first nodes that an animation moves, each with how it moves, and how many more there are.
 std::string text_motions(const SceneAnimation& animation) {
     constexpr std::size_t kMaxNamed = 4;
     std::vector<std::pair<std::string, std::string>> nodes;

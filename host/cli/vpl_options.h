@@ -18,7 +18,7 @@ struct VplFiles {
 void add_vpl_options(CLI::App& command, VplFiles& files);
 
 /// Puts the file that VPLs come from into the settings. Throws Error(ErrorKind::invalid_argument) if VPLs are
-/// to be saved of a picture that may have several passes, of which each has its own.
+/// to be saved of a picture that may have several passes, because each pass has its own.
 void settle(const VplFiles& files, RenderSettings& settings);
 
 /// Saves the VPLs if that was asked for.

@@ -63,10 +63,10 @@ inline constexpr std::size_t kMinReferenceVpls = 200'000;
 /// compared. The reference then has a third of the noise.
 inline constexpr std::size_t kReferenceExcess = 10;
 
-/// Parses comma-separated names (see parse_method()), of which none may occur twice. Throws
+/// Parses comma-separated names (see parse_method()); none may occur twice. Throws
 /// Error(ErrorKind::invalid_argument).
 std::vector<Method> parse_methods(const std::string& list);
-/// Parses comma-separated counts of 1 to 50 million, of which none may occur twice, and sorts them. Throws
+/// Parses comma-separated counts of 1 to 50 million, and sorts them; none may occur twice. Throws
 /// Error(ErrorKind::invalid_argument).
 std::vector<uint> parse_vpl_counts(const std::string& list);
 /// Parses "X,Y,W,H". Throws Error(ErrorKind::invalid_argument).

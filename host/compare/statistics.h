@@ -21,7 +21,7 @@ Interval mean_interval(std::span<const double> values);
 /// The middle value, or the mean of the two middle values; NaN for no values.
 double median(std::span<const double> values);
 
-/// The root of the mean of squared errors, of which there is one per seed.
+/// The root of the mean of squared errors, one for each seed.
 struct RmseEstimate {
     double value = 0;  ///< √max(0, mean)
     double half_width =

@@ -149,7 +149,7 @@ void ImageWriter::State::open(const std::vector<std::string>& channels, const Im
             .metadata = options.metadata};
 }
 
-/// The values, of which finite ones of 16-bit channels are at most as large as these can hold.
+/// The values. In channels of 16 bits, finite ones are bounded by what these can hold.
 const float* ImageWriter::State::within_half(int row_count, const float* values) {
     if (task.half.empty()) {
         return values;

@@ -42,7 +42,7 @@ inline constexpr std::array kExrCompressions{
     std::pair{"none", ExrCompression::none}, std::pair{"zip", ExrCompression::zip},
     std::pair{"piz", ExrCompression::piz}, std::pair{"dwaa", ExrCompression::dwaa}};
 
-/// The place of a picture within a larger one, of which it is a part.
+/// The place of a picture that is a part of a larger one.
 struct ImagePlace {
     int x = 0;  ///< of the leftmost pixel
     int y = 0;  ///< of the topmost pixel

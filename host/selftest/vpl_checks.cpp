@@ -61,7 +61,7 @@ std::vector<IrradiancePacket> ramp(std::size_t packets) {
     return light;
 }
 
-/// Random samples on triangles of the scene, of which every second one is two-sided.
+/// Random samples on triangles of the scene. Every second sample is two-sided.
 std::vector<SurfaceSample> random_samples(const Scene& scene, std::size_t count) {
     Pcg32 random(12);
     std::vector<SurfaceSample> samples;

@@ -6,10 +6,10 @@
 
 namespace nearlight::core {
 
-/// The sum of two doubles, of which `low` is at most half a unit in the last place of `high`: a number of 106
-/// bits. Terms that are multiples of q add up without any rounding as long as no sum reaches 2¹⁰⁴ q, so the
-/// result is then the same in every order. The steps are those of Dekker (A Floating-Point Technique for
-/// Extending the Available Precision, 1971) and Knuth (The Art of Computer Programming, volume 2, 4.2.2).
+/// A number of 106 bits: the sum of two doubles. `low` is at most half a unit in the last place of `high`.
+/// Terms that are multiples of q add up without any rounding as long as no sum reaches 2¹⁰⁴ q, so the result
+/// is then the same in every order. The steps are those of Dekker (A Floating-Point Technique for Extending
+/// the Available Precision, 1971) and Knuth (The Art of Computer Programming, volume 2, 4.2.2).
 struct DoubleSum {
     double high = 0.0;
     double low = 0.0;

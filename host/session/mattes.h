@@ -39,7 +39,7 @@ class MatteCounter {
     /// Keeps a reference to the scene.
     MatteCounter(const Scene& scene, std::span<const NamedKind> kinds);
 
-    /// Begins pixels of which no sample was counted.
+    /// Begins pixels, without any sample.
     void begin(std::size_t pixel_count);
     /// Counts the samples of all pixels, pixel by pixel: the triangle that each of them sees, or ~0.
     void add(std::span<const uint> triangles);

@@ -39,8 +39,8 @@ class PassSchedule {
     PassSchedule(const RenderSettings& settings, double seconds_before);
 
     /// Goes on after passes of `samples`, whose picture has the error `error` if it is known, with a pass of
-    /// `begun_samples` per pixel, of which `begun_part` is there already. If that is 0, the next pass is
-    /// chosen as usual. To be called before the first begin().
+    /// `begun_samples` per pixel that is done to the part `begun_part`. If `begun_samples` is 0, the next
+    /// pass is chosen as usual. To be called before the first begin().
     void resume(std::vector<uint> samples, std::optional<double> error, const PassPace& pace,
                 uint begun_samples, double begun_part);
 

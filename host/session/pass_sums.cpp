@@ -8,7 +8,7 @@
 namespace nearlight::core {
 namespace {
 
-/// What becomes of a channel, and its place among those of which the same becomes.
+/// What becomes of a channel, and its place among the channels that share this rule.
 struct ChannelPlace {
     PassRule rule = PassRule::mean;
     std::size_t index = 0;

@@ -31,7 +31,7 @@ struct PictureOrder {
     std::function<std::shared_ptr<PlannedPicture>()> next{};
 };
 
-/// The picture after the present one, of which remote devices begin bands that nobody waits for yet.
+/// The picture after the present one. Remote devices begin bands of it before anybody waits for them.
 class NextPicture {
   public:
     /// Has a worker make the picture before it takes bands.

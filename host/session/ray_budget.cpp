@@ -86,7 +86,7 @@ Vec3 mean_of(const std::array<Packets, 2>& pair, std::size_t i) {
     return 0.5f * (irradiance_at(pair[0], i) + irradiance_at(pair[1], i));
 }
 
-/// The variance of one estimate, of which there is a pair.
+/// The variance of one estimate of a receiver, by the difference of a pair of them.
 double variance_of(const std::array<Packets, 2>& pair, std::size_t i) {
     const Vec3 change = irradiance_at(pair[0], i) - irradiance_at(pair[1], i);
     return 0.5 * dot(change, change);
@@ -173,8 +173,8 @@ Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
 void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
     say_debug("clamp radius " + std::to_string(candidate.budget.clamp_radius) + ": " +
               std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, weighted error " +
-              std::to_string(candidate.error) + ", of which VPLs " + std::to_string(mean.of_vpls) +
-              " and rays " + std::to_string(mean.of_ray / rays));
+              std::to_string(candidate.error) + ", by VPLs " + std::to_string(mean.of_vpls) +
+              " and by rays " + std::to_string(mean.of_ray / rays));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ PixelWindow rest_of(const Prepared& pass, std::size_t begun_rows) {
     return window;
 }
 
-/// Ends a pass of which all rows are there.
+/// Ends a pass after its last row.
 void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& passes,
               const RenderReport& report) {
     passes.schedule.believe_after(passes.average->telling_passes());

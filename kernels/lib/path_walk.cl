@@ -46,7 +46,7 @@ typedef struct Connections {
 } Connections;
 
 /// Irradiance of a receiver from VPLs of depth up to `max_depth`, estimated from VPLs at equal distances in
-/// the set, of which `u` chooses the first.
+/// the set; `u` chooses the first of them.
 inline float3 connected_irradiance(const SceneView* scene, const Connections* to, const ReceiverPoint* at,
                                    uint max_depth, float u) {
     const uint count = min(to->count, to->vpl_count);

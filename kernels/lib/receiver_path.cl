@@ -110,9 +110,9 @@ inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_wei
     return true;
 }
 
-/// What a ray brings over at least one surface, besides what VPLs bring. Those stand for the Lambertian part
-/// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light, of which
-/// they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
+/// What a ray brings over at least one surface, besides what VPLs bring. VPLs stand for the Lambertian part
+/// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light. On these
+/// paths they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
 typedef struct RayShare {
     float of_vpls;
     uint max_edges;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenCL drivers that are registered on this machine, of which the loader passes over in silence those
-// that it cannot load.
+// The OpenCL drivers that are registered on this machine. The loader is silent about those that it cannot
+// load.
 #pragma once
 
 #include <string>

@@ -47,8 +47,8 @@ class SurfaceBsdf {
     [[nodiscard]] Vec3d diffuse_reflectance() const;
 
     [[nodiscard]] BsdfValue eval(Vec3d wi) const;
-    /// Density of sample(), of which a part falls to each of D and S: their chances times their own
-    /// densities.
+    /// Density of sample(): the sum over D and S of the chance that it draws from that part, times the part's
+    /// density.
     [[nodiscard]] double pdf(Vec3d wi) const;
     /// Draws from D with the probability diffuse_chance(), otherwise from S. The weight is that part of the
     /// BSDF divided by the density of that part, its chance included; so is `pdf`.

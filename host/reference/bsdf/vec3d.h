@@ -84,7 +84,7 @@ constexpr Vec3d mirrored(Vec3d w, Vec3d m) {
     return m * (2 * dot(w, m)) - w;
 }
 
-/// Three orthonormal vectors, of which n is the normal. They may be left-handed.
+/// Three orthonormal vectors; n is the normal. They may be left-handed.
 struct BsdfFrame {
     Vec3d s, t, n;
 

@@ -70,8 +70,8 @@ std::optional<std::pair<std::size_t, Target>> rival_of(
     return std::nullopt;
 }
 
-/// The animations to play. Exporters make one of each object's motion, which belong together, or one of each
-/// thing that a figure can do, of which only one can be shown: then it is the first.
+/// The animations to play. Some exporters make one for each object's motion; these belong together. Others
+/// make one for each thing that a figure can do; only one of these can be shown, which is the first.
 std::vector<std::size_t> played_animations(const GltfFile& file, const std::vector<std::string>& wanted,
                                            NoteSink& notes) {
     std::vector<std::size_t> candidates = named_animations(file, wanted);

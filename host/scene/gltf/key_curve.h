@@ -23,8 +23,8 @@ struct KeyCurve {
     std::vector<float> values;  ///< `width` for each key; of cubic curves a tangent, a value and a tangent
 };
 
-/// The curve of a sampler. `components` are those of its output accessor, of which several elements may make
-/// a value. Calls fail() if it is broken; `owner` names the animation in the message.
+/// The curve of a sampler. `components` are those of one element of its output accessor; a value may be made
+/// of several elements. Calls fail() if it is broken; `owner` names the animation in the message.
 KeyCurve read_curve(const GltfFile& file, const tinygltf::AnimationSampler& sampler, CurveKind kind,
                     std::size_t width, int components, const std::string& owner);
 

@@ -14,7 +14,7 @@ namespace nearlight::core::gltf {
 /// Adds the triangles of nodes to the scene, in the pose in which the file has them.
 class MeshMaker {
   public:
-    /// The materials may be those of another scene, of which `scene` then only has the shapes.
+    /// The materials may belong to another scene; then `scene` gets nothing but shapes.
     MeshMaker(const GltfFile& file, Scene& scene, MaterialMaker& materials, NoteSink& notes)
         : file_(file), scene_(scene), notes_(notes), materials_(materials) {}
 

@@ -376,7 +376,7 @@ Material MaterialMaker::make_principled(const Object& bsdf) {
     }
     if (bsdf.type == "principledthin") {
         material.flags |= NEARLIGHT_MATERIAL_THIN;
-        // Mitsuba counts diffuse transmission from 0 to 2, of which half is the share of light.
+        // Mitsuba counts diffuse transmission from 0 to 2, twice the share of light that goes through.
         material.transmission = textures_.number(bsdf, "diff_trans", 0.0f, {0.0f, 2.0f});
         material.transmission.value *= 0.5f;
     } else {

@@ -37,7 +37,7 @@ class MeshReader {
     };
     void read_ahead();
 
-    std::deque<const Object*> coming_;  ///< of which no file is being read
+    std::deque<const Object*> coming_;  ///< shapes whose files nobody has begun to read
     std::deque<Ahead> ahead_;
 };
 

@@ -25,7 +25,7 @@ void bake_sky(EnvironmentLight& light, const SkyModel& model, Vec3 sun, float sc
             for (int part = 0; part < 4; ++part) {
                 const double theta = std::numbers::pi * (row + 0.25 + 0.5 * (part / 2)) / kSkyHeight;
                 const double phi = 2 * std::numbers::pi * (column + 0.25 + 0.5 * (part % 2)) / kSkyWidth;
-                // In the map's frame (sin φ·sin θ, cos θ, −cos φ·sin θ), of which −Z is the model's Y.
+                // In the map's frame (sin φ·sin θ, cos θ, −cos φ·sin θ); its −Z is the model's Y.
                 const Vec3 direction{static_cast<float>(std::sin(phi) * std::sin(theta)),
                                      static_cast<float>(std::cos(phi) * std::sin(theta)),
                                      static_cast<float>(std::cos(theta))};
