@@ -88,6 +88,29 @@ TEST_F(FileFaults, FewDescriptors) {
     }
 }
 
+// PoCL 3.1 does so where it cannot start the linker, and would end every later process.
+TEST_F(FileFaults, KernelsThatTheDriverLeftEmptyAreRemoved) {
+    const fs::path cache = folder_ / "driver";
+    const std::string use = "env POCL_CACHE_DIR=" + quoted(cache);
+    const std::string render = task("--cache-dir " + quoted(folder_ / "binaries"));
+    const std::string right = hash_in(run_program(render, use));
+    std::vector<fs::path> kernels;
+    for (const auto& entry : fs::recursive_directory_iterator(cache)) {
+        if (entry.path().extension() == ".so") {
+            kernels.push_back(entry.path());
+        }
+    }
+    if (kernels.empty()) {
+        GTEST_SKIP() << "this driver keeps no kernels there";
+    }
+    for (const fs::path& kernel : kernels) {
+        fs::resize_file(kernel, 0);
+    }
+    std::ofstream(picture()) << "old";
+    expect_error(run_program(render, use), {1}, "run the command again");
+    EXPECT_EQ(hash_in(run_program(render, use)), right);
+}
+
 // Trees are in tests/bvh/bvh_cache_test.cpp.
 TEST_F(FileFaults, DamagedAndHinderedCachesOfKernels) {
     const fs::path cache = folder_ / "cache";

@@ -187,6 +187,17 @@ std::filesystem::path shared_folder(const ProgramRequest& request) {
     return request.entry.kind == DeviceKind::cpu ? driver_cache() : "";
 }
 
+/// Throws Error if the driver has left kernels empty. Their program must not be kept, because a binary of it
+/// has them too.
+void require_whole_kernels(const ProgramRequest& request) {
+    if (request.entry.kind == DeviceKind::cpu && remove_empty_kernels() > 0) {
+        throw Error(ErrorKind::failure,
+                    "kernels/" + request.file + " was not finished by driver " + request.entry.driver +
+                        ", for lack of memory, of processes (ulimit -u) or of open files (ulimit -n); free "
+                        "some and run the command again");
+    }
+}
+
 /// Makes the program as build_program() does. Throws cl::Error too.
 cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& contexts, CompileWorker* worker) {
     const ProgramCache cache(request.cache_dir);
@@ -202,6 +213,7 @@ cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& cont
     if (!compiled) {
         compiled = compile_here(request, contexts);
     }
+    require_whole_kernels(request);
     if (!compiled->binary.empty()) {
         cache.store(key, compiled->binary);
     }

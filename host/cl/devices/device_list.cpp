@@ -266,6 +266,10 @@ void limit_driver_threads(int threads) {
 DeviceList list_devices() {
     set_driver_defaults();
     DeviceList list;
+    if (const std::string reason = too_few_files(); !reason.empty()) {
+        list.problems.push_back(reason);
+        return list;
+    }
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -80,6 +80,22 @@ fs::path driver_cache() {
     return home.empty() ? home : home / ".cache" / "pocl";
 }
 
+// PoCL's names are PROGRAM/KERNEL/SIZES/KERNEL.so. Other files may be those that it has just begun.
+std::size_t remove_empty_kernels() {
+    std::size_t removed = 0;
+    std::error_code error;
+    fs::recursive_directory_iterator entry(driver_cache(), error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+        std::error_code unknown;
+        const fs::path& path = entry->path();
+        if (path.extension() == ".so" && path.stem() == path.parent_path().parent_path().filename() &&
+            entry->file_size(unknown) == 0 && !unknown) {
+            removed += fs::remove(path, unknown) ? 1 : 0;
+        }
+    }
+    return removed;
+}
+
 void ensure_driver_cache() {
     const fs::path cache = driver_cache();
     const std::string reason = cache.empty() ? "" : reason_not_to_keep(fs::absolute(cache));

@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A limit of open files below this may keep the loader from reading the registry and from loading drivers.
-constexpr rlim_t kMinFiles = 32;
+/// With a lower limit of open files, the loader cannot read the registry, or PoCL 3.1 cannot compile a first
+/// picture, which takes 16 here, and ends the process.
+constexpr rlim_t kMinFiles = 20;
 
 /// The folder of files that name drivers, or one such file. The variables are those of ocl-icd and of
 /// Khronos's loader.
@@ -74,13 +75,17 @@ std::string reason_not_to_load(const std::string& library) {
 
 }  // namespace
 
+std::string too_few_files() {
+    rlimit files{};
+    if (getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= kMinFiles) {
+        return "";
+    }
+    return "no more than " + std::to_string(files.rlim_cur) +
+           " files may be open at a time, which is too few for drivers (ulimit -n)";
+}
+
 std::vector<std::string> drivers_that_do_not_load() {
     std::vector<std::string> problems;
-    rlimit files{};
-    if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur < kMinFiles) {
-        problems.push_back("no more than " + std::to_string(files.rlim_cur) +
-                           " files may be open at a time, which is too few for drivers (ulimit -n)");
-    }
     for (const fs::path& file : registered_files(problems)) {
         const std::string library = file.extension() == ".icd" ? library_in(file) : "";
         if (library.empty()) {

@@ -8,8 +8,12 @@
 
 namespace nearlight::core {
 
-/// A line for each driver that is registered and cannot be loaded, with the reason, and for what keeps all of
-/// them from loading. To be called when the loader has loaded the others, which stay in memory.
+/// Why drivers must not be loaded: the limit of open files is so low that they would end the process. Empty
+/// if it is not.
+std::string too_few_files();
+
+/// A line for each driver that is registered and cannot be loaded, with the reason. To be called when the
+/// loader has loaded the others, which stay in memory.
 std::vector<std::string> drivers_that_do_not_load();
 
 }  // namespace nearlight::core
