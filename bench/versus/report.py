@@ -13,11 +13,12 @@ CLOCKS = {'render': 'seconds of rendering', 'process': 'seconds of the whole pro
 
 
 def write(file, results, notes, arguments):
-    folder = os.path.splitext(file)[0].lower() + '-plots'
+    base, name = os.path.split(file)
+    folder = os.path.join(base, os.path.splitext(name)[0].lower() + '-plots')
     os.makedirs(folder, exist_ok=True)
     lines = introduction(arguments, notes)
     for result in results:
-        lines += scene_lines(result, folder, os.path.dirname(file), arguments)
+        lines += scene_lines(result, folder, base, arguments)
     with open(file + '.partial', 'w', encoding='utf-8') as out:
         out.write('\n'.join(lines) + '\n')
     os.replace(file + '.partial', file)

@@ -138,7 +138,7 @@ class Report(unittest.TestCase):
         result = {'scene': 'a<b', 'size': [4, 3], 'truth_relative_mse': {'the scene': 1e-5}, 'notes': ['third is left out: it is not there'],
                   'agreement': [{'renderers': ['nearlight', 'other'], 'ratio': 1.001, 'error': 0.002}],
                   'curves': [curve('nearlight', False, 0.1), curve('other', False, 0.8)]}
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
             file = os.path.join(folder, 'VERSUS.md')
             report.write(file, [result], ['a note'], types.SimpleNamespace(seeds=2, size='4x3', clock='render'))
             with open(file, encoding='utf-8') as text:
