@@ -3,8 +3,8 @@
 import html
 import math
 
-WIDTH, HEIGHT = 640, 400
-LEFT, RIGHT, TOP, BOTTOM = 70, 190, 34, 46
+WIDTH, HEIGHT = 680, 400
+LEFT, RIGHT, TOP, BOTTOM = 70, 230, 34, 46
 COLOURS = ('#0b5fa5', '#c2410c', '#3f7d20', '#7b3fa0', '#946c00', '#444444')
 
 
