@@ -32,12 +32,22 @@ extern "C" void abort() noexcept {
         "nearlight: error: aborted, as OpenCL drivers do where memory, the disk of their cache or open files "
         "(ulimit -n) run out; free some, or use another device (--device)\n";
     constexpr std::string_view kEmptyKernels =
-        "nearlight: error: aborted, because PoCL had left kernels unfinished, for lack of memory or of "
-        "processes; they are removed now, so run the command again\n";
-    // A search that fails in this state of the process may end here again.
-    static std::atomic<bool> has_begun = false;
-    const bool may_search = !has_begun.exchange(true);
-    end(may_search && nearlight::core::remove_empty_kernels() > 0 ? kEmptyKernels : kExhausted);
+        "nearlight: error: aborted, because PoCL had left kernels unfinished, for lack of memory, of "
+        "processes "
+        "or of open files; they are removed now, so run the command again\n";
+    // A search that fails in this state of the process may end here again. Other threads that come here wait
+    // until the first one ends the process.
+    static std::atomic<pid_t> searching = 0;
+    pid_t none = 0;
+    if (searching.compare_exchange_strong(none, gettid())) {
+        end(nearlight::core::remove_empty_kernels() > 0 ? kEmptyKernels : kExhausted);
+    }
+    if (none == gettid()) {
+        end(kExhausted);
+    }
+    for (;;) {
+        pause();
+    }
 }
 
 /// What assert() calls in glibc, whose own abort() cannot be replaced.

@@ -29,9 +29,9 @@ def manifests(picture):
     with open(picture, 'rb') as file:
         data = file.read()
     texts = {}
-    for key, what, length in re.findall(rb'cryptomatte/(\w+)/(name|manifest)\0string\0(.{4})', data, re.S):
-        start = data.index(b'cryptomatte/' + key + b'/' + what + b'\0string\0' + length) + len(key) + len(what) + 25
-        texts[key, what] = data[start:start + struct.unpack('<i', length)[0]].decode()
+    for found in re.finditer(rb'cryptomatte/(\w+)/(name|manifest)\0string\0(.{4})', data, re.S):
+        key, what, length = found.groups()
+        texts[key, what] = data[found.end():found.end() + struct.unpack('<i', length)[0]].decode()
     return {texts[key, b'name']: json.loads(texts[key, b'manifest']) for key, what in texts if what == b'name'}
 
 

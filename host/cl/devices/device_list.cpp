@@ -212,6 +212,9 @@ std::vector<DeviceEntry> choose_item(const DeviceList& list, const std::string& 
 /// Chooses devices as choose_devices() does. Throws cl::Error too.
 std::vector<DeviceEntry> chosen_of(const DeviceList& list, const std::string& requested) {
     if (list.devices.empty()) {
+        if (const std::string reason = too_few_files(); !reason.empty()) {
+            throw Error(ErrorKind::no_device, "no OpenCL device: " + reason);
+        }
         std::vector<std::string> reasons = list.problems;
         std::ranges::move(drivers_that_do_not_load(), std::back_inserter(reasons));
         const std::string why = reasons.empty() ? "no OpenCL platform" : reasons.front();

@@ -53,7 +53,7 @@ DeviceList list_devices();
 /// devices of their own, or in "/N.K", which takes only part K, counted from 0. An empty choice takes
 /// NEARLIGHT_DEVICE from the environment, else the first GPU, else the first device. Each device comes once;
 /// only "all", lists and parts give several devices. Throws Error(ErrorKind::no_device), which says what to
-/// install or lists the devices.
+/// do, or lists the devices.
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
 
 }  // namespace nearlight::core

@@ -14,8 +14,8 @@ void ensure_driver_cache();
 std::filesystem::path driver_cache();
 
 /// Removes the kernels that PoCL has left empty in its folder, and returns how many. PoCL 3.1 does so where
-/// it cannot start the linker, for lack of processes or of memory. It would load these files from then on,
-/// fail, and end the process each time.
+/// it cannot start the linker, for lack of processes, of memory or of open files. It would load these files
+/// from then on, fail, and end the process each time.
 std::size_t remove_empty_kernels();
 
 }  // namespace nearlight::core

@@ -81,7 +81,7 @@ std::string too_few_files() {
         return "";
     }
     return "no more than " + std::to_string(files.rlim_cur) +
-           " files may be open at a time, which is too few for drivers (ulimit -n)";
+           " files may be open at a time, which is too few for drivers; raise the limit (ulimit -n)";
 }
 
 std::vector<std::string> drivers_that_do_not_load() {

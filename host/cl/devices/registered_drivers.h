@@ -8,8 +8,8 @@
 
 namespace nearlight::core {
 
-/// Why drivers must not be loaded: the limit of open files is so low that they would end the process. Empty
-/// if it is not.
+/// Why drivers must not be loaded: the limit of open files is so low that they would end the process; and
+/// what to do. Empty if it is high enough.
 std::string too_few_files();
 
 /// A line for each driver that is registered and cannot be loaded, with the reason. To be called when the

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <string>
 
+#include "tests/image/environment_variable.h"
 #include "tests/image/temporary_folder.h"
 
 namespace nearlight::core {
@@ -14,27 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Has drivers keep their files in another folder during its lifetime.
-class DriverCacheAt {
-  public:
-    explicit DriverCacheAt(const fs::path& folder) {
-        const char* const old = std::getenv("POCL_CACHE_DIR");
-        old_ = old == nullptr ? "" : old;
-        setenv("POCL_CACHE_DIR", folder.c_str(), 1);
-    }
-    DriverCacheAt(const DriverCacheAt&) = delete;
-    DriverCacheAt& operator=(const DriverCacheAt&) = delete;
-    ~DriverCacheAt() {
-        old_.empty() ? unsetenv("POCL_CACHE_DIR") : setenv("POCL_CACHE_DIR", old_.c_str(), 1);
-    }
-
-  private:
-    std::string old_;
-};
-
 TEST(DriverCache, EmptyKernelsAreRemovedAndNothingElse) {
     const TemporaryFolder folder;
-    const DriverCacheAt cache(folder.path());
+    const EnvironmentVariable cache("POCL_CACHE_DIR", folder.path().string());
     const fs::path program = folder / "AB" / "CDEF";
     const fs::path empty = program / "sort" / "0-0-0" / "sort.so";
     const fs::path whole = program / "scan" / "0-0-0" / "scan.so";
@@ -51,7 +32,7 @@ TEST(DriverCache, EmptyKernelsAreRemovedAndNothingElse) {
 
 TEST(DriverCache, AFolderThatIsNotThereHasNoKernels) {
     const TemporaryFolder folder;
-    const DriverCacheAt cache(folder / "none");
+    const EnvironmentVariable cache("POCL_CACHE_DIR", (folder / "none").string());
     EXPECT_EQ(remove_empty_kernels(), 0u);
 }
 
