@@ -3,9 +3,9 @@
 // are asked for, and work in scenes in which nothing is visible.
 #include <gtest/gtest.h>
 
-#include <string>
-
+#include <cmath>
 #include <numeric>
+#include <string>
 
 #include "tests/samplers/divided_room.h"
 #include "tests/support/device_fixture.h"
@@ -127,6 +127,28 @@ TEST_P(ImportanceSamplerTest, SameSeedSameBits) {
         EXPECT_FALSE(first.empty());
         EXPECT_EQ(bytes(7), first);
         EXPECT_NE(bytes(8), first);
+    });
+}
+
+/// Few of the first walks bring light through a slit. So many chains start from each of them that the same
+/// state is picked several times.
+TEST_P(ImportanceSamplerTest, FewWalksThatBringLightAreUnbiasedToo) {
+    constexpr float kSlit = 0.05f;  // m
+    Scene scene = divided_room();
+    add_quad(scene, {0.4f, -1, 0}, {0, 2, 0}, {0.6f - kSlit, 0, 0}, 0);
+    on_each_device([&](Device& device) {
+        SamplingBench bench(device, scene);
+        const auto spread_by = [&](SamplerKind sampler, uint budget, uint seeds) {
+            std::vector<double> brought;
+            for (uint seed = 0; seed < seeds; ++seed) {
+                brought.push_back(total(bench.contributions(bench.sample(sampler, budget, 700 + seed))));
+            }
+            return test::spread_of(brought);
+        };
+        const test::Spread expected = spread_by(SamplerKind::instant_radiosity, 100'000, 12);
+        const test::Spread found = spread_by(GetParam(), 256, 60);
+        EXPECT_NEAR(found.mean, expected.mean, 4 * std::hypot(found.error, expected.error));
+        EXPECT_LT(std::hypot(found.error, expected.error), 0.05 * expected.mean) << "too noisy to tell";
     });
 }
 
