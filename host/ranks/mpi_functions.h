@@ -16,10 +16,11 @@ struct MpiFunctions {
     std::string (*start)(int& rank, int& count, std::string& host);
     /// Begins to send `bytes`, which must stay as they are until they are sent.
     void* (*begin_send)(int to, std::span<const std::byte> bytes);
-    /// Whether they are sent, or cannot be sent. Afterwards `sending` is no longer valid.
-    bool (*is_sent)(void* sending);
-    /// Receives a message if one is there.
-    bool (*receive)(int& from, std::vector<std::byte>& bytes);
+    /// Begins to receive the next message if one is on its way, and gives `bytes` its size. They must stay
+    /// where they are until it is here. A null pointer if there is none.
+    void* (*begin_receive)(int& from, std::vector<std::byte>& bytes);
+    /// Whether a message is sent or received, or never will be. Afterwards `transfer` is no longer valid.
+    bool (*is_done)(void* transfer);
     /// Leaves the job. Waits for the other ranks to do so, if `with_others` is set.
     void (*finish)(bool with_others);
 };

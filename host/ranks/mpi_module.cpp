@@ -42,27 +42,32 @@ void* begin_send(int to, std::span<const std::byte> bytes) {
     return request;
 }
 
-bool is_sent(void* sending) {
-    auto* const request = static_cast<MPI_Request*>(sending);
+/// MPI_Recv would wait for ever for the rest of a message whose sender died after its head was here.
+void* begin_receive(int& from, std::vector<std::byte>& bytes) {
+    int found = 0;
+    MPI_Message message = MPI_MESSAGE_NULL;
+    MPI_Status status{};
+    if (MPI_Improbe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &found, &message, &status) != MPI_SUCCESS ||
+        found == 0) {
+        return nullptr;
+    }
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    bytes.resize(static_cast<std::size_t>(size));
+    from = status.MPI_SOURCE;
+    auto* const request = new MPI_Request(MPI_REQUEST_NULL);
+    MPI_Imrecv(bytes.data(), size, MPI_BYTE, &message, request);
+    return request;
+}
+
+bool is_done(void* transfer) {
+    auto* const request = static_cast<MPI_Request*>(transfer);
     int done = 0;
     if (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0) {
         return false;
     }
     delete request;
     return true;
-}
-
-bool receive(int& from, std::vector<std::byte>& bytes) {
-    int found = 0;
-    MPI_Status status{};
-    if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &found, &status) != MPI_SUCCESS || found == 0) {
-        return false;
-    }
-    int size = 0;
-    MPI_Get_count(&status, MPI_BYTE, &size);
-    bytes.resize(static_cast<std::size_t>(size));
-    from = status.MPI_SOURCE;
-    return MPI_Recv(bytes.data(), size, MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE) == MPI_SUCCESS;
 }
 
 void finish(bool with_others) {
@@ -75,5 +80,5 @@ void finish(bool with_others) {
 }  // namespace nearlight::core
 
 extern "C" __attribute__((visibility("default"))) const nearlight::core::MpiFunctions nearlight_mpi_functions{
-    nearlight::core::start, nearlight::core::begin_send, nearlight::core::is_sent, nearlight::core::receive,
-    nearlight::core::finish};
+    nearlight::core::start, nearlight::core::begin_send, nearlight::core::begin_receive,
+    nearlight::core::is_done, nearlight::core::finish};

@@ -7,6 +7,7 @@
 #include <climits>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 namespace nearlight::core {
 namespace {
@@ -16,8 +17,8 @@ using namespace std::chrono_literals;
 /// How long the thread sleeps between two looks for messages, soon after the last one and later.
 constexpr auto kPause = 1ms;
 constexpr auto kLongPause = 5ms;
-/// Large messages go in parts, each of which needs a look at them.
-constexpr auto kSendingPause = 50us;
+/// Large messages go in parts, each of which needs a look at them on both ends.
+constexpr auto kTransferPause = 50us;
 constexpr double kAliveSeconds = 1.0;
 /// A rank is silent for that long only if its machine is far too busy or is gone.
 constexpr double kMaxSilence = 30.0;
@@ -36,14 +37,14 @@ double max_silence() {
     return seconds > 0.0 ? seconds : kMaxSilence;
 }
 
-/// The pause after so many looks at which nothing moved. If something is to be sent, nothing moves for long
-/// only if the other rank does not look.
-std::chrono::microseconds pause_after(int idle_looks, bool is_sending) {
+/// The pause after so many looks at which nothing moved. If messages are on their way, nothing moves for
+/// long only if the other rank does not look.
+std::chrono::microseconds pause_after(int idle_looks, bool has_transfers) {
     constexpr int kManyLooks = 1000;
     constexpr int kSomeLooks = 100;
-    return is_sending && idle_looks < kManyLooks ? kSendingPause
-           : idle_looks < kSomeLooks             ? kPause
-                                                 : kLongPause;
+    return has_transfers && idle_looks < kManyLooks ? kTransferPause
+           : idle_looks < kSomeLooks                ? kPause
+                                                    : kLongPause;
 }
 
 const MpiFunctions& load_mpi() {
@@ -145,7 +146,8 @@ void Post::work(const Rank& rank) {
     int idle_looks = 0;
     for (;;) {
         begin_sending();
-        const bool has_received = receive();
+        begin_receiving();
+        const bool has_received = end_receiving();
         const bool has_sent = end_sending();
         idle_looks = has_received || has_sent ? 0 : idle_looks + 1;
         say_alive(rank);
@@ -157,7 +159,7 @@ void Post::work(const Rank& rank) {
                 return;
             }
         }
-        changed_.wait_for(lock, pause_after(idle_looks, !sending_.empty()),
+        changed_.wait_for(lock, pause_after(idle_looks, !sending_.empty() || !receiving_.empty()),
                           [&] { return !outgoing_.empty(); });
     }
 }
@@ -176,32 +178,51 @@ void Post::begin_sending() {
 
 /// Returns whether anything was sent.
 bool Post::end_sending() {
-    return sending_.remove_if([this](const Sending& one) { return mpi_->is_sent(one.handle); }) > 0;
+    return sending_.remove_if([this](const Sending& one) { return mpi_->is_done(one.handle); }) > 0;
 }
 
-/// Returns whether anything was received.
-bool Post::receive() {
-    int from = 0;
-    std::vector<std::byte> bytes;
-    bool any = false;
-    while (mpi_->receive(from, bytes)) {
-        any = true;
-        Message message(std::exchange(bytes, {}));
+void Post::begin_receiving() {
+    for (;;) {
+        Receiving one;
+        one.handle = mpi_->begin_receive(one.from, one.bytes);
+        if (one.handle == nullptr) {
+            return;
+        }
         {
             const std::lock_guard lock(mutex_);
-            last_heard_[static_cast<std::size_t>(from)] = clock_.seconds();
+            last_heard_[static_cast<std::size_t>(one.from)] = clock_.seconds();
         }
-        if (!message.is_whole() || message.head().kind == MessageKind::alive) {
-            continue;
-        }
-        const std::lock_guard lock(receiver_mutex_);
-        if (receiver_) {
-            receiver_(from, std::move(message));
-        } else {
-            unopened_.emplace_back(from, std::move(message));
-        }
+        // Moved bytes stay where they are.
+        receiving_.push_back(std::move(one));
     }
-    return any;
+}
+
+/// Hands over what is here, in the order in which each rank sent it. Returns whether anything was.
+bool Post::end_receiving() {
+    std::set<int> late_ranks;
+    return receiving_.remove_if([&](Receiving& one) {
+        if (one.handle != nullptr && mpi_->is_done(one.handle)) {
+            one.handle = nullptr;
+        }
+        if (one.handle != nullptr || late_ranks.contains(one.from)) {
+            late_ranks.insert(one.from);
+            return false;
+        }
+        hand_over(one.from, Message(std::move(one.bytes)));
+        return true;
+    }) > 0;
+}
+
+void Post::hand_over(int from, Message message) {
+    if (!message.is_whole() || message.head().kind == MessageKind::alive) {
+        return;
+    }
+    const std::lock_guard lock(receiver_mutex_);
+    if (receiver_) {
+        receiver_(from, std::move(message));
+    } else {
+        unopened_.emplace_back(from, std::move(message));
+    }
 }
 
 void Post::say_alive(const Rank& rank) {

@@ -33,7 +33,7 @@ struct Rank {
 
 /// The post office of a rank. A thread of its own does all that is done with MPI. MPI waits by turning in
 /// circles, which would take a core from the rendering, so the thread sleeps for milliseconds between two
-/// looks for messages instead, and for less while it sends.
+/// looks for messages instead, and for less while messages are on their way.
 class Post {
   public:
     using Receiver = std::function<void(int from, Message message)>;
@@ -69,18 +69,27 @@ class Post {
         Message message;
         void* handle = nullptr;
     };
+    struct Receiving {
+        int from = 0;
+        std::vector<std::byte> bytes{};
+        void* handle = nullptr;  ///< null once the bytes are here
+    };
 
     void run(std::promise<Rank>& joined);
     void work(const Rank& rank);
     void begin_sending();
     bool end_sending();
-    bool receive();
+    void begin_receiving();
+    bool end_receiving();
+    void hand_over(int from, Message message);
     void say_alive(const Rank& rank);
 
     std::shared_future<Rank> joined_;
     const MpiFunctions* mpi_ = nullptr;
-    std::list<Sending> sending_;  ///< of the thread alone
-    Stopwatch since_alive_;       ///< of the thread alone
+    // These are of the thread alone.
+    std::list<Sending> sending_;
+    std::list<Receiving> receiving_;  ///< in the order in which their heads came
+    Stopwatch since_alive_;
 
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -65,17 +65,21 @@ class Ranks : public testing::Test {
         return "render --json --threads 1 --vpls 100 --spp 2 " + quoted(scene()) + " -o " +
                quoted(file("out.exr")) + " " + more;
     }
-    /// Renders, and kills a rank as soon as there is the file of the checkpoint.
-    ProgramResult render_and_kill(int rank, const std::string& arguments, const std::string& before) const {
+    /// Renders, and calls `disturb` as soon as there is the file of the checkpoint.
+    template <typename Disturb>
+    ProgramResult render_and(Disturb disturb, const std::string& arguments, const std::string& before) const {
         auto running = std::async(std::launch::async, [&] { return run_program(arguments, before); });
         while (!std::filesystem::exists(file("out.sums")) &&
                running.wait_for(10ms) != std::future_status::ready) {}
-        const pid_t process = process_of(rank, file("out.exr"));
-        EXPECT_GT(process, 0);
-        if (process > 0) {
-            kill(process, SIGKILL);
-        }
+        disturb();
         return running.get();
+    }
+    void signal_rank(int rank, int signal) const {
+        const pid_t process = process_of(rank, file("out.exr"));
+        EXPECT_GT(process, 0) << "rank " << rank;
+        if (process > 0) {
+            kill(process, signal);
+        }
     }
 
   private:
@@ -90,6 +94,9 @@ nlohmann::json json_of(const ProgramResult& result) {
 
 /// Many passes, which take longer than it takes to kill a rank.
 const std::string kManyPasses = "--size 256x192 --passes 20 --checkpoint ";
+
+/// A rank that lives says something every second, also on a machine that is very busy.
+const std::string kWithRecovery = "NEARLIGHT_RANK_SILENCE=5 ";
 
 TEST_F(Ranks, RanksTogetherGiveTheBitsOfOne) {
     for (const auto& [more, ranks] : {std::pair{"", 3u},
@@ -173,8 +180,8 @@ TEST_F(Ranks, TheOthersDoThePartOfADeviceThatFails) {
 
 TEST_F(Ranks, AfterAKilledRankTheJobIsGoneOnWith) {
     const std::string options = kManyPasses + quoted(file("out.sums")) + " --resume";
-    const ProgramResult killed =
-        render_and_kill(1, arguments(options + " --checkpoint-every 0.2"), mpirun("-n 2"));
+    const ProgramResult killed = render_and([&] { signal_rank(1, SIGKILL); },
+                                            arguments(options + " --checkpoint-every 0.2"), mpirun("-n 2"));
     EXPECT_EQ(killed.exit_code, 137) << killed.errors;
     const nlohmann::json resumed = json_of(run_program(arguments(options), mpirun("-n 2")));
     EXPECT_EQ(resumed["image_hash"],
@@ -182,15 +189,36 @@ TEST_F(Ranks, AfterAKilledRankTheJobIsGoneOnWith) {
 }
 
 TEST_F(Ranks, WithRecoveryTheOthersDoThePartOfAKilledRank) {
-    const ProgramResult result = render_and_kill(
-        1, arguments(kManyPasses + quoted(file("out.sums")) + " --checkpoint-every 0.2"),
-        "NEARLIGHT_RANK_SILENCE=2 " + mpirun("--enable-recovery -x NEARLIGHT_RANK_SILENCE -n 4"));
+    const ProgramResult result =
+        render_and([&] { signal_rank(1, SIGKILL); },
+                   arguments(kManyPasses + quoted(file("out.sums")) + " --checkpoint-every 0.2"),
+                   kWithRecovery + mpirun("--enable-recovery -x NEARLIGHT_RANK_SILENCE -n 4"));
     EXPECT_THAT(result.errors, HasSubstr("rank 1 on "));
     const nlohmann::json json = json_of(result);
     ASSERT_TRUE(json.is_object()) << result.errors;
     EXPECT_TRUE(json["device_shares"][1]["failed"].get<bool>());
     EXPECT_FALSE(json["device_shares"][2]["failed"].get<bool>());
     EXPECT_TRUE(json["device_shares"][3]["failed"].get<bool>()) << "its pictures came through rank 1";
+    EXPECT_EQ(json["image_hash"],
+              json_of(run_program(arguments("--size 256x192 --passes 20")))["image_hash"]);
+}
+
+TEST_F(Ranks, ARankThatDiesWhileItsRowsAreFetchedIsLostAlone) {
+    // Rank 0 sees the head of a message, whose rows it then has to fetch from a rank that is gone.
+    const auto kill_while_rank_0_is_away = [&] {
+        signal_rank(0, SIGSTOP);
+        std::this_thread::sleep_for(2s);
+        signal_rank(1, SIGKILL);
+        signal_rank(0, SIGCONT);
+    };
+    const ProgramResult result =
+        render_and(kill_while_rank_0_is_away,
+                   arguments(kManyPasses + quoted(file("out.sums")) + " --checkpoint-every 0.2"),
+                   kWithRecovery + mpirun("--enable-recovery -x NEARLIGHT_RANK_SILENCE -n 3"));
+    const nlohmann::json json = json_of(result);
+    ASSERT_TRUE(json.is_object()) << result.errors;
+    EXPECT_TRUE(json["device_shares"][1]["failed"].get<bool>());
+    EXPECT_FALSE(json["device_shares"][2]["failed"].get<bool>()) << result.errors;
     EXPECT_EQ(json["image_hash"],
               json_of(run_program(arguments("--size 256x192 --passes 20")))["image_hash"]);
 }
