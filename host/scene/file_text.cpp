@@ -31,9 +31,13 @@ std::string read_file_text(const std::filesystem::path& file) {
     return text;
 }
 
-std::filesystem::path resolve_path(const std::filesystem::path& file, std::string name) {
+std::filesystem::path path_in_folder(const std::filesystem::path& folder, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
-    return file.parent_path() / name;
+    return folder / name;
+}
+
+std::filesystem::path resolve_path(const std::filesystem::path& file, const std::string& name) {
+    return path_in_folder(file.parent_path(), name);
 }
 
 }  // namespace nearlight::core

@@ -144,6 +144,18 @@ TEST(MitsubaSensor, LooksAlongPlusZWithPlusXToTheLeft) {
     EXPECT_EQ(scene.max_depth, 64);
 }
 
+TEST(MitsubaEmitter, AnAreaLightMayStandBesideItsShape) {
+    const SceneFiles files;
+    const std::string light = "<emitter type='area' id='lamp'><rgb name='radiance' value='1,2,3'/></emitter>";
+    for (const std::string& body :
+         {light + shape("rectangle", "<ref id='lamp'/>"), shape("rectangle", "<ref id='lamp'/>") + light}) {
+        const Scene scene = files.load_xml(body);
+        expect_near(scene.materials[scene.triangles[0].material].emission.value, {1, 2, 3});
+        EXPECT_FALSE(has_note(scene, "area light"));
+    }
+    EXPECT_TRUE(has_note(files.load_xml(shape("rectangle", "") + light), "no shape has this area light"));
+}
+
 TEST(MitsubaXml, DefaultsOverridesAndIncludes) {
     const SceneFiles files;
     files.write("part.xml", "<scene version='3.0.0'><shape type='$kind'/></scene>");
@@ -151,6 +163,35 @@ TEST(MitsubaXml, DefaultsOverridesAndIncludes) {
     EXPECT_EQ(files.load_xml(body).triangles.size(), 2u);
     EXPECT_EQ(files.load_xml(body, {.parameters = {{"kind", "cube"}}, .strict = false}).triangles.size(),
               12u);
+}
+
+TEST(MitsubaXml, FilesAreLookedForInPathsAndInTheFolderOfTheScene) {
+    const SceneFiles files;
+    const auto write_triangles = [&](const std::string& file, int count) {
+        std::string faces;
+        for (int i = 0; i < count; ++i) {
+            faces += "f 1 2 3\n";
+        }
+        files.write(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces);
+    };
+    const auto triangles = [&](const std::string& body) { return files.load_xml(body).triangles.size(); };
+    const std::string shape = "<shape type='obj'><string name='filename' value='meshes\\a.obj'/></shape>";
+    files.write("parts/part.xml", "<scene version='3.0.0'>" + shape + "</scene>");
+    const std::string part = "<include filename='parts/part.xml'/>";
+
+    write_triangles("parts/meshes/a.obj", 1);
+    EXPECT_EQ(triangles(part), 1u);
+    write_triangles("meshes/a.obj", 2);
+    EXPECT_EQ(triangles(shape), 2u);
+    EXPECT_EQ(triangles(part), 2u) << "the folder of the scene comes before that of the included file";
+    write_triangles("common/meshes/a.obj", 3);
+    write_triangles("common/late/meshes/a.obj", 4);
+    EXPECT_EQ(triangles("<path value='common'/>" + shape), 3u);
+    EXPECT_EQ(triangles(shape + "<path value='common'/>"), 3u);
+    EXPECT_EQ(triangles("<path value='common'/><path value='late'/>" + shape), 4u);
+    EXPECT_EQ(triangles("<path value='common/late'/><path value='common'/>" + shape), 3u);
+    files.write("common/parts/part.xml", "<scene version='3.0.0'><path value='late'/></scene>");
+    EXPECT_EQ(triangles("<path value='common'/>" + part + shape), 4u);
 }
 
 TEST(MitsubaXml, ParametersThatTheFileDoesNotHaveAreRefused) {
@@ -190,6 +231,10 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<shape type='cube'><float name='x' value='$x'/></shape>", "parameter '$x' has no value"},
         {"<include filename='gone.xml'/>", "cannot be read"},
         {"<include filename='scene.xml'/>", "endlessly"},
+        {"<path value='gone'/>", "gone' does not exist"},
+        {"<path value='broken.obj'/>", "broken.obj' does not exist"},
+        {"<path/>", "needs an attribute 'value'"},
+        {"<shape type='cube'><path value='.'/></shape>", "directly in <scene>"},
         {"<wobble/>", "unknown element <wobble>"},
         {"<emitter type='point'><float name='power' value='1'/></emitter>", "power"},
         {"<bsdf type='twosided' id='a'><ref id='a'/></bsdf><shape type='cube'><ref id='a'/></shape>",

@@ -30,8 +30,10 @@ class SceneFiles {
     SceneFiles& operator=(const SceneFiles&) = delete;
 
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
+        const std::filesystem::path file = folder_ / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << text;
+        return file;
     }
     /// `body` begins on the second line of scene.xml.
     Scene load_xml(const std::string& body, const LoadOptions& options = {}) const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "host/scene/file_text.h"
 #include "host/scene/mitsuba/delta_light_maker.h"
 #include "host/scene/mitsuba/sky_maker.h"
 #include "nearlight/error.h"
@@ -34,8 +33,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
         light.height = 1;
         light.radiance = {emitted_color(emitter, "radiance", textures)};
     } else {
-        const std::filesystem::path file =
-            resolve_path(*emitter.where.file, emitter.required_string("filename"));
+        const std::filesystem::path file = emitter.required_string("filename");
         try {
             std::size_t bad_pixels = 0;
             light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)), bad_pixels);
@@ -60,6 +58,13 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
 }  // namespace
 
 void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes) {
+    // Shapes refer to an area light by its id, and are made before.
+    if (emitter.type == "area") {
+        if (!emitter.is_used()) {
+            notes.remark(*emitter.where.file, emitter.where.line, "no shape has this area light");
+        }
+        return;
+    }
     emitter.ignore({"sampling_weight"});
     if (emitter.has("power")) {
         fail(emitter.where, "'power' is not supported; give 'intensity' or 'radiance'");
@@ -74,12 +79,10 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         scene.environment =
             is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
         scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where);
-    } else if (emitter.type == "area") {
-        fail(emitter.where, "an area light must be nested in a shape");
     } else {
         fail_unknown_type(emitter,
-                          "area (nested in a shape), point, spot, projector, directional, constant, envmap, "
-                          "sunsky, sky, sun");
+                          "area (of a shape), point, spot, projector, directional, constant, envmap, sunsky, "
+                          "sky, sun");
     }
     emitter.report_unused(notes);
 }

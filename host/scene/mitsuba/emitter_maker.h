@@ -6,7 +6,8 @@
 
 namespace nearlight::core::mitsuba {
 
-/// Adds a point, spot, constant or envmap light to the scene.
+/// Adds a light that is not part of a shape to the scene. An area light makes no light here: the shape that
+/// refers to it does, and if there is none, a note says so.
 void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes);
 
 }  // namespace nearlight::core::mitsuba

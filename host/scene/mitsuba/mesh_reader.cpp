@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/base/thread_limit.h"
-#include "host/scene/file_text.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/ply_loader.h"
@@ -35,7 +34,7 @@ int shape_index(const Object& shape) {
 }
 
 MeshSource source_of(const Object& shape) {
-    return {.file = resolve_path(*shape.where.file, shape.required_string("filename")),
+    return {.file = shape.required_string("filename"),
             .type = shape.type,
             .index = shape.type == "serialized" ? shape_index(shape) : 0};
 }

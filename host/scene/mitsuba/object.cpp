@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/object.h"
 
+#include <algorithm>
+
 #include "nearlight/error.h"
 
 namespace nearlight::core::mitsuba {
@@ -107,6 +109,11 @@ std::vector<const Object*> Object::nested(const std::string& wanted) const {
         }
     }
     return found;
+}
+
+bool Object::is_used() const {
+    return std::ranges::any_of(properties, [](const auto& property) { return property.second.used; }) ||
+           std::ranges::any_of(children, &Child::used);
 }
 
 void Object::report_unused(NoteSink& notes) const {

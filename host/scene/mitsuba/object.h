@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Mitsuba scene file as a tree of plugin objects with typed properties: defaults filled in, names in
-// snake_case, includes read and references resolved.
+// snake_case, includes read, references resolved, and the files that are named found.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ struct Object {
     std::string type;  ///< "obj", "diffuse", …
     std::string id;
     Location where;
-    std::map<std::string, Property> properties;
+    std::map<std::string, Property> properties;  ///< "filename" is the path at which the file was found
     std::vector<Child> children;
 
     /// The property as a number, or `fallback` if there is none. This and the next functions call fail() if
@@ -79,6 +79,9 @@ struct Object {
 
     /// Marks all nested objects with the tag as known.
     void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
+
+    /// Whether anything has asked for one of its properties or nested objects.
+    [[nodiscard]] bool is_used() const;
 
     /// Adds a note for each property or nested object that nothing has asked for.
     void report_unused(NoteSink& notes) const;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
 #include "host/scene/texture.h"
 
@@ -211,7 +210,7 @@ Parameter TextureMaker::make_bitmap(const Object& texture, Purpose purpose) {
     rule.gamma = read_gamma(texture);
     rule.is_number = purpose == Purpose::number || purpose == Purpose::height;
     rule.is_signed = purpose == Purpose::height || purpose == Purpose::normals;
-    const std::filesystem::path file = resolve_path(*texture.where.file, texture.required_string("filename"));
+    const std::filesystem::path file = texture.required_string("filename");
     made.image = loader_.load(file, rule, *texture.where.file, texture.where.line);
     if (made.image < 0) {
         return parameter_of(purpose == Purpose::normals ? kFlat : kMissing);

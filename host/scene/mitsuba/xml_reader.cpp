@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/base/words.h"
-#include "host/scene/file_text.h"
+#include "host/scene/mitsuba/file_search.h"
 #include "host/scene/mitsuba/spectra.h"
 #include "host/scene/mitsuba/values.h"
 #include "host/scene/mitsuba/xml_file.h"
@@ -41,7 +41,9 @@ bool is_spectrum_object(const Element& element, const std::string& tag) {
 
 class Reader {
   public:
-    Reader(const std::map<std::string, std::string>& values, NoteSink& notes) : notes_(notes) {
+    Reader(const std::filesystem::path& scene, const std::map<std::string, std::string>& values,
+           NoteSink& notes)
+        : files_(scene), notes_(notes) {
         for (const auto& [name, value] : values) {
             definitions_.emplace(name, Definition{value});
         }
@@ -56,6 +58,7 @@ class Reader {
         check_definitions(path);
         for (const auto& object : document_.objects) {
             resolve(*object);
+            find_file(*object);
         }
         // Nested objects stand behind their owners.
         for (auto object = document_.objects.rbegin(); object != document_.objects.rend(); ++object) {
@@ -113,7 +116,9 @@ class Reader {
             definitions_.emplace(element.required("name"), Definition{element.required("value")})
                 .first->second.is_used = true;
         } else if (tag == "include") {
-            include(resolve_path(*element.where.file, element.required("filename")), element, parent, depth);
+            include(files_.find(element.required("filename"), element.where), element, parent, depth);
+        } else if (tag == "path") {
+            add_folder(element, parent);
         } else if (tag == "alias") {
             add_alias(element);
         } else if (tag == "ref") {
@@ -145,6 +150,13 @@ class Reader {
         } else {
             read_child(file, {file.root(), file.location(file.root()), definitions_}, parent, depth + 1);
         }
+    }
+
+    void add_folder(const Element& element, const Object& parent) {
+        if (parent.tag != "scene") {
+            fail(element.where, "<path> should stand directly in <scene>");
+        }
+        files_.add_folder(element.required("value"), element.where);
     }
 
     void add_alias(const Element& element) {
@@ -182,7 +194,7 @@ class Reader {
 
     Color read_spectrum_value(const Element& element) {
         if (element.has("filename")) {
-            return read_spectrum(resolve_path(*element.where.file, element.text("filename")), element.where);
+            return read_spectrum(files_.find(element.text("filename"), element.where), element.where);
         }
         const std::string text = element.required("value");
         // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB.
@@ -202,6 +214,16 @@ class Reader {
                 fail(child.where, "nothing has the id '" + child.reference + "'");
             }
             child.object = found->second;
+        }
+    }
+
+    /// Replaces the name of the object's file by its path. A <path> counts for the whole scene, wherever it
+    /// stands.
+    void find_file(Object& object) const {
+        if (const auto found = object.properties.find("filename"); found != object.properties.end()) {
+            if (auto* name = std::get_if<std::string>(&found->second.value)) {
+                *name = files_.find(*name, found->second.where).string();
+            }
         }
     }
 
@@ -251,6 +273,7 @@ class Reader {
         }
     }
 
+    FileSearch files_;
     Definitions definitions_;
     NoteSink& notes_;
     Document document_;
@@ -261,7 +284,7 @@ class Reader {
 
 Document read_xml(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                   NoteSink& notes) {
-    return Reader(definitions, notes).read_scene(file);
+    return Reader(file, definitions, notes).read_scene(file);
 }
 
 }  // namespace nearlight::core::mitsuba

@@ -48,6 +48,7 @@ def _areas():
     return {
         'area-rectangle': _lit(lamp()),
         'area-rectangle-near': _lit(rectangle(area(4), diffuse(0), at=(0.3, 1.3, 0.2), size=0.6, turned=DOWN)),
+        'area-by-reference': _lit(with_id('lamp', area(14)), shape('rectangle', ref('lamp'), diffuse(0), **above)),
         'area-disk': _lit(shape('disk', area(14), **above)),
         'area-sphere': _lit(sphere(area(5), at=(1, 2.4, 1), radius=0.4)),
         'area-sphere-in-view': _lit(sphere(area(3), at=(0.8, 0.8, 0.8), radius=0.25)),
