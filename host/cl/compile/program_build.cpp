@@ -189,8 +189,9 @@ std::filesystem::path shared_folder(const ProgramRequest& request) {
 
 /// Throws Error if the driver has left kernels empty. Their program must not be kept, because a binary of it
 /// has them too.
-void require_whole_kernels(const ProgramRequest& request) {
-    if (request.entry.kind == DeviceKind::cpu && remove_empty_kernels() > 0) {
+void require_whole_kernels(const ProgramRequest& request, const ProgramBinary& binary) {
+    // Another process may have removed the empty files already.
+    if (request.entry.kind == DeviceKind::cpu && (remove_empty_kernels() > 0 || lacks_a_kernel(binary))) {
         throw Error(ErrorKind::failure,
                     "kernels/" + request.file + " was not finished by driver " + request.entry.driver +
                         ", for lack of memory, of processes (ulimit -u) or of open files (ulimit -n); free "
@@ -213,7 +214,7 @@ cl::Program find_or_compile(const ProgramRequest& request, CompileContexts& cont
     if (!compiled) {
         compiled = compile_here(request, contexts);
     }
-    require_whole_kernels(request);
+    require_whole_kernels(request, compiled->binary);
     if (!compiled->binary.empty()) {
         cache.store(key, compiled->binary);
     }

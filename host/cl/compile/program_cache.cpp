@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cl/compile/program_cache.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include "host/base/atomic_file.h"
@@ -18,6 +20,25 @@ std::string header_of(const std::string& key, const std::string& binary) {
 }
 
 }  // namespace
+
+bool lacks_a_kernel(std::span<const unsigned char> binary) {
+    // The machine code of a kernel is a file in PoCL's program: "/NAME/0-0-0/NAME.so", its size in 4 bytes
+    // and its content.
+    using namespace std::string_view_literals;
+    constexpr std::string_view kEmptyFile = ".so\0\0\0\0"sv;
+    const std::string_view text(reinterpret_cast<const char*>(binary.data()), binary.size());
+    for (std::size_t end = text.find(kEmptyFile); end != text.npos; end = text.find(kEmptyFile, end + 1)) {
+        const std::string_view before = text.substr(0, end);
+        const std::string_view name = before.substr(before.rfind('/') + 1);
+        const std::string folder = "/" + std::string(name) + "/";
+        constexpr std::size_t kMaxSizes = 32;  // characters of the local size
+        const std::size_t near = end - std::min(end, 2 * name.size() + folder.size() + kMaxSizes);
+        if (!name.empty() && before.substr(near).find(folder) != before.npos) {
+            return true;
+        }
+    }
+    return false;
+}
 
 ProgramCache::ProgramCache(std::filesystem::path dir) : dir_(std::move(dir)) {
     if (dir_ == "none") {
@@ -45,7 +66,8 @@ std::optional<std::vector<unsigned char>> ProgramCache::find(const std::string& 
     if (text.compare(0, header_size, header_of(key, binary)) != 0) {
         return std::nullopt;
     }
-    return std::vector<unsigned char>(binary.begin(), binary.end());
+    std::vector<unsigned char> kept(binary.begin(), binary.end());
+    return lacks_a_kernel(kept) ? std::nullopt : std::optional(std::move(kept));
 }
 
 void ProgramCache::store(const std::string& key, const std::vector<unsigned char>& binary) const {

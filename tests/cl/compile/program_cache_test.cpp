@@ -63,6 +63,24 @@ TEST(ProgramCache, DamagedAndTruncatedFilesAreRefused) {
     }
 }
 
+std::vector<unsigned char> bytes_of(std::string_view text) {
+    return {text.begin(), text.end()};
+}
+
+TEST(ProgramCache, ProgramsOfPoclThatLackAKernelAreRefused) {
+    using namespace std::string_view_literals;
+    const TemporaryFolder folder;
+    const ProgramCache cache(folder.path());
+    const std::vector<unsigned char> empty = bytes_of("poclbin\x16\0\0\0/add/0-0-0/add.so\0\0\0\0more"sv);
+    EXPECT_TRUE(lacks_a_kernel(empty));
+    cache.store("key", empty);
+    EXPECT_EQ(cache.find("key"), std::nullopt);
+    for (const std::string_view whole : {"/add/0-0-0/add.so\x03\0\0\0ELF"sv, "/add/0-0-0/sub.so\0\0\0\0"sv,
+                                         ".so\0\0\0\0"sv, "/add/0-0-0/add.so"sv, ""sv}) {
+        EXPECT_FALSE(lacks_a_kernel(bytes_of(whole))) << whole;
+    }
+}
+
 TEST(ProgramCache, WithoutAFolderItKeepsNothing) {
     for (const char* dir : {"", "none"}) {
         const ProgramCache cache{dir};
