@@ -99,6 +99,12 @@ TEST_F(Agreement, LocalWithoutClamp) {
     on_each_device(
         [](Device& d) { test::expect_agreement(d, room_with_point_light(), SamplerKind::local, 0.0f); });
 }
+/// With a single bounce, each local light is lit by lamps alone.
+TEST_F(Agreement, LocalWithoutClampAtThreeEdges) {
+    on_each_device([](Device& d) {
+        test::expect_agreement(d, room_with_point_light(), SamplerKind::local, 0.0f, false, 3);
+    });
+}
 
 }  // namespace
 }  // namespace nearlight::core
