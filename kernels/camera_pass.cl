@@ -17,7 +17,9 @@
 #include "lib/vpl.cl"
 #include "shared/packet_order.h"
 
-#define MAX_CHAIN 24
+#define MAX_CHAIN 255      // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
+#define SURE_SURFACES 16   // after which chance ends paths
+#define SURE_WEIGHT 0.02f  // of a path, below which chance ends it sooner
 #define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
 
 typedef struct CameraPath {
@@ -63,6 +65,7 @@ typedef struct SurfaceNumbers {
     float lobe;   // within S
     float2 direction;
     uint light_seed;
+    float end;  // whether the path ends by chance
 } SurfaceNumbers;
 
 inline SurfaceNumbers surface_numbers(uint key, uint step) {
@@ -73,6 +76,7 @@ inline SurfaceNumbers surface_numbers(uint key, uint step) {
     numbers.lobe = to_unit_float(random.y);
     numbers.direction = sample_2d(0, 2 * step + 1, key);
     numbers.light_seed = random.z;
+    numbers.end = to_unit_float(random.w);
     return numbers;
 }
 
@@ -147,6 +151,17 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
         quota.rays = light_ray_count(scene, path, surface, quota.rays);
     }
     return follow_specular(scene, path, hit, surface, branch, quota, numbers);
+}
+
+/// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths
+/// over tens of surfaces show. Returns false where the path ends.
+inline bool goes_on(CameraPath* path, uint step, float u) {
+    if (step < SURE_SURFACES) {
+        return true;
+    }
+    const float survival = fmin(0.95f, max_component(path->ray.throughput) / SURE_WEIGHT);
+    path->ray.throughput /= survival;
+    return u < survival;
 }
 
 /// Where a camera path ends, and what it saw on the way.
@@ -291,7 +306,7 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
         } else if (way == WAY_RECEIVER) {
             set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
         }
-        if (way != WAY_ON) {
+        if (way != WAY_ON || !goes_on(path, step, numbers.end)) {
             break;
         }
         // A pane that does not turn the path hides no less than air does, as in Mitsuba.

@@ -88,7 +88,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
     command
         .add_option(
             "--max-depth", settings.view.max_depth,
-            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's, or 8)")
+            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
     command

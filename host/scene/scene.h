@@ -17,6 +17,10 @@
 
 namespace nearlight::core {
 
+/// The maximum length of light paths where a file sets no limit, in Mitsuba's count. Less than a hundredth of
+/// the light is left after so many surfaces, even within a diamond.
+inline constexpr int kUnlimitedPathDepth = 256;
+
 /// Something that the loader could not represent exactly, or that the user should know.
 struct Note {
     std::filesystem::path file;
@@ -142,7 +146,7 @@ struct Scene {
     /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights
     /// pass too (docs/method.md, "Clear glass").
     bool clear_glass = false;
-    int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: the file does not say
+    int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: no limit
     int samples_per_pixel = 0;  ///< 0: the file does not say
     /// The file's light has no scale of its own, so that pictures for screens choose their exposure.
     bool has_open_exposure = false;

@@ -158,13 +158,13 @@ TEST_F(ComparisonTest, TakesAReferenceThatFitsAndRefusesOthers) {
             const Image image = trace_paths(scene, {.width = width,
                                                     .height = 12,
                                                     .spp = 16,
-                                                    .max_depth = 8,
+                                                    .max_depth = kUnlimitedPathDepth,
                                                     .clamp_radius = 0.1f,
                                                     .pixel_centers = true});
             write_image(file, image,
                         {.metadata = {{"nearlight:sceneHash", hex_digits(hash)},
                                       {"nearlight:clampRadius", 0.1f},
-                                      {"nearlight:maxDepth", 8},
+                                      {"nearlight:maxDepth", kUnlimitedPathDepth},
                                       {"nearlight:samplesPerPixel", 16},
                                       {"nearlight:pixelCenters", 1},
                                       {"nearlight:complete", 1}}});

@@ -115,7 +115,7 @@ TEST_F(LibrarySession, DecidesWhatTheSettingsLeaveOpen) {
     const View view = session().look({.height = 48});
     EXPECT_EQ(view.width(), 64);
     EXPECT_EQ(view.height(), 48);
-    EXPECT_EQ(view.max_depth(), 8u);
+    EXPECT_EQ(view.max_depth(), 256u);
     EXPECT_GT(view.range(), 1.0f);
     EXPECT_FLOAT_EQ(view.clamp_radius(), view.range() / 20);
     EXPECT_EQ(session().look({.range = 0.5f, .clamp_radius = 0.2f}).clamp_radius(), 0.2f);

@@ -141,7 +141,7 @@ TEST(MitsubaSensor, LooksAlongPlusZWithPlusXToTheLeft) {
     expect_near(transform_vector(scene.camera.to_world, {0, 0, 1}), {0, 0, -1});
     expect_near(transform_vector(scene.camera.to_world, {1, 0, 0}), {-1, 0, 0});
     EXPECT_EQ(scene.samples_per_pixel, 9);
-    EXPECT_EQ(scene.max_depth, 64);
+    EXPECT_EQ(scene.max_depth, kUnlimitedPathDepth);
 }
 
 TEST(MitsubaEmitter, AnAreaLightMayStandBesideItsShape) {

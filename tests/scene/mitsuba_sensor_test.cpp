@@ -137,7 +137,7 @@ TEST(MitsubaIntegrator, NamesDecideTheDepth) {
     EXPECT_EQ(load("direct").max_depth, 2);
     EXPECT_EQ(load("path", whole("max_depth", 1)).max_depth, 1);
     EXPECT_EQ(load("bdpt", whole("maxDepth", 5)).max_depth, 5);
-    EXPECT_EQ(load("volpathmis").max_depth, 64);
+    EXPECT_EQ(load("volpathmis").max_depth, kUnlimitedPathDepth);
     EXPECT_EQ(load("aov", "<integrator type='direct'/>").max_depth, 2);
     EXPECT_TRUE(load("path", "<boolean name='hideEmitters' value='true'/>").camera.hide_emitters);
     EXPECT_FALSE(load("path").camera.hide_emitters);

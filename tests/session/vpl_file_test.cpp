@@ -93,7 +93,8 @@ TEST_F(VplFiles, AreForTheirSceneDepthAndSinglePassOnly) {
         save(session, few_vpls());
         RenderSettings settings = with_file(few_vpls());
         settings.view.max_depth = 3;
-        expect_error([&] { render_image(session, settings); }, ErrorKind::file, "give --max-depth 8");
+        expect_error([&] { render_image(session, settings); }, ErrorKind::file,
+                     "give --max-depth " + std::to_string(kUnlimitedPathDepth));
         settings = with_file(few_vpls());
         settings.passes = 2;
         expect_error([&] { render_image(session, settings); }, ErrorKind::invalid_argument,

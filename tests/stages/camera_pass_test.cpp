@@ -232,6 +232,35 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
     }
 }
 
+/// Sums over all samples of what branches saw of lights.
+double sum_emitted(const GBuffer& found) {
+    double sum = 0;
+    for (const CameraVertex& v : found.vertices) {
+        sum += v.emitted.y;
+    }
+    return sum;
+}
+
+/// Forty reflections between two walls, with chance ending some of the paths.
+TEST_F(CameraPassTest, LongPathsBetweenMirrorsKeepTheirLight) {
+    constexpr uint kReflections = 40;
+    constexpr uint kSamples = 64;
+    Scene scene;
+    const uint mirror = add_two_sided(scene, conductor_material({0, 0, 0}, {1, 1, 1}, {0.99f, 0.99f, 0.99f}));
+    for (const float x : {-1.0f, 1.0f}) {
+        add_quad(scene, {x, -9, -1}, {0, 18, 0}, {0, 0, 2 * kReflections + 1}, mirror);
+    }
+    set_constant_sky(scene, {1, 2, 3});
+    set_camera(scene, {0, 0, 0}, {1, 0, 1}, 0.001);
+    const double radiance = 2 * std::pow(0.99, kReflections);
+    on_each_ray_tree([&](Device& device) {
+        Shooting shooting(device, scene, 8, 8);
+        const double sum = sum_emitted(shooting.shoot_all(kSamples, 1));
+        EXPECT_NEAR(sum / (kSamples * 64), radiance, 0.1 * radiance);
+        EXPECT_EQ(sum_emitted(shooting.shoot({.tile_row_count = 1, .max_depth = kReflections})), 0.0);
+    });
+}
+
 /// One branch chosen at random must have the same expectation as two branches with their weights.
 /// The sums over a picture of what was emitted and of the reflectance of receivers.
 std::pair<double, double> picture_sums(Shooting& shooting, uint samples, uint branches) {

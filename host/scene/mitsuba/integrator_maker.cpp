@@ -8,8 +8,6 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-// The depth for Mitsuba's −1, "no limit". Light that is left after so many bounces cannot be seen.
-constexpr int kUnlimitedDepth = 64;
 constexpr int kDirectDepth = 2;
 
 // Different ways to compute the same picture.
@@ -32,7 +30,7 @@ int path_depth(const Object& integrator) {
         fail(integrator.find("max_depth")->where,
              "'max_depth' should be -1 (unlimited), or 1 (emission only) or greater");
     }
-    return depth < 0.0 ? kUnlimitedDepth : static_cast<int>(depth);
+    return depth < 0.0 ? kUnlimitedPathDepth : static_cast<int>(depth);
 }
 
 void apply_wrapper(const Object& wrapper, Scene& scene, NoteSink& notes) {

@@ -99,6 +99,8 @@ def _scenes():
         'glass-ball-caustic': scene(*stage(sphere(solid, at=(0, 0.8, 0), radius=0.5)), lamp(8, size=0.9), depth=8),
         'glass-ball-in-room': scene(*room(diffuse(0.6), *things[:1], sphere(solid, at=(0, 0.7, -0.5), radius=0.6)),
             depth=8, camera=inside),
+        'diamond-without-limit': scene(*stage(mesh('fine_ball.obj', bsdf('dielectric', int_ior='diamond'),
+            to_world=place((0.9, 0.35, 0.6), (0, 0.7, 0), turn('z', 25)))), lamp(size=0.9), envmap(), depth=-1),
         'water': scene(floor(size=2), wall(), rectangle(bsdf('dielectric', int_ior='water'), at=(0, 0.4, 0), size=2.5,
             turned=UP), box(diffuse(0.7, 0.3, 0.2), at=(0, 0.3, 0), size=0.3), lamp(8, size=0.9), depth=8),
         'alpha-leaf-shadow': scene(*stage(),
