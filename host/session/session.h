@@ -61,6 +61,9 @@ class Session {
     /// only the camera may change meanwhile, which look() asks for.
     Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options = {});
     Session(Device& device, const Scene& scene, const SessionOptions& options = {});
+    Session(std::span<Device* const> devices, const Scene&& scene,
+            const SessionOptions& options = {}) = delete;
+    Session(Device& device, const Scene&& scene, const SessionOptions& options = {}) = delete;
 
     /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
     View look(const ViewSettings& settings, uint seed) { return look(scene_.camera, settings, seed); }

@@ -95,8 +95,9 @@ TEST_F(Furnace, EveryDepthAddsItsPowerOfTheAlbedo) {
 /// What a wide clamp radius takes from the VPLs, rays of receivers bring back, for every sampler.
 TEST_F(Furnace, IndirectLightIsTheSameAtAnyClampRadius) {
     constexpr uint kMaxDepth = 6;
-    on_each_device([](Device& device) {
-        Session session(device, unit_furnace());
+    const Scene scene = unit_furnace();
+    on_each_device([&](Device& device) {
+        Session session(device, scene);
         for (const test::Variant& variant : test::all_variants()) {
             const auto indirect = [&](float clamp_radius, bool compensate) {
                 RenderSettings settings = furnace_settings(variant.sampler, variant.policy, kMaxDepth);
