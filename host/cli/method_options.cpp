@@ -86,9 +86,9 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option(
-            "--max-depth", settings.view.max_depth,
-            "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the scene's)")
+        .add_option("--max-depth", settings.view.max_depth,
+                    "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the "
+                    "scene's, or 256)")
         ->check(CLI::Range(1u, 1024u))
         ->type_name("N");
     command

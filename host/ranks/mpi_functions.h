@@ -10,6 +10,12 @@
 
 namespace nearlight::core {
 
+enum class TransferState {
+    under_way,
+    done,
+    failed,  ///< it will never be whole
+};
+
 /// Only one thread may call the functions, and each process can start MPI once.
 struct MpiFunctions {
     /// Joins the job that the launcher started. Returns why that failed, or an empty text.
@@ -19,8 +25,8 @@ struct MpiFunctions {
     /// Begins to receive the next message if one is on its way, and gives `bytes` its size. They must stay
     /// where they are until it is here. A null pointer if there is none.
     void* (*begin_receive)(int& from, std::vector<std::byte>& bytes);
-    /// Whether a message is sent or received, or never will be. Afterwards `transfer` is no longer valid.
-    bool (*is_done)(void* transfer);
+    /// How far a message is. Once it is no longer under way, `transfer` is no longer valid.
+    TransferState (*state_of)(void* transfer);
     /// Leaves the job. Waits for the other ranks to do so, if `with_others` is set.
     void (*finish)(bool with_others);
 };

@@ -55,19 +55,22 @@ void* begin_receive(int& from, std::vector<std::byte>& bytes) {
     MPI_Get_count(&status, MPI_BYTE, &size);
     bytes.resize(static_cast<std::size_t>(size));
     from = status.MPI_SOURCE;
-    auto* const request = new MPI_Request(MPI_REQUEST_NULL);
-    MPI_Imrecv(bytes.data(), size, MPI_BYTE, &message, request);
-    return request;
+    MPI_Request request = MPI_REQUEST_NULL;
+    if (MPI_Imrecv(bytes.data(), size, MPI_BYTE, &message, &request) != MPI_SUCCESS) {
+        return nullptr;
+    }
+    return new MPI_Request(request);
 }
 
-bool is_done(void* transfer) {
+TransferState state_of(void* transfer) {
     auto* const request = static_cast<MPI_Request*>(transfer);
     int done = 0;
-    if (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0) {
-        return false;
+    const bool failed = MPI_Test(request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS;
+    if (!failed && done == 0) {
+        return TransferState::under_way;
     }
     delete request;
-    return true;
+    return failed ? TransferState::failed : TransferState::done;
 }
 
 void finish(bool with_others) {
@@ -81,4 +84,4 @@ void finish(bool with_others) {
 
 extern "C" __attribute__((visibility("default"))) const nearlight::core::MpiFunctions nearlight_mpi_functions{
     nearlight::core::start, nearlight::core::begin_send, nearlight::core::begin_receive,
-    nearlight::core::is_done, nearlight::core::finish};
+    nearlight::core::state_of, nearlight::core::finish};

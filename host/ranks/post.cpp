@@ -178,7 +178,9 @@ void Post::begin_sending() {
 
 /// Returns whether anything was sent.
 bool Post::end_sending() {
-    return sending_.remove_if([this](const Sending& one) { return mpi_->is_done(one.handle); }) > 0;
+    return sending_.remove_if([this](const Sending& one) {
+        return mpi_->state_of(one.handle) != TransferState::under_way;
+    }) > 0;
 }
 
 void Post::begin_receiving() {
@@ -201,8 +203,12 @@ void Post::begin_receiving() {
 bool Post::end_receiving() {
     std::set<int> late_ranks;
     return receiving_.remove_if([&](Receiving& one) {
-        if (one.handle != nullptr && mpi_->is_done(one.handle)) {
-            one.handle = nullptr;
+        if (one.handle != nullptr) {
+            const TransferState state = mpi_->state_of(one.handle);
+            if (state == TransferState::failed) {
+                return true;
+            }
+            one.handle = state == TransferState::done ? nullptr : one.handle;
         }
         if (one.handle != nullptr || late_ranks.contains(one.from)) {
             late_ranks.insert(one.from);

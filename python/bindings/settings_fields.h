@@ -51,7 +51,7 @@ struct FieldsOf<ViewSettings> {
                    Field{"ray_budget_pilot", &ViewSettings::ray_budget_pilot,
                          "whether a pilot chooses that radius and the number of light samples"},
                    Field{"max_depth", &ViewSettings::max_depth,
-                         "length of the longest light path, 2 is direct light; None: the scene's"}};
+                         "length of the longest light path, 2 is direct light; None: the scene's, or 256"}};
 };
 
 template <>
