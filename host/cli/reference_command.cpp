@@ -237,8 +237,9 @@ void add_reference_command(CommandLine& line) {
     command.add_flag("--pixel-centers", options->pixel_centers,
                      "Send all samples through the centres of pixels, as `nearlight render --spp 1` does");
     command
-        .add_option("--max-depth", options->max_depth,
-                    "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's)")
+        .add_option(
+            "--max-depth", options->max_depth,
+            "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's, or 256)")
         ->check(CLI::NonNegativeNumber);
     add_size_option(command, options->size);
     add_filter_option(command, options->scene.filter);

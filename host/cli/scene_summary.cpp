@@ -127,8 +127,8 @@ std::string text_environment(const EnvironmentLight& environment) {
                : fmt::format("environment of {}x{} pixels", environment.width, environment.height);
 }
 
-std::string text_limit(int value, const char* unknown) {
-    return value > 0 ? std::to_string(value) : std::string(unknown);
+std::string text_samples(int samples_per_pixel) {
+    return samples_per_pixel > 0 ? std::to_string(samples_per_pixel) : "not given";
 }
 
 Json json_lights(const Scene& scene) {
@@ -339,7 +339,7 @@ nlohmann::ordered_json scene_summary_json(const Scene& scene) {
         {"camera", json_camera(scene)},
         {"bounds",
          box.is_empty() ? Json() : Json{{"min", json_vector(box.min)}, {"max", json_vector(box.max)}}},
-        {"max_depth", scene.max_depth > 0 ? Json(scene.max_depth) : Json()},
+        {"max_depth", scene.max_depth},
         {"samples_per_pixel", scene.samples_per_pixel > 0 ? Json(scene.samples_per_pixel) : Json()},
         {"animations", json_animations(scene)},
         {"notes", json_notes(scene)},
@@ -372,8 +372,8 @@ std::string scene_summary_text(const Scene& scene) {
                fmt::format("{}, {}x{}, {}, at {} towards {}", kind_of(scene.camera), scene.camera.width,
                            scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),
                            text_vector(camera_direction(scene)))) +
-           row("film", text_film(scene.camera)) + row("max depth", text_limit(scene.max_depth, "not given")) +
-           row("samples", text_limit(scene.samples_per_pixel, "not given")) + text_animations(scene) +
+           row("film", text_film(scene.camera)) + row("max depth", std::to_string(scene.max_depth)) +
+           row("samples", text_samples(scene.samples_per_pixel)) + text_animations(scene) +
            row("host", text_parts(memory.host)) + row("device", text_parts(memory.device)) +
            row("notes", scene.notes.empty() ? "none" : std::to_string(scene.notes.size()));
 }

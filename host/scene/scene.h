@@ -146,8 +146,8 @@ struct Scene {
     /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights
     /// pass too (docs/method.md, "Clear glass").
     bool clear_glass = false;
-    int max_depth = 0;          ///< Mitsuba's count (2: direct light only); 0: no limit
-    int samples_per_pixel = 0;  ///< 0: the file does not say
+    int max_depth = kUnlimitedPathDepth;  ///< Mitsuba's count (2: direct light only)
+    int samples_per_pixel = 0;            ///< 0: the file does not say
     /// The file's light has no scale of its own, so that pictures for screens choose their exposure.
     bool has_open_exposure = false;
     /// From the first to the last key of the animations that are played; empty if the scene is at rest.

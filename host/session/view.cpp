@@ -33,8 +33,7 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
     view.scene_camera.width = settings.width.value_or(camera.width);
     view.scene_camera.height = settings.height.value_or(camera.height);
     view.camera = make_camera(view.scene_camera, view.scene_camera.width, view.scene_camera.height);
-    view.max_depth = settings.max_depth.value_or(scene.max_depth > 0 ? static_cast<uint>(scene.max_depth)
-                                                                     : uint{kUnlimitedPathDepth});
+    view.max_depth = settings.max_depth.value_or(static_cast<uint>(scene.max_depth));
     view.pilot = look_at_scene(device, camera_pass, device_scene, view.scene_camera, seed);
     const float range =
         settings.range ? *settings.range : automatic_range(view.pilot, device_scene.host_info.extent);

@@ -41,7 +41,7 @@ TEST(SceneSummary, JsonTellsWhatIsThere) {
     EXPECT_EQ(json["bounds"]["max"].dump(), "[2.0,3.0,0.0]");
     EXPECT_EQ(json["camera"]["position"].dump(), "[0.0,0.0,5.0]");
     EXPECT_NEAR(json["camera"]["direction"][2], -1.0, 1e-6);
-    EXPECT_TRUE(json["max_depth"].is_null());
+    EXPECT_EQ(json["max_depth"], kUnlimitedPathDepth);
     EXPECT_EQ(json["notes"][0]["line"], 12);
 }
 
