@@ -159,7 +159,7 @@ inline bool goes_on(CameraPath* path, uint step, float u) {
     if (step < SURE_SURFACES) {
         return true;
     }
-    const float survival = fmin(0.95f, max_component(path->ray.throughput) / SURE_WEIGHT);
+    const float survival = fmin(0.95f, carried_part(&path->ray, (float3)(1.0f)) / SURE_WEIGHT);
     path->ray.throughput /= survival;
     return u < survival;
 }
@@ -202,9 +202,8 @@ inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint s
     CameraPath path;
     path.key = start.key;
     path.sample = sample;
+    path.ray = first_ray(start.ray.direction);
     begin_ray(&path.ray, start.ray.origin, start.ray.direction, 0.0f);
-    path.ray.direction = start.ray.direction;
-    path.ray.throughput = (float3)(1.0f);
     path.mode = BSDF_CAMERA;
     path.t_min = start.ray.t_min;
     path.t_max = start.ray.t_max;

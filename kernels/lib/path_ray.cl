@@ -67,8 +67,18 @@ typedef struct PathRay {
     float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
     float share;    // of the light straight from where it was scattered; rays beside it bring the rest
     float passed;   // distance from scattered_at to the last veil
+    float index;    // refractive index of what it is in ÷ that of where its path began
     uint veils;     // passed since then
 } PathRay;
+
+/// Starts a path that carries all light back along `direction`. Its throughput and pdf are still to be set.
+inline PathRay first_ray(float3 direction) {
+    PathRay ray;
+    ray.direction = direction;
+    ray.throughput = (float3)(1.0f);
+    ray.index = 1.0f;
+    return ray;
+}
 
 /// Sets where the ray was scattered to where it starts.
 inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
@@ -99,11 +109,19 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
     return radiance * (ray->share * ray->pdf / (ray->pdf + of_lights));
 }
 
+/// The largest component of what the ray brings back of power. Refraction scales radiance by the square of
+/// the index, which says nothing about how much of the light comes through: what throughput loses where a
+/// path enters glass it regains where the path leaves.
+inline float carried_part(const PathRay* ray, float3 albedo) {
+    return max_component(ray->throughput * albedo) * ray->index * ray->index;
+}
+
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
 inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
                         const SurfaceBsdf* surface, uint parts, float u, float2 v) {
     const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
     ray->throughput *= sample.weight;
+    ray->index *= surface->unscaled ? 1.0f : sample.eta;
     ray->direction = sample.wi;
     if (sample.is_straight) {
         ray->origin = ray_origin(scene, hit, sample.wi);

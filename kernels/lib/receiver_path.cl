@@ -101,7 +101,7 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
 /// Ends weak paths by chance, before anything is spent on the light that their surface reflects. `albedo` is
 /// about what the surface reflects of all light. Returns false where this path ends.
 inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
-    const float part = max_component(ray->throughput * albedo) / first_weight;
+    const float part = carried_part(ray, albedo) / first_weight;
     const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(0.95f, part);
     if (!(u < survival)) {
         return false;
@@ -276,8 +276,7 @@ inline float remaining_weight(float t, float clamp_radius) {
 /// A cosine-distributed ray of a receiver.
 inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, float rays_per_light_sample,
                             float2 u) {
-    PathRay ray;
-    ray.direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
+    PathRay ray = first_ray(to_world_frame(square_to_cosine_hemisphere(u), at->n));
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
                               receiver_map_factor(at, ray.direction));
