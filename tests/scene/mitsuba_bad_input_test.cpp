@@ -75,6 +75,8 @@ TEST_F(MitsubaBadInput, BadTexelsGetOneWarning) {
     load("normalmap",
          bitmap("normalmap", "below.png", "<boolean name='raw' value='true'/>") + "<bsdf type='diffuse'/>");
     EXPECT_EQ(notes_on_line_2("1 texels of the normal map 'below.png' point below"), 1u);
+    load("normalmap", rgb("normalmap", "0.5, 0.5, 0.1") + "<bsdf type='diffuse'/>");
+    EXPECT_EQ(notes_on_line_2("the normal of the normal map points below"), 1u);
 }
 
 TEST_F(MitsubaBadInput, BadEnvironmentsGetOneWarning) {

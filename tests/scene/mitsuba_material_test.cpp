@@ -167,6 +167,12 @@ TEST_F(MitsubaMaterial, BumpAndNormalMaps) {
                               "<bsdf type='plastic'/>");
     EXPECT_EQ(map.model, NEARLIGHT_BSDF_NORMAL_MAP);
     expect_near(value(map.reflectance), {1, 0.4f, 0.8f});
+    const Material tilted =
+        load("normalmap",
+             "<texture name='normalmap' type='rawconstant'><vector name='value' value='0.3, 0.5, 0.9'/>"
+             "</texture><bsdf type='plastic'/>");
+    EXPECT_EQ(tilted.model, NEARLIGHT_BSDF_NORMAL_MAP);
+    expect_near(value(tilted.reflectance), {0.3f, 0.5f, 0.9f});
     EXPECT_EQ(notes_on_line_2(""), 0u);
 }
 

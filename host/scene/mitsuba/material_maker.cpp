@@ -164,11 +164,7 @@ uint MaterialMaker::make_bump(const Object& bsdf, int depth) {
 }
 
 uint MaterialMaker::make_normal_map(const Object& bsdf, int depth) {
-    const std::vector<const Object*> textures = bsdf.nested("texture");
-    if (textures.size() != 1) {
-        fail(bsdf.where, "'normalmap' needs one nested texture");
-    }
-    const Parameter normals = textures_.normals(*textures.front());
+    const Parameter normals = textures_.normals(bsdf);
     warn_of_fixed_switches(bsdf);
     return add(normal_map_material(normals, make_nested(bsdf, depth)));
 }

@@ -147,9 +147,20 @@ Parameter TextureMaker::height(const Object& texture, float scale) {
     return height;
 }
 
-Parameter TextureMaker::normals(const Object& texture) {
-    const Parameter normals = make(texture, Purpose::normals);
-    warn_of_normals_below(normals, texture.where);
+Parameter TextureMaker::normals(const Object& normal_map) {
+    const std::vector<const Object*> textures = normal_map.nested("texture");
+    const std::optional<Color> everywhere = normal_map.color("normalmap");
+    if (textures.size() + (everywhere ? 1 : 0) != 1) {
+        fail(normal_map.where, "'normalmap' needs one nested texture");
+    }
+    if (everywhere) {
+        if (everywhere->reflectance.z <= 0.5f) {
+            note(notes_, normal_map.where, "the normal of the normal map points below the surface");
+        }
+        return parameter_of(everywhere->reflectance);
+    }
+    const Parameter normals = make(*textures.front(), Purpose::normals);
+    warn_of_normals_below(normals, textures.front()->where);
     return normals;
 }
 

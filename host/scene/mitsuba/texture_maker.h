@@ -34,8 +34,9 @@ class TextureMaker {
     Parameter emission(const Object& owner, const std::string& name, Vec3 fallback);
     /// A texture of heights (bump maps), times `scale`.
     Parameter height(const Object& texture, float scale);
-    /// A texture of normals.
-    Parameter normals(const Object& texture);
+    /// The normals of a `normalmap`: of its only texture, or of a constant called `normalmap`. Calls fail()
+    /// for one that has neither or both.
+    Parameter normals(const Object& normal_map);
     /// A colour called `name` that is not a reflectance; a texture is replaced by its mean, with a note.
     /// `light` says that spectra are those of a light.
     Vec3 color(const Object& owner, const std::string& name, Vec3 fallback, bool light);
