@@ -94,9 +94,10 @@ Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees) {
     if (norm == 0.0) {
         return {};
     }
-    const double x = axis_x / norm;
-    const double y = axis_y / norm;
-    const double z = axis_z / norm;
+    return rodrigues(axis_x / norm, axis_y / norm, axis_z / norm, degrees);
+}
+
+Mat4 rodrigues(double x, double y, double z, double degrees) {
     const double c = std::cos(degrees * std::numbers::pi / 180.0);
     const double s = std::sin(degrees * std::numbers::pi / 180.0);
     const double t = 1.0 - c;

@@ -141,6 +141,8 @@ Vec3 transform_vector(const Mat4& a, Vec3 v);
 Vec3 transform_normal_by_inverse(const Mat4& inverse, Vec3 n);
 Mat4 translation(double x, double y, double z);
 Mat4 scaling(double x, double y, double z);
+/// Rodrigues' formula with the axis as it is: a rotation if its length is 1, otherwise also a stretch.
+Mat4 rodrigues(double x, double y, double z, double degrees);
 /// Rotation about an axis of any length, counter-clockwise when the axis points at the viewer.
 Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees);
 /// The transform from camera to world, with +Z towards the target, +Y up and +X to the left, as in Mitsuba.

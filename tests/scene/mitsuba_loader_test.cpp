@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expected values come from Mitsuba 3.9.1 (ray_intersect, sample_ray, eval) unless they are plain arithmetic.
+#include <cmath>
 #include <numbers>
 
 #include "host/image/image_io.h"
@@ -65,6 +66,37 @@ TEST(MitsubaEmitter, AreaPointSpotConstantEnvmap) {
     EXPECT_EQ(scene.environment.width, 4);
     expect_near(scene.environment.radiance[1], {6, 0, 0});
     expect_near(transform_vector(scene.environment.to_world, {0, 0, 1}), {1, 0, 0});
+}
+
+/// Mitsuba 0.5 and 0.6 make the axis one of length 1, Mitsuba 3 does not: its matrix of this element is
+/// (0.9659, −0.2588, 0.2588; 0.2588, 1, 0.0341; −0.2588, 0.0341, 1).
+TEST(MitsubaTransform, RotatesAboutAnAxisAsItsVersionDoes) {
+    const SceneFiles files;
+    const auto corner_of = [&](const std::string& version, const std::string& rotate) {
+        const Scene scene = load_scene(files.write(
+            "scene.xml", "<scene version='" + version + "'>" +
+                             shape("rectangle", to_world("<translate x='1' y='1'/>" + rotate)) + "</scene>"));
+        Vec3 max = scene.vertices.at(0).position;
+        for (const Vertex& vertex : scene.vertices) {
+            max = vertex.position.x > max.x || (vertex.position.x == max.x && vertex.position.y > max.y)
+                      ? vertex.position
+                      : max;
+        }
+        return max;
+    };
+    const std::string unit = "<rotate z='1' angle='15'/>";
+    const std::string longer = "<rotate x='0' y='1' z='1' angle='15'/>";
+    const double c = std::cos(std::numbers::pi / 12);
+    const double s = std::sin(std::numbers::pi / 12);
+    for (const char* version : {"0.5.0", "0.6.0", "2.0.0", "3.0.0"}) {
+        const Vec3 turned = corner_of(version, unit);  // the corner (2, 0)
+        expect_near(turned, {static_cast<float>(2 * c), static_cast<float>(2 * s), 0});
+    }
+    for (const char* version : {"2.0.0", "3.0.0"}) {
+        expect_near(corner_of(version, longer), {2 * 0.965926f, 2 * 0.258819f, 2 * -0.258819f});
+    }
+    const auto r = static_cast<float>(s * std::sqrt(0.5));  // of a unit axis
+    expect_near(corner_of("0.6.0", longer), {static_cast<float>(2 * c), 2 * r, -2 * r});
 }
 
 TEST(MitsubaEmitter, SpotTextureProjectorAndDirectional) {

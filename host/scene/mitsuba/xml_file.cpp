@@ -115,6 +115,18 @@ Mat4 read_lookat(const Element& element) {
     return look_at(origin, target, up);
 }
 
+// Mitsuba 0.5 and 0.6 turn about an axis of any length. Mitsuba 2 and 3 put it into Rodrigues' formula as it
+// stands, so that the same element also stretches if the axis is not of length 1.
+Mat4 read_rotation(const Element& element) {
+    const Triple axis = element.triple("value", 0.0, false);
+    if (axis == Triple{0, 0, 0}) {
+        fail(element.where, "rotate needs an axis that is not zero");
+    }
+    const double angle = element.number("angle", 0.0);
+    const bool is_old = element.node.root().child("scene").attribute("version").as_int(3) == 0;
+    return is_old ? rotation(axis[0], axis[1], axis[2], angle) : rodrigues(axis[0], axis[1], axis[2], angle);
+}
+
 Mat4 read_operation(const Element& element) {
     const std::string name = element.node.name();
     if (name == "matrix") {
@@ -132,11 +144,7 @@ Mat4 read_operation(const Element& element) {
         return scaling(s[0], s[1], s[2]);
     }
     if (name == "rotate") {
-        const Triple axis = element.triple("value", 0.0, false);
-        if (axis == Triple{0, 0, 0}) {
-            fail(element.where, "rotate needs an axis that is not zero");
-        }
-        return rotation(axis[0], axis[1], axis[2], element.number("angle", 0.0));
+        return read_rotation(element);
     }
     fail(element.where,
          "unknown transform <" + name + ">; known ones are matrix, lookat, translate, rotate, scale");
