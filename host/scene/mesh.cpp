@@ -127,9 +127,81 @@ class ObjectCopier {
     std::size_t next_ = 0;
 };
 
+/// The values at the corners of the triangles, one after another; none if there are no values.
+template <typename T>
+std::vector<T> at_corners(std::span<const T> values, std::span<const Indices> triangles) {
+    std::vector<T> corners;
+    if (!values.empty()) {
+        corners.reserve(3 * triangles.size());
+        for (const Indices& triangle : triangles) {
+            for (const uint vertex : triangle) {
+                corners.push_back(values[vertex]);
+            }
+        }
+    }
+    return corners;
+}
+
+/// A mesh in the scene's coordinates.
+struct PlacedMesh {
+    Mesh mesh;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  ///< empty for flat facets
+};
+
+/// The mesh with vertices of its own for each triangle, which have the colour of the face. Normals remain
+/// those of the mesh whose triangles share vertices.
+PlacedMesh split_faces(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Vec3> normals) {
+    const auto corners = [&](const auto& values) { return at_corners(std::span(values), mesh.triangles); };
+    PlacedMesh split{.mesh = {}, .positions = corners(positions), .normals = corners(normals)};
+    split.mesh.source = mesh.source;
+    split.mesh.positions = corners(mesh.positions);
+    split.mesh.normals = corners(mesh.normals);
+    split.mesh.uvs = corners(mesh.uvs);
+    split.mesh.second_uvs = corners(mesh.second_uvs);
+    split.mesh.object_names = mesh.object_names;
+    split.mesh.objects = mesh.objects;
+    split.mesh.groups = mesh.groups;
+    for (uint i = 0; i < mesh.triangles.size(); ++i) {
+        split.mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        split.mesh.colors.insert(split.mesh.colors.end(), 3, mesh.face_colors[i]);
+    }
+    return split;
+}
+
 bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
     const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
     return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
+}
+
+void append_placed(Scene& scene, const Mesh& mesh, std::span<const Vec3> positions,
+                   std::span<const Vec3> normals, const MeshPlacement& placement, NoteSink& notes) {
+    const bool own_normals = !placement.face_normals && !mesh.normals.empty();
+    const auto first = static_cast<uint>(scene.vertices.size());
+    append_vertices(scene, mesh, positions, normals, placement.flip_normals);
+    append_colors(scene, mesh);
+    append_second_uvs(scene, mesh);
+
+    ObjectCopier objects(scene, mesh);
+    std::size_t dropped = 0;
+    make_room(scene.triangles, mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        objects.reach(i);
+        Indices t = mesh.triangles[i];
+        if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) {
+            ++dropped;
+            continue;
+        }
+        if ((own_normals && winds_against(t, positions, normals)) != placement.flip_normals) {
+            std::swap(t[1], t[2]);
+        }
+        const uint material = placement.materials[mesh.groups.empty() ? 0 : mesh.groups[i]];
+        scene.triangles.push_back({first + t[0], first + t[1], first + t[2], material});
+    }
+    if (dropped > 0) {
+        notes.approximation(mesh.source, 0,
+                            std::to_string(dropped) + " triangles with NaN or infinite corners are left out");
+    }
 }
 
 }  // namespace
@@ -164,6 +236,9 @@ void check_mesh(const Mesh& mesh) {
         (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())) {
         fail("the numbers of normals, colours or texture coordinates differ from the number of vertices");
     }
+    if (!mesh.face_colors.empty() && mesh.face_colors.size() != mesh.triangles.size()) {
+        fail("the number of faces' colours differs from the number of triangles");
+    }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (const uint index : mesh.triangles[i]) {
             if (index >= mesh.positions.size()) {
@@ -183,32 +258,12 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
         positions.push_back(transform_point(placement.to_world, p));
     }
     const std::vector<Vec3> normals = world_normals(mesh, placement, positions);
-    const bool own_normals = !placement.face_normals && !mesh.normals.empty();
-    const auto first = static_cast<uint>(scene.vertices.size());
-    append_vertices(scene, mesh, positions, normals, placement.flip_normals);
-    append_colors(scene, mesh);
-    append_second_uvs(scene, mesh);
-
-    ObjectCopier objects(scene, mesh);
-    std::size_t dropped = 0;
-    make_room(scene.triangles, mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        objects.reach(i);
-        Indices t = mesh.triangles[i];
-        if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) {
-            ++dropped;
-            continue;
-        }
-        if ((own_normals && winds_against(t, positions, normals)) != placement.flip_normals) {
-            std::swap(t[1], t[2]);
-        }
-        const uint material = placement.materials[mesh.groups.empty() ? 0 : mesh.groups[i]];
-        scene.triangles.push_back({first + t[0], first + t[1], first + t[2], material});
+    if (mesh.face_colors.empty()) {
+        append_placed(scene, mesh, positions, normals, placement, notes);
+        return;
     }
-    if (dropped > 0) {
-        notes.approximation(mesh.source, 0,
-                            std::to_string(dropped) + " triangles with NaN or infinite corners are left out");
-    }
+    const PlacedMesh split = split_faces(mesh, positions, normals);
+    append_placed(scene, split.mesh, split.positions, split.normals, placement, notes);
 }
 
 }  // namespace nearlight::core

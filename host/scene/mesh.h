@@ -26,7 +26,8 @@ struct Mesh {
     std::vector<std::array<float, 2>> second_uvs;  ///< for Scene::second_uvs; one a position, or empty
     std::vector<Vec3> colors;                      ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
-    bool face_normals = false;              ///< the file asks for flat facets
+    std::vector<Vec3> face_colors;  ///< linear sRGB, one a triangle, or empty; then `colors` do not count
+    bool face_normals = false;      ///< the file asks for flat facets
     std::vector<std::string> object_names;  ///< of the objects that the file says the mesh consists of
     std::vector<ObjectRun> objects;         ///< in the order of triangles; empty: the mesh is one object
     std::vector<uint> groups;  ///< one a triangle: index into MeshPlacement::materials; empty: all 0
@@ -43,7 +44,8 @@ struct MeshPlacement {
 /// the front of a triangle is the side of its vertex normals if the mesh has any, otherwise the side from
 /// which the transformed corners run counter-clockwise, even if the transform mirrors. Triangles with a NaN
 /// or infinite corner are left out, with a note. Colours of vertices are kept; vertices without one get
-/// kNoColor, which finish_vertex_colors() replaces. Objects that the mesh has begin in the scene. Throws
+/// kNoColor, which finish_vertex_colors() replaces; with colours of faces each triangle gets vertices of its
+/// own. Objects that the mesh has begin in the scene. Throws
 /// Error(ErrorKind::file) for an index out of range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/ply_loader.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string_view>
@@ -13,12 +14,11 @@
 namespace nearlight::core {
 namespace {
 
-// The slot of a property, in the order x y z nx ny nz u v r g b; −1 if it is skipped.
+// The slot of a property, in the order x y z nx ny nz u v; −1 if it is none of them.
 int vertex_slot(std::string_view name) {
     constexpr std::pair<std::string_view, int> kSlots[] = {
-        {"x", 0}, {"y", 1}, {"z", 2},  {"nx", 3},  {"ny", 4},        {"nz", 5},
-        {"u", 6}, {"v", 7}, {"s", 6},  {"t", 7},   {"texture_u", 6}, {"texture_v", 7},
-        {"r", 8}, {"g", 9}, {"b", 10}, {"red", 8}, {"green", 9},     {"blue", 10}};
+        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
+        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
     for (const auto& [known, slot] : kSlots) {
         if (known == name) {
             return slot;
@@ -27,35 +27,97 @@ int vertex_slot(std::string_view name) {
     return -1;
 }
 
-void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
-    std::vector<int> slots;
-    std::array<bool, 11> present{};
-    for (const PlyProperty& property : element.properties) {
-        slots.push_back(property.is_list ? -1 : vertex_slot(property.name));
-        if (slots.back() >= 0) {
-            present[static_cast<std::size_t>(slots.back())] = true;
+/// The slots of an attribute's channels.
+constexpr int kFirstChannel = 8;
+constexpr std::size_t kSlotCount = 11;
+/// A number for each slot, in the order of vertex_slot() and then the attribute's channels.
+using Row = std::array<float, kSlotCount>;
+
+/// Where the rows of a table keep what is asked for.
+struct Columns {
+    std::vector<int> slots;  ///< of each property; −1 if it is skipped
+    std::array<bool, kSlotCount> present{};
+    int channels = 0;  ///< of the attribute: 0, 1 or 3
+};
+
+bool is_color(std::string_view name) {
+    return name == "r" || name == "g" || name == "b" || name == "red" || name == "green" || name == "blue";
+}
+
+bool is_channel(std::string_view name, std::string_view attribute) {
+    return name.size() == attribute.size() + 2 && name.starts_with(attribute) &&
+           name[attribute.size()] == '_' &&
+           std::string_view("xyzwrgba01234").find(name.back()) != std::string_view::npos;
+}
+
+/// The columns of the attribute's channels, in their order in the file. `r`, `g` and `b` come before all
+/// others that a colour could be.
+std::vector<std::size_t> attribute_columns(const PlyElement& element, std::string_view attribute) {
+    std::vector<std::size_t> colors;
+    std::vector<std::size_t> channels;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (!property.is_list && attribute == "color" && is_color(property.name)) {
+            colors.push_back(i);
+        } else if (!property.is_list && is_channel(property.name, attribute)) {
+            channels.push_back(i);
         }
     }
+    std::vector<std::size_t>& found = colors.size() == 3 ? colors : channels;
+    found.resize(found.size() >= 3 ? 3 : found.size() == 1 ? 1 : 0);
+    return found;
+}
+
+Columns columns_of(const PlyElement& element, std::string_view attribute) {
+    Columns columns;
+    for (const PlyProperty& property : element.properties) {
+        columns.slots.push_back(property.is_list ? -1 : vertex_slot(property.name));
+    }
+    for (const std::size_t column : attribute_columns(element, attribute)) {
+        columns.slots[column] = kFirstChannel + columns.channels++;
+    }
+    for (const int slot : columns.slots) {
+        if (slot >= 0) {
+            columns.present[static_cast<std::size_t>(slot)] = true;
+        }
+    }
+    return columns;
+}
+
+Row read_row(PlyReader& reader, const PlyElement& element, const Columns& columns) {
+    Row row{};
+    for (std::size_t i = 0; i < columns.slots.size(); ++i) {
+        if (columns.slots[i] < 0) {
+            reader.skip(element.properties[i]);
+        } else {
+            row[static_cast<std::size_t>(columns.slots[i])] =
+                static_cast<float>(reader.read(element.properties[i].type));
+        }
+    }
+    return row;
+}
+
+Vec3 attribute_value(const Row& row, int channels) {
+    const float first = row[kFirstChannel];
+    return channels == 1 ? Vec3{first, first, first}
+                         : Vec3{first, row[kFirstChannel + 1], row[kFirstChannel + 2]};
+}
+
+void read_vertices(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
+    const Columns columns = columns_of(element, attribute);
+    const auto& present = columns.present;
     if (!present[0] || !present[1] || !present[2]) {
         fail_ply(mesh.source, "PLY vertices need x, y and z");
     }
     const bool has_normals = present[3] && present[4] && present[5];
     const bool has_uvs = present[6] && present[7];
-    const bool has_colors = present[8] && present[9] && present[10];
+    const bool has_colors = columns.channels > 0;
     mesh.positions.reserve(element.count);
     mesh.normals.reserve(has_normals ? element.count : 0);
     mesh.uvs.reserve(has_uvs ? element.count : 0);
     mesh.colors.reserve(has_colors ? element.count : 0);
     for (std::size_t i = 0; i < element.count; ++i) {
-        std::array<float, 11> values{};
-        for (std::size_t p = 0; p < slots.size(); ++p) {
-            if (slots[p] < 0) {
-                reader.skip(element.properties[p]);
-            } else {
-                values[static_cast<std::size_t>(slots[p])] =
-                    static_cast<float>(reader.read(element.properties[p].type));
-            }
-        }
+        const Row values = read_row(reader, element, columns);
         mesh.positions.push_back({values[0], values[1], values[2]});
         if (has_normals) {
             mesh.normals.push_back({values[3], values[4], values[5]});
@@ -64,7 +126,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
             mesh.uvs.push_back({values[6], values[7]});
         }
         if (has_colors) {
-            mesh.colors.push_back({values[8], values[9], values[10]});
+            mesh.colors.push_back(attribute_value(values, columns.channels));
         }
     }
 }
@@ -79,33 +141,54 @@ uint read_index(PlyReader& reader, PlyScalar type, const Mesh& mesh) {
     return static_cast<uint>(index);
 }
 
-void read_faces(PlyReader& reader, const PlyElement& element, Mesh& mesh) {
+/// Reads the list of a face's vertices and adds the face as a fan.
+void read_fan(PlyReader& reader, const PlyProperty& property, Mesh& mesh) {
+    const double count = reader.read(property.count_type);
+    std::array<uint, 3> fan{};
+    for (int corner = 0; corner < count; ++corner) {
+        const uint index = read_index(reader, property.type, mesh);
+        if (corner < 2) {
+            fan[static_cast<std::size_t>(corner)] = index;
+            continue;
+        }
+        fan[2] = index;
+        mesh.triangles.push_back(fan);
+        fan[1] = index;
+    }
+}
+
+void read_faces(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
+    const std::vector<std::size_t> channels = attribute_columns(element, attribute);
     mesh.triangles.reserve(element.count);
+    mesh.face_colors.reserve(channels.empty() ? 0 : element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
-        for (const PlyProperty& property : element.properties) {
-            if (!property.is_list || (property.name != "vertex_indices" && property.name != "vertex_index")) {
+        Row row{};
+        int channel = kFirstChannel;
+        for (std::size_t p = 0; p < element.properties.size(); ++p) {
+            const PlyProperty& property = element.properties[p];
+            if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
+                read_fan(reader, property, mesh);
+            } else if (std::ranges::find(channels, p) != channels.end()) {
+                row[static_cast<std::size_t>(channel++)] = static_cast<float>(reader.read(property.type));
+            } else {
                 reader.skip(property);
-                continue;
             }
-            const double count = reader.read(property.count_type);
-            std::array<uint, 3> fan{};
-            for (int corner = 0; corner < count; ++corner) {
-                const uint index = read_index(reader, property.type, mesh);
-                if (corner < 2) {
-                    fan[static_cast<std::size_t>(corner)] = index;
-                    continue;
-                }
-                fan[2] = index;
-                mesh.triangles.push_back(fan);
-                fan[1] = index;
-            }
+        }
+        if (!channels.empty()) {
+            mesh.face_colors.resize(mesh.triangles.size(),
+                                    attribute_value(row, static_cast<int>(channels.size())));
         }
     }
 }
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& file) {
+Mesh read_ply(const std::filesystem::path& file, std::string_view attribute) {
+    const auto name_after = [attribute](std::string_view kind) {
+        return attribute.starts_with(kind) ? attribute.substr(kind.size()) : std::string_view();
+    };
+    const std::string_view of_vertices = name_after("vertex_");
+    const std::string_view of_faces = name_after("face_");
     const std::string text = read_file_text(file);
     const PlyHeader header = parse_ply_header(file, text);
     PlyReader reader(file, std::string_view(text).substr(header.size), header.format);
@@ -114,9 +197,9 @@ Mesh read_ply(const std::filesystem::path& file) {
     for (const PlyElement& element : header.elements) {
         reader.check_size_of(element);
         if (element.name == "vertex") {
-            read_vertices(reader, element, mesh);
+            read_vertices(reader, element, of_vertices, mesh);
         } else if (element.name == "face") {
-            read_faces(reader, element, mesh);
+            read_faces(reader, element, of_faces, mesh);
         } else {
             for (std::size_t i = 0; i < element.count; ++i) {
                 for (const PlyProperty& property : element.properties) {

@@ -6,7 +6,8 @@
 #include "lib/scene.cl"
 #include "lib/srgb_table.cl"
 
-/// What a parameter is at a point. A number takes from a texture the luminance of its colour, as in Mitsuba.
+/// What a parameter is at a point. A number takes from a texture the luminance of its colour, as in Mitsuba,
+/// unless the texture holds two numbers.
 typedef struct TextureValue {
     float3 color;
     float2 number;    // where the parameter is one number or two
@@ -119,6 +120,8 @@ inline TextureValue look_up(const SceneView* scene, const global Parameter* para
     TextureValue texel = {(float3)(1.0f), (float2)(0.0f), (float2)(0.0f)};
     const float3 scale = load3(parameter->value);
     float3 field = (float3)(1.0f);  // of the checkerboards on the way
+    const bool has_two_numbers = parameter->texture >= 0 && (scene->textures[parameter->texture].flags &
+                                                             NEARLIGHT_TEXTURE_TWO_NUMBERS) != 0;
     for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
         const float2 uv = coordinates_for(scene, texture, hit);
@@ -143,7 +146,7 @@ inline TextureValue look_up(const SceneView* scene, const global Parameter* para
         field *= load3(parameter->value);
     }
     texel.color *= field;
-    texel.number = scale.xy * luminance(texel.color);
+    texel.number = scale.xy * (has_two_numbers ? texel.color.xy : (float2)(luminance(texel.color)));
     texel.gradient *= scale.x;
     texel.color *= scale;
     return texel;

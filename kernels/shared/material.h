@@ -104,9 +104,10 @@ typedef struct Material {
 #define NEARLIGHT_FILTER_BILINEAR 0u
 #define NEARLIGHT_FILTER_NEAREST 1u
 
-// Texture.flags, of bitmaps
+// Texture.flags
 #define NEARLIGHT_TEXTURE_SECOND_UV 1u    // (u, v) are the second texture coordinates of the vertices
-#define NEARLIGHT_TEXTURE_TIMES_COLOR 2u  // the vertices' own colours, interpolated, multiply the bitmap
+#define NEARLIGHT_TEXTURE_TIMES_COLOR 2u  // bitmap: the vertices' own colours, interpolated, multiply it
+#define NEARLIGHT_TEXTURE_TWO_NUMBERS 4u  // a parameter of two numbers takes red and green, not the luminance
 
 /// A texture, looked up at the point (s, t) that its members give for (u, v). Bitmaps lie in one shared pool,
 /// top row first.

@@ -2,6 +2,8 @@
 // Mitsuba's BSDFs and textures. Expected numbers come from Mitsuba 3.9.1 (traverse, eval).
 #include "tests/scene/mitsuba_material.h"
 
+#include <algorithm>
+
 namespace nearlight::core {
 namespace {
 
@@ -176,6 +178,33 @@ TEST_F(MitsubaMaterial, BumpAndNormalMaps) {
     EXPECT_EQ(notes_on_line_2(""), 0u);
 }
 
+TEST_F(MitsubaMaterial, RoughnessOfTwoTextures) {
+    write_pair("u.exr", 0.25f, 0.5f);
+    write_pair("v.exr", 0.75f, 0.125f);
+    const Material metal = load("roughconductor", bitmap("alpha_u", "u.exr") + bitmap("alpha_v", "v.exr"));
+    EXPECT_NE(metal.flags & NEARLIGHT_MATERIAL_TANGENT, 0u);
+    expect_near(value(metal.roughness, 0.25f), {0.25f, 0.75f, 0});
+    expect_near(value(metal.roughness, 0.75f), {0.5f, 0.125f, 0});
+    EXPECT_EQ(notes_on_line_2(""), 0u);
+    write_image(files_.path("one.exr"), {1, 1, {"R", "G", "B"}, {0.5f, 0.5f, 0.5f}});
+    const Material means = load("roughconductor", bitmap("alpha_u", "u.exr") + bitmap("alpha_v", "one.exr"));
+    expect_near(means.roughness.value, {0.375f, 0.5f, 0});
+    EXPECT_EQ(notes_on_line_2("are replaced by their means"), 1u);
+}
+
+/// Only constants have a range; a board's fields are as free as texels are. The share of light that diffuses
+/// through is half of diff_trans.
+TEST_F(MitsubaMaterial, NumbersOfCheckerboardsMayBeAboveOne) {
+    const Material thin =
+        load("principledthin", "<texture type='checkerboard' name='diff_trans'>" + number("color0", "0.4") +
+                                   number("color1", "1.4") + "</texture>");
+    EXPECT_EQ(notes_on_line_2(""), 0u);
+    const float one = parameter_number(scene_, thin.transmission, 0.25f, 0.25f);
+    const float other = parameter_number(scene_, thin.transmission, 0.75f, 0.25f);
+    EXPECT_NEAR(std::min(one, other), 0.2f, 1e-6f);
+    EXPECT_NEAR(std::max(one, other), 0.7f, 1e-6f);
+}
+
 TEST_F(MitsubaMaterial, TexturesOnEveryParameter) {
     write_pair("ramp.png", 0.0f, 1.0f);
     const auto ramp = [](const std::string& name) {
@@ -259,9 +288,12 @@ TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
         {"<bsdf type='diffuse'>" + bitmap("reflectance", "x.png", text("filter_type", "cubic")) + "</bsdf>",
          "filter 'cubic'"},
         {"<bsdf type='diffuse'><texture type='wood' name='reflectance'/></bsdf>", "unknown texture 'wood'"},
-        {"<bsdf type='diffuse'><texture type='mesh_attribute' name='reflectance'>" +
-             text("name", "face_color") + "</texture></bsdf>",
-         "mesh attribute 'face_color'"},
+        {"<bsdf type='diffuse'><texture type='mesh_attribute' name='reflectance'>" + text("name", "color") +
+             "</texture></bsdf>",
+         "begins with 'vertex_' or 'face_', not as 'color'"},
+        {"<bsdf type='bumpmap'><texture type='mesh_attribute'>" + text("name", "face_height") + "</texture>" +
+             plastic + "</bsdf>",
+         "mesh attribute 'face_height' is only supported as a colour or a number"},
     };
     for (const auto& [bsdf, part] : refused) {
         const std::string message = file_error([&, &b = bsdf] { load(b); });

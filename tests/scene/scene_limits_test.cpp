@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nearlight/error.h"
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/vertex_colors.h"
 
+#include <array>
+
 #include "host/scene/texture.h"
 #include "tests/scene/mitsuba_text.h"
 #include "tests/scene/scene_files.h"
@@ -43,6 +45,82 @@ TEST(VertexColors, ComeFromPlyFiles) {
         expect_near(parameter_value(scene, reflectance, 0, 0, scene.vertex_colors[2]), {0, 0, 1});
         EXPECT_FALSE(has_note(scene, "colours of vertices"));
     }
+}
+
+/// Two triangles of four vertices with a colour and a weight for each vertex and face.
+void write_attributes(const SceneFiles& files) {
+    const std::string channels =
+        "property float color_0\nproperty float color_1\nproperty float color_2\n"
+        "property float weight_0\nproperty float pair_0\nproperty float pair_1\n";
+    files.write("mesh.ply",
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+                "z\n" +
+                    channels + "element face 2\nproperty list uchar int vertex_indices\n" + channels +
+                    "end_header\n"
+                    "0 0 0 1 0 0 0.1 5 5\n1 0 0 0 1 0 0.2 5 5\n1 1 0.5 0 0 1 0.3 5 5\n0 1 0 1 1 1 0.4 5 5\n"
+                    "3 0 1 2 0.5 0.25 0.125 0.75 5 5\n3 0 2 3 0.2 0.4 0.8 0.5 5 5\n");
+}
+
+std::string attribute(const std::string& parameter, const std::string& name) {
+    return "<texture type='mesh_attribute' name='" + parameter + "'><string name='name' value='" + name +
+           "'/></texture>";
+}
+
+TEST(VertexColors, AreTheAttributeThatIsAskedFor) {
+    const SceneFiles files;
+    write_attributes(files);
+    const auto load = [&](const std::string& bsdf) { return files.load_xml(shape("ply", kPly + bsdf)); };
+    const Scene colors = load("<bsdf type='diffuse'>" + attribute("reflectance", "vertex_color") + "</bsdf>");
+    ASSERT_EQ(colors.vertex_colors.size(), 4u);
+    expect_near(colors.vertex_colors[2], {0, 0, 1});
+    const Scene weights = load("<bsdf type='blendbsdf'>" + attribute("weight", "vertex_weight") +
+                               "<bsdf type='diffuse'/><bsdf type='plastic'/></bsdf>");
+    ASSERT_EQ(weights.vertex_colors.size(), 4u);
+    expect_near(weights.vertex_colors[3], {0.4f, 0.4f, 0.4f});
+    const Material& blend = weights.materials.at(weights.triangles.at(0).material);
+    EXPECT_NEAR(parameter_number(weights, blend.reflectance, 0, 0, weights.vertex_colors[3]), 0.4f, 1e-6f);
+    const Scene two = load("<bsdf type='diffuse'>" + attribute("reflectance", "vertex_pair") + "</bsdf>");
+    EXPECT_TRUE(has_note(two, "colours of vertices, but the mesh has none"));
+}
+
+/// The facets keep the normals that they share.
+TEST(VertexColors, OfFacesGiveEachTriangleItsOwnVertices) {
+    const SceneFiles files;
+    write_attributes(files);
+    const Scene smooth = files.load_xml(shape("ply", kPly));
+    const auto load = [&](const std::string& name) {
+        return files.load_xml(
+            shape("ply", kPly + "<bsdf type='diffuse'>" + attribute("reflectance", name) + "</bsdf>"));
+    };
+    const Scene scene = load("face_color");
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    ASSERT_EQ(scene.vertices.size(), 6u);
+    ASSERT_EQ(scene.vertex_colors.size(), 6u);
+    const Scene weights = load("face_weight");
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Triangle& triangle = scene.triangles[i];
+        const Triangle& shared = smooth.triangles[i];
+        const std::array<std::array<uint, 2>, 3> corners{
+            {{triangle.v0, shared.v0}, {triangle.v1, shared.v1}, {triangle.v2, shared.v2}}};
+        for (const auto& [own, common] : corners) {
+            expect_near(scene.vertex_colors[own],
+                        i == 0 ? Vec3{0.5f, 0.25f, 0.125f} : Vec3{0.2f, 0.4f, 0.8f});
+            expect_near(weights.vertex_colors[own], Vec3{1, 1, 1} * (i == 0 ? 0.75f : 0.5f));
+            expect_near(scene.vertices[own].position, smooth.vertices[common].position);
+            expect_near(scene.vertices[own].normal, smooth.vertices[common].normal);
+        }
+    }
+}
+
+TEST(VertexColors, TwoAttributesOfAMeshAreRefused) {
+    const SceneFiles files;
+    write_attributes(files);
+    const std::string message = file_error([&] {
+        files.load_xml(shape("ply", kPly + "<bsdf type='blendbsdf'>" + attribute("weight", "face_weight") +
+                                        "<bsdf type='diffuse'>" + attribute("reflectance", "vertex_color") +
+                                        "</bsdf><bsdf type='diffuse'/></bsdf>"));
+    });
+    EXPECT_TRUE(mentions(message, "'face_weight' and 'vertex_color'")) << message;
 }
 
 TEST(VertexColors, AreDroppedIfNothingAsksForThem) {

@@ -343,7 +343,7 @@ TEST_F(BsdfSurfaceTest, BitmapsAtSecondCoordinatesTimesVertexColorsAndCutOff) {
     });
 }
 
-/// A number takes the luminance of a colour.
+/// A number takes the luminance of a colour, unless red and green are two numbers.
 TEST_F(BsdfSurfaceTest, RoughnessTakesTheLuminanceOfATexture) {
     on_each_device([](Device& device) {
         BsdfProbe probe(device);
@@ -356,6 +356,10 @@ TEST_F(BsdfSurfaceTest, RoughnessTakesTheLuminanceOfATexture) {
         const float expected = 0.5f * (0.2126f * 0.2f + 0.7152f * 0.6f + 0.0722f);
         const BsdfScene plain = scene_of(make_metal(expected, expected, 0, {0, 0, 0}, {1, 1, 1}));
         EXPECT_NEAR(probe.ask(scene, query).value.x, probe.ask(plain, query).value.x, 1e-5f);
+        scene.textures[0].flags = NEARLIGHT_TEXTURE_TWO_NUMBERS;
+        const BsdfScene two = scene_of(make_metal(0.5f * 0.2f, 0.5f * 0.6f, 0, {0, 0, 0}, {1, 1, 1}));
+        EXPECT_NEAR(probe.ask(scene, query).value.x, probe.ask(two, query).value.x, 1e-5f);
+        EXPECT_GT(std::abs(probe.ask(two, query).value.x - probe.ask(plain, query).value.x), 1e-2f);
     });
 }
 

@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/material_maker.h"
 
 #include "host/scene/mitsuba/optics_tables.h"
+#include "host/scene/number_pair.h"
 #include "host/scene/reflectance.h"
 #include "host/scene/scene_names.h"
 
@@ -234,10 +235,12 @@ Parameter MaterialMaker::anisotropic_alpha(const Object& bsdf) {
     }
     const Parameter u = textures_.number(bsdf, "alpha_u", 0.1f);
     const Parameter v = textures_.number(bsdf, "alpha_v", 0.1f);
-    if (u.texture == v.texture) {
-        return {{u.value.x, v.value.x, 0.0f}, u.texture};
+    if (const std::optional<Parameter> pair = pair_of_numbers(scene_, u, v)) {
+        return *pair;
     }
-    note(notes_, bsdf.where, "different textures for 'alpha_u' and 'alpha_v' are replaced by their means");
+    note(notes_, bsdf.where,
+         "textures for 'alpha_u' and 'alpha_v' that differ in kind, size or placement are replaced by their "
+         "means");
     return {{mean_value(scene_, u).x, mean_value(scene_, v).x, 0.0f}, -1};
 }
 
@@ -258,7 +261,7 @@ void MaterialMaker::read_microfacets(const Object& bsdf, Material& material) {
                          bsdf.texture("alpha_v") != nullptr;
     material.roughness = has_two ? anisotropic_alpha(bsdf) : textures_.number(bsdf, "alpha", 0.1f);
     const Vec3 alpha = material.roughness.value;
-    if (alpha.x != alpha.y) {
+    if (alpha.x != alpha.y || holds_two_numbers(scene_, material.roughness)) {
         material.flags |= NEARLIGHT_MATERIAL_TANGENT;
     }
     if (std::min(alpha.x, alpha.y) <= 0.0f) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/base/thread_limit.h"
+#include "host/scene/mitsuba/mesh_attribute.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
 #include "host/scene/obj_loader.h"
 #include "host/scene/ply_loader.h"
@@ -21,7 +22,8 @@ constexpr int kMaxAhead = 8;
 struct MeshSource {
     std::filesystem::path file;
     std::string type;
-    int index = 0;  ///< among the meshes of a serialized file
+    int index = 0;          ///< among the meshes of a serialized file
+    std::string attribute;  ///< which textures look up
 };
 
 // Which of the meshes of a file the shape is.
@@ -36,16 +38,25 @@ int shape_index(const Object& shape) {
 MeshSource source_of(const Object& shape) {
     return {.file = shape.required_string("filename"),
             .type = shape.type,
-            .index = shape.type == "serialized" ? shape_index(shape) : 0};
+            .index = shape.type == "serialized" ? shape_index(shape) : 0,
+            .attribute = mesh_attribute_of(shape)};
 }
 
 MeshFile read_source(const MeshSource& source) {
+    if (source.type == "ply") {
+        return {.mesh = read_ply(source.file, source.attribute)};
+    }
+    MeshFile file;
     if (source.type == "obj") {
         ObjFile obj = read_obj(source.file);
-        return {.mesh = std::move(obj.mesh), .short_faces = obj.short_faces};
+        file = {.mesh = std::move(obj.mesh), .short_faces = obj.short_faces};
+    } else {
+        file.mesh = read_serialized(source.file, source.index);
     }
-    return {.mesh = source.type == "serialized" ? read_serialized(source.file, source.index)
-                                                : read_ply(source.file)};
+    if (source.attribute != kVertexColor) {
+        file.mesh.colors.clear();
+    }
+    return file;
 }
 
 /// Whether a file can be read ahead, and what is wrong with a shape can wait until it is its turn.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/half.h"
 #include "host/scene/material_model.h"
+#include "host/scene/mitsuba/mesh_attribute.h"
 #include "host/scene/texture.h"
 
 namespace nearlight::core::mitsuba {
@@ -200,8 +202,8 @@ Parameter TextureMaker::make_new(const Object& texture, Purpose purpose) {
     if (type == "checkerboard") {
         return make_checkerboard(texture, purpose);
     }
-    if (type == "mesh_attribute" || type == "vertexcolors") {
-        return make_vertex_colors(texture, purpose);
+    if (is_mesh_attribute(texture)) {
+        return make_mesh_attribute(texture, purpose);
     }
     if (type == "scale") {
         return make_scale(texture, purpose);
@@ -233,8 +235,9 @@ Parameter TextureMaker::field(const Object& checkerboard, const char* name, floa
     if (const Object* texture = checkerboard.texture(name)) {
         return make(*texture, purpose);
     }
+    // A field may be as large as a texel, because only the parameter that the board belongs to has a range.
     return purpose == Purpose::number || purpose == Purpose::height
-               ? number(checkerboard, name, fallback)
+               ? number(checkerboard, name, fallback, {0.0f, kMaxHalf})
                : reflectance(checkerboard, name, Vec3{1, 1, 1} * fallback);
 }
 
@@ -256,12 +259,14 @@ Parameter TextureMaker::make_checkerboard(const Object& texture, Purpose purpose
     return board;
 }
 
-Parameter TextureMaker::make_vertex_colors(const Object& texture, Purpose purpose) {
-    const std::string name = texture.string("name", "vertex_color");
-    if (name != "vertex_color" || purpose != Purpose::color) {
-        fail(texture.where, "mesh attribute '" + name + "' is not supported " +
-                                (name == "vertex_color" ? "as a number; only" : "; only") +
-                                " 'vertex_color' as a colour is");
+Parameter TextureMaker::make_mesh_attribute(const Object& texture, Purpose purpose) {
+    const std::string name = texture.string("name", kVertexColor);
+    if (!name.starts_with("vertex_") && !name.starts_with("face_")) {
+        fail(texture.where,
+             "the name of a mesh attribute begins with 'vertex_' or 'face_', not as '" + name + "' does");
+    }
+    if (purpose == Purpose::height || purpose == Purpose::normals) {
+        fail(texture.where, "mesh attribute '" + name + "' is only supported as a colour or a number");
     }
     SceneTexture made = plain_texture(-1);
     made.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;

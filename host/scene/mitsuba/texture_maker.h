@@ -54,7 +54,7 @@ class TextureMaker {
     Parameter make_new(const Object& texture, Purpose purpose);
     Parameter make_bitmap(const Object& texture, Purpose purpose);
     Parameter make_checkerboard(const Object& texture, Purpose purpose);
-    Parameter make_vertex_colors(const Object& texture, Purpose purpose);
+    Parameter make_mesh_attribute(const Object& texture, Purpose purpose);
     Parameter make_scale(const Object& texture, Purpose purpose);
     Parameter field(const Object& checkerboard, const char* name, float fallback, Purpose purpose);
     Vec3 limited(Vec3 value, Range range, const Location& where, const std::string& name);
