@@ -16,7 +16,7 @@ HARD = dict(area=1024)    # reflected lamps need more samples
 
 def _row(name, material, light):
     return Row(f'bsdfs/{name}/{light}', LIGHTS[light](material), spp=HARD.get(light, 256),
-               supported=name not in ('pplastic', 'principledthin'))
+               supported=name != 'pplastic')
 
 
 def _ball(material):
@@ -64,6 +64,10 @@ def _plain():
     }
 
 
+def _checks(first, second):
+    return texture('checkerboard', to_uv=transform(scale(6)), color0=first, color1=second)
+
+
 def _metals():
     rough = lambda **p: bsdf('roughconductor', **p)
     named = {f'conductor-{m}': (bsdf('conductor', material=m), 'sky') for m in ('Al', 'Ag', 'W', 'none', 'TiO2')}
@@ -83,6 +87,7 @@ def _metals():
         'roughconductor-anisotropic-ggx': (rough(material='Al', alpha_u=0.4, alpha_v=0.1, distribution='ggx'), 'point mesh'),
         'roughconductor-textured-roughness': (rough(material='Al', alpha=bitmap('rough.png', raw=True),
             distribution='ggx'), 'area'),
+        'roughconductor-two-textures': (rough(material='Al', alpha_u=_checks(0.05, 0.3), alpha_v=_checks(0.3, 0.1)), 'mesh'),
         'roughconductor-textured-tint': (rough(material='none', alpha=0.2, specular_reflectance=bitmap('tiles.png')),
             'point'),
         'roughconductor-all-normals': (rough(material='Al', alpha=0.2, sample_visible=False), 'point'),
@@ -127,6 +132,7 @@ def _layered():
         'principled-textured': (bsdf('principled', base_color=bitmap('tiles.png'),
             roughness=bitmap('rough.png', raw=True), metallic=bitmap('grey.png', raw=True)), 'area'),
         'principledthin': (bsdf('principledthin', base_color=rgb(0.6, 0.3, 0.15), diff_trans=1.0, roughness=0.4), 'sheet'),
+        'principledthin-textured': (bsdf('principledthin', base_color=rgb(0.6, 0.3, 0.15), diff_trans=_checks(0.4, 1.6)), 'sheet'),
     }
 
 
@@ -153,6 +159,7 @@ def _mixed():
         'bumpmap-mask': (bump(bsdf('mask', red, opacity=0.4), scale=2.0), 'area sheet'),
         'mask-bumpmap': (bsdf('mask', bump(red, scale=2.0), opacity=0.4), 'area sheet'),
         'normalmap': (normal(red), 'furnace point area mesh'),
+        'normalmap-constant': (bsdf('normalmap', red, normalmap=texture('rawconstant', value=vector(0.35, 0.45, 0.9))), 'mesh'),
         'normalmap-plastic': (normal(bsdf('plastic')), 'area'),
         'normalmap-metal': (normal(metal), 'sky'),
         'normalmap-twosided': (bsdf('twosided', normal(red)), 'sheet'),
