@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/ply_loader.h"
 
-#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string_view>
@@ -35,13 +34,17 @@ using Row = std::array<float, kSlotCount>;
 
 /// Where the rows of a table keep what is asked for.
 struct Columns {
-    std::vector<int> slots;  ///< of each property; −1 if it is skipped
-    std::array<bool, kSlotCount> present{};
-    int channels = 0;  ///< of the attribute: 0, 1 or 3
+    std::vector<int> slots;                  ///< of each property; −1 if it is skipped
+    std::array<bool, kSlotCount> present{};  ///< whether a property of a vertex has the slot
+    int channels = 0;                        ///< of the attribute: 0, 1 or 3
 };
 
-bool is_color(std::string_view name) {
-    return name == "r" || name == "g" || name == "b" || name == "red" || name == "green" || name == "blue";
+/// The place of a name among red, green and blue; −1 if it is none of them.
+int color_channel(std::string_view name) {
+    return name == "r" || name == "red"     ? 0
+           : name == "g" || name == "green" ? 1
+           : name == "b" || name == "blue"  ? 2
+                                            : -1;
 }
 
 bool is_channel(std::string_view name, std::string_view attribute) {
@@ -50,33 +53,47 @@ bool is_channel(std::string_view name, std::string_view attribute) {
            std::string_view("xyzwrgba01234").find(name.back()) != std::string_view::npos;
 }
 
-/// The columns of the attribute's channels, in their order in the file. `r`, `g` and `b` come before all
-/// others that a colour could be.
-std::vector<std::size_t> attribute_columns(const PlyElement& element, std::string_view attribute) {
-    std::vector<std::size_t> colors;
-    std::vector<std::size_t> channels;
+/// The slots of a colour that is called r, g and b.
+Columns color_columns(const PlyElement& element) {
+    Columns columns{.slots = std::vector<int>(element.properties.size(), -1)};
+    std::array<bool, 3> found{};
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];
-        if (!property.is_list && attribute == "color" && is_color(property.name)) {
-            colors.push_back(i);
-        } else if (!property.is_list && is_channel(property.name, attribute)) {
-            channels.push_back(i);
+        const int channel = property.is_list ? -1 : color_channel(property.name);
+        if (channel >= 0) {
+            columns.slots[i] = kFirstChannel + channel;
+            found[static_cast<std::size_t>(channel)] = true;
         }
     }
-    std::vector<std::size_t>& found = colors.size() == 3 ? colors : channels;
-    found.resize(found.size() >= 3 ? 3 : found.size() == 1 ? 1 : 0);
-    return found;
+    columns.channels = found[0] && found[1] && found[2] ? 3 : 0;
+    return columns;
 }
 
-Columns columns_of(const PlyElement& element, std::string_view attribute) {
-    Columns columns;
-    for (const PlyProperty& property : element.properties) {
-        columns.slots.push_back(property.is_list ? -1 : vertex_slot(property.name));
+/// The slots of an attribute; its channels have the order of the file.
+Columns attribute_columns(const PlyElement& element, std::string_view attribute) {
+    if (attribute == "color") {
+        if (Columns columns = color_columns(element); columns.channels == 3) {
+            return columns;
+        }
     }
-    for (const std::size_t column : attribute_columns(element, attribute)) {
-        columns.slots[column] = kFirstChannel + columns.channels++;
+    Columns columns{.slots = std::vector<int>(element.properties.size(), -1)};
+    for (std::size_t i = 0; i < element.properties.size() && columns.channels < 3; ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (!property.is_list && is_channel(property.name, attribute)) {
+            columns.slots[i] = kFirstChannel + columns.channels++;
+        }
     }
-    for (const int slot : columns.slots) {
+    columns.channels = columns.channels == 2 ? 0 : columns.channels;
+    return columns;
+}
+
+/// The slots of all that a vertex may have.
+Columns vertex_columns(const PlyElement& element, std::string_view attribute) {
+    Columns columns = attribute_columns(element, attribute);
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        int& slot = columns.slots[i];
+        slot = slot < 0 && !property.is_list ? vertex_slot(property.name) : slot;
         if (slot >= 0) {
             columns.present[static_cast<std::size_t>(slot)] = true;
         }
@@ -104,7 +121,7 @@ Vec3 attribute_value(const Row& row, int channels) {
 }
 
 void read_vertices(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
-    const Columns columns = columns_of(element, attribute);
+    const Columns columns = vertex_columns(element, attribute);
     const auto& present = columns.present;
     if (!present[0] || !present[1] || !present[2]) {
         fail_ply(mesh.source, "PLY vertices need x, y and z");
@@ -158,25 +175,24 @@ void read_fan(PlyReader& reader, const PlyProperty& property, Mesh& mesh) {
 }
 
 void read_faces(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
-    const std::vector<std::size_t> channels = attribute_columns(element, attribute);
+    const Columns columns = attribute_columns(element, attribute);
     mesh.triangles.reserve(element.count);
-    mesh.face_colors.reserve(channels.empty() ? 0 : element.count);
+    mesh.face_colors.reserve(columns.channels == 0 ? 0 : element.count);
     for (std::size_t i = 0; i < element.count; ++i) {
         Row row{};
-        int channel = kFirstChannel;
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];
             if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
                 read_fan(reader, property, mesh);
-            } else if (std::ranges::find(channels, p) != channels.end()) {
-                row[static_cast<std::size_t>(channel++)] = static_cast<float>(reader.read(property.type));
+            } else if (columns.slots[p] >= 0) {
+                row[static_cast<std::size_t>(columns.slots[p])] =
+                    static_cast<float>(reader.read(property.type));
             } else {
                 reader.skip(property);
             }
         }
-        if (!channels.empty()) {
-            mesh.face_colors.resize(mesh.triangles.size(),
-                                    attribute_value(row, static_cast<int>(channels.size())));
+        if (columns.channels > 0) {
+            mesh.face_colors.resize(mesh.triangles.size(), attribute_value(row, columns.channels));
         }
     }
 }

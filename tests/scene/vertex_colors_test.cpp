@@ -112,6 +112,17 @@ TEST(VertexColors, OfFacesGiveEachTriangleItsOwnVertices) {
     }
 }
 
+TEST(VertexColors, HaveTheOrderOfTheirNames) {
+    const SceneFiles files;
+    for (const char* names : {"b g r", "blue green red"}) {
+        write_colored_triangle(files, names);
+        const Scene scene = files.load_xml(shape("ply", kPly + attribute_bsdf()));
+        ASSERT_EQ(scene.vertex_colors.size(), 3u);
+        expect_near(scene.vertex_colors[0], {0, 0, 1});
+        expect_near(scene.vertex_colors[2], {2, 0, 0});
+    }
+}
+
 TEST(VertexColors, TwoAttributesOfAMeshAreRefused) {
     const SceneFiles files;
     write_attributes(files);
