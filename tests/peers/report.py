@@ -27,6 +27,7 @@ REASONS = {
     'emitters/area-wave': SMOOTH_LAMPS,
     'bsdfs/blendbsdf-smooth/area': "Mitsuba's picture is less than the sum of the two parts that it blends, by a tenth "
                                    'where the metal mirrors the lamp',
+    'shapes/rotation-about-long-axis': 'Mitsuba turns normals by the same matrix, as if it were a rotation',
 }
 KINDS = ('agrees', 'deviates', 'noisy', 'refused', 'failed', 'no peer')
 BOLD = ('deviates', 'failed')

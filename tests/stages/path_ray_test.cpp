@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What rays of camera and receivers carry, as kernels/lib/path_ray.cl and receiver_path.cl count it.
+#include "host/scene/material_model.h"
 #include "tests/support/bsdf_materials.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
@@ -53,6 +54,85 @@ kernel void probe(SCENE_PARAMETERS, global float* out) {
         EXPECT_NEAR(seen[5], 1.0f, 1e-5f);
         EXPECT_NEAR(seen[6], 0.5f, 1e-5f);
         EXPECT_EQ(seen[7], seen[4]);
+    });
+}
+
+/// What a rough metal reflects of equal lights at one point, by four light samples and three rays for each.
+float reflected(Device& device, int lights) {
+    Scene scene;
+    const uint metal = add_material(scene, test::make_metal(0.5f, 0.5f, 0, {0, 0, 0}, {1, 1, 1}));
+    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, metal);  // faces the ray
+    for (int i = 0; i < lights; ++i) {
+        add_point_light(scene, {0.3f, 0, 0}, {1, 1, 1});
+    }
+    KernelProbe probe(device, R"(
+#include "lib/path_ray.cl"
+kernel void probe(SCENE_PARAMETERS, global float* out) {
+    const SceneView scene = SCENE_VIEW;
+    const float3 along = (float3)(0.0f, 0.0f, 1.0f);
+    const SurfaceHit hit = trace_surface(&scene, (float3)(0.1f, 0.2f, 0.0f), along, INFINITY);
+    const SurfaceBsdf metal = surface_bsdf(&scene, &hit, along, BSDF_RADIANCE, 0.5f);
+    const LightQuota quota = {4, 12, 0};
+    out[0] = reflected_light(&scene, &hit, &metal, BSDF_S, &quota, 7).x;
+}
+)");
+    const SceneOnDevice on_device(probe.device(), scene);
+    Buffer<float> out(probe.device(), 1);
+    probe.kernel().launch(1, 1, on_device.buffers, out);
+    return out.download()[0];
+}
+
+/// A few point lights are all summed, and of many each sample stands for all; rays never meet one.
+TEST_F(PathRayTest, LightsWithoutAreaAreCountedOnceHoweverManyThereAre) {
+    on_each_device([](Device& device) {
+        const float one = reflected(device, 1);
+        ASSERT_GT(one, 1e-3f);
+        EXPECT_NEAR(reflected(device, 3) / one, 3, 1e-4f);
+        EXPECT_NEAR(reflected(device, 40) / one, 40, 1e-3f);
+    });
+}
+
+/// The light of a lamp that a ray meets, weighted against light samples of where the ray began.
+float met(Device& device, int veils) {
+    Scene scene;
+    const uint white = add_material(scene, diffuse_material({1, 1, 1}));
+    const uint veil = add_material(scene, mask_material(parameter_of(0.0f), white));
+    for (int i = 1; i <= veils; ++i) {
+        add_quad(scene, {-1, -1, static_cast<float>(i)}, {0, 2, 0}, {2, 0, 0}, veil);
+    }
+    Material shining = diffuse_material({0, 0, 0});
+    shining.emission = parameter_of(5.0f);
+    add_quad(scene, {-1, -1, 4}, {0, 2, 0}, {2, 0, 0}, add_material(scene, shining));
+    KernelProbe probe(device, R"(
+#include "lib/path_ray.cl"
+kernel void probe(SCENE_PARAMETERS, global float* out) {
+    const SceneView scene = SCENE_VIEW;
+    PathRay ray = first_ray((float3)(0.0f, 0.0f, 1.0f));
+    begin_ray(&ray, (float3)(0.1f, 0.2f, 0.0f), ray.direction, 0.5f);
+    SurfaceHit hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
+    while (hit.t > 0.0f && is_black(emitted_radiance(&scene, &hit, ray.direction))) {
+        const SurfaceBsdf veil = surface_bsdf(&scene, &hit, ray.direction, BSDF_RADIANCE, 0.5f);
+        scatter_ray(&scene, &ray, &hit, &veil, BSDF_D | BSDF_S, 0.5f, (float2)(0.5f, 0.5f));
+        hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
+    }
+    out[0] = met_light(&scene, &ray, &hit).x;
+}
+)");
+    const SceneOnDevice on_device(probe.device(), scene);
+    Buffer<float> out(probe.device(), 1);
+    probe.kernel().launch(1, 1, on_device.buffers, out);
+    return out.download()[0];
+}
+
+/// Light samples have the density of the whole distance, not of that from the last veil.
+TEST_F(PathRayTest, VeilsDoNotChangeTheShareOfTheLightThatRaysMeet) {
+    on_each_device([](Device& device) {
+        const float straight = met(device, 0);
+        ASSERT_GT(straight, 0.1f);
+        ASSERT_LT(straight, 4.9f) << "light samples should have their share";
+        for (const int veils : {1, 2, 3}) {
+            EXPECT_NEAR(met(device, veils), straight, 1e-3f * straight) << veils;
+        }
     });
 }
 

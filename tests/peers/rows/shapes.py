@@ -59,7 +59,7 @@ def _transforms():
         'matrix': _lit(shape('cube', PAINT,
             to_world=transform('<matrix value="0.5 0.2 0 0  0 0.5 0 0.6  0 0.1 0.5 0  0 0 0 1"/>'))),
         'rotation-about-axis': _lit(shape('cube', PAINT, to_world=_about('x="0.6" y="0.8"'))),
-        'rotation-about-long-axis': _lit(shape('cube', PAINT, to_world=_about('x="1" y="1" z="0.3"'))),   # it shears, too
+        'rotation-about-long-axis': _lit(shape('cube', PAINT, to_world=_about('x="1" y="1" z="0.3"'))),   # it also shears
         'flipped-mesh': _lit(mesh('fine_ball.obj', PAINT, flip_normals=True, to_world=_placed())),
     }
 
