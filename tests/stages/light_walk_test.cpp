@@ -60,7 +60,7 @@ double lamp_flux(double height, const std::function<double(double)>& f) {
            over_screen(height, [&](double cosine) { return cosine * f(cosine); });
 }
 
-std::vector<Vpl> walk(Device& device, const Scene& scene) {
+std::vector<Vpl> walk(Device& device, const Scene& scene, uint walk_count = 400'000, uint bounce_count = 2) {
     const test::SceneOnDevice on_device(device, scene);
     const CloseRange nothing{};
     CloseRegion region;
@@ -68,7 +68,7 @@ std::vector<Vpl> walk(Device& device, const Scene& scene) {
     region.triangles = Buffer<uint>(device, std::vector<uint>(scene.triangles.size()));
     return LightTracer(device).run(
         on_device.buffers, region, KeepDeposits::all,
-        {.walk_count = 400'000, .bounce_count = 2, .mean_albedo = 1.0f, .seed = 12});
+        {.walk_count = walk_count, .bounce_count = bounce_count, .mean_albedo = 1.0f, .seed = 12});
 }
 
 double power_at_depth(const std::vector<Vpl>& vpls, uint depth) {
@@ -138,6 +138,31 @@ TEST_F(LightWalkTest, PanesOfGlassLetTheLightOfLampsThrough) {
         const std::vector<Vpl> vpls = walk(device, scene);
         EXPECT_EQ(power_at_depth(vpls, 1), 0.0);
         EXPECT_NEAR(power_at_depth(vpls, 2), expected, 0.015 * expected);
+    });
+}
+
+/// A walk turns by other random numbers at each surface: the cosines with which it leaves two in a row
+/// differ.
+TEST_F(LightWalkTest, EachSurfaceHasRandomNumbersOfItsOwn) {
+    Scene scene;
+    const uint white = add_material(scene, lambertian({1, 1, 1}));
+    add_quad(scene, {-9, -9, -1}, {18, 0, 0}, {0, 18, 0}, white);
+    add_quad(scene, {-9, -9, 1}, {0, 18, 0}, {18, 0, 0}, white);
+    add_point_light(scene, {0, 0, 0}, {1, 1, 1});
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<Vpl> vpls = walk(device, scene, 300, 3);
+        int pairs = 0;
+        int equal = 0;
+        for (std::size_t i = 0; i + 2 < vpls.size(); ++i) {
+            if (vpls[i].depth == 1 && vpls[i + 1].depth == 2 && vpls[i + 2].depth == 3) {
+                const float first = std::abs(normalize(vpls[i + 1].position - vpls[i].position).z);
+                const float second = std::abs(normalize(vpls[i + 2].position - vpls[i + 1].position).z);
+                ++pairs;
+                equal += std::abs(first - second) < 1e-3f ? 1 : 0;
+            }
+        }
+        EXPECT_GT(pairs, 50);
+        EXPECT_LT(equal, pairs / 10);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/local_lights.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "host/base/random.h"
@@ -29,7 +30,7 @@ Scene lit_corner() {
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0.8f, 0.7f, 0.6f})));
     add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.5f, 0.2f, 0.1f})));
     add_quad(scene, {1, 0, -1}, {0, 0, 2}, {0, 2, 0}, add_material(scene, lambertian({0.1f, 0.6f, 0.2f})));
-    add_quad(scene, {0.5f, 0.2f, 0.5f}, {0, 0, 0.3f}, {0.3f, 0, 0},
+    add_quad(scene, {0.4f, 0.15f, 0.6f}, {0, 0, 0.35f}, {0.6f, 0, 0},
              add_two_sided(scene, lambertian({0.3f, 0.3f, 0.9f})));
     add_point_light(scene, kLamp, kIntensity);
     return scene;
@@ -309,6 +310,40 @@ TEST_F(LocalLightsTest, NothingRemainsWhereBothRadiiAreTheSame) {
         const std::vector<ReceiverPacket> receivers = receivers_in_corner();
         for (const Vec3 e : mean_addition(device, on_device, receivers, kRadius, plan_of(2), 2)) {
             EXPECT_NEAR(max_component(e), 0.0f, 1e-6f);
+        }
+    });
+}
+
+/// No packet uses the lights of another, so that cuts of the picture do not show.
+TEST_F(LocalLightsTest, APacketGetsTheSameWithoutTheOthers) {
+    on_each_device([](Device& device) {
+        const SceneOnDevice scene(device, lit_corner());
+        const std::vector<ReceiverPacket> both = receivers_in_corner();
+        const std::vector<Vec3> together = mean_addition(device, scene, both, 0.01f, plan_of(2), 1);
+        const std::vector<Vec3> alone = mean_addition(device, scene, {both[1]}, 0.01f, plan_of(2), 1);
+        float sum = 0;
+        for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+            EXPECT_EQ(alone[i], together[NEARLIGHT_PACKET_SIZE + i]) << i;
+            sum += max_component(alone[i]);
+        }
+        EXPECT_GT(sum, 0);
+    });
+}
+
+/// Curve 1 lets a half through at all angles.
+TEST_F(LocalLightsTest, TheReceiversCoatTakesItsPart) {
+    on_each_device([](Device& device) {
+        Scene room = lit_corner();
+        room.transmission_curves.resize(2 * std::size_t{NEARLIGHT_CURVE_SIZE}, 0.5f);
+        const SceneOnDevice scene(device, room);
+        std::vector<ReceiverPacket> packets = receivers_in_corner();
+        const std::vector<Vec3> bare = mean_addition(device, scene, packets, 0.01f, plan_of(1), 1);
+        for (ReceiverPacket& packet : packets) {
+            std::ranges::fill(packet.surface, 1u);
+        }
+        const std::vector<Vec3> coated = mean_addition(device, scene, packets, 0.01f, plan_of(1), 1);
+        for (std::size_t i = 0; i < bare.size(); ++i) {
+            EXPECT_NEAR(coated[i].y, 0.5f * bare[i].y, 1e-4f * bare[i].y) << i;
         }
     });
 }

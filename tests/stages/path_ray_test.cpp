@@ -92,8 +92,9 @@ TEST_F(PathRayTest, LightsWithoutAreaAreCountedOnceHoweverManyThereAre) {
     });
 }
 
-/// The light of a lamp that a ray meets, weighted against light samples of where the ray began.
-float met(Device& device, int veils) {
+/// The light of a square lamp that a ray of a density (per steradian) meets, weighted against light samples
+/// of where the ray began.
+float met(Device& device, int veils, float half_side, float pdf) {
     Scene scene;
     const uint white = add_material(scene, diffuse_material({1, 1, 1}));
     const uint veil = add_material(scene, mask_material(parameter_of(0.0f), white));
@@ -102,13 +103,15 @@ float met(Device& device, int veils) {
     }
     Material shining = diffuse_material({0, 0, 0});
     shining.emission = parameter_of(5.0f);
-    add_quad(scene, {-1, -1, 4}, {0, 2, 0}, {2, 0, 0}, add_material(scene, shining));
+    const float side = 2 * half_side;
+    add_quad(scene, {0.1f - half_side, 0.2f - half_side, 4}, {0, side, 0}, {side, 0, 0},
+             add_material(scene, shining));
     KernelProbe probe(device, R"(
 #include "lib/path_ray.cl"
-kernel void probe(SCENE_PARAMETERS, global float* out) {
+kernel void probe(SCENE_PARAMETERS, float pdf, global float* out) {
     const SceneView scene = SCENE_VIEW;
     PathRay ray = first_ray((float3)(0.0f, 0.0f, 1.0f));
-    begin_ray(&ray, (float3)(0.1f, 0.2f, 0.0f), ray.direction, 0.5f);
+    begin_ray(&ray, (float3)(0.1001f, 0.2002f, 0.0f), ray.direction, pdf);
     SurfaceHit hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
     while (hit.t > 0.0f && is_black(emitted_radiance(&scene, &hit, ray.direction))) {
         const SurfaceBsdf veil = surface_bsdf(&scene, &hit, ray.direction, BSDF_RADIANCE, 0.5f);
@@ -120,18 +123,22 @@ kernel void probe(SCENE_PARAMETERS, global float* out) {
 )");
     const SceneOnDevice on_device(probe.device(), scene);
     Buffer<float> out(probe.device(), 1);
-    probe.kernel().launch(1, 1, on_device.buffers, out);
+    probe.kernel().launch(1, 1, on_device.buffers, pdf, out);
     return out.download()[0];
 }
 
-/// Light samples have the density of the whole distance, not of that from the last veil.
+/// Light samples have the density of the whole distance, not of that from the last veil. Large lamps are
+/// sampled by solid angle, and tiny ones by area, where the distance counts.
 TEST_F(PathRayTest, VeilsDoNotChangeTheShareOfTheLightThatRaysMeet) {
     on_each_device([](Device& device) {
-        const float straight = met(device, 0);
-        ASSERT_GT(straight, 0.1f);
-        ASSERT_LT(straight, 4.9f) << "light samples should have their share";
-        for (const int veils : {1, 2, 3}) {
-            EXPECT_NEAR(met(device, veils), straight, 1e-3f * straight) << veils;
+        for (const float half_side : {1.0f, 0.005f}) {
+            const float pdf = half_side == 1.0f ? 0.5f : 1e5f;
+            const float straight = met(device, 0, half_side, pdf);
+            ASSERT_GT(straight, 0.1f);
+            ASSERT_LT(straight, 4.9f) << "light samples should have their share";
+            for (const int veils : {1, 2, 3}) {
+                EXPECT_NEAR(met(device, veils, half_side, pdf), straight, 1e-3f * straight) << veils;
+            }
         }
     });
 }

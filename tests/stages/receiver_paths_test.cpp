@@ -197,6 +197,36 @@ TEST_F(ReceiverPathsTest, TakesAwayWhatANormalMapShadows) {
     });
 }
 
+/// The room's lamps are above a veil, and the receivers below.
+Scene below_a_veil(Scene scene) {
+    const uint white = add_material(scene, lambertian({1, 1, 1}));
+    const uint veil = add_material(scene, mask_material(parameter_of(0.0f), white));
+    add_quad(scene, {-9, 0.8f, -9}, {18, 0, 0}, {0, 0, 18}, veil);
+    return scene;
+}
+
+/// Each veil is an edge more, on the way of a light sample too.
+TEST_F(ReceiverPathsTest, VeilsCountAmongTheEdgesOfAPath) {
+    on_each_device([](Device& device) {
+        CornerLight setup(device, below_a_veil(corner()));
+        EXPECT_EQ(setup.traced(kInfinity, 1, 1024), 0.0) << "wall, veil, lamp";
+        EXPECT_GT(setup.traced(kInfinity, 2, 1024), 0.0);
+    });
+}
+
+/// Only light that came straight from a lamp, or through veils alone, is direct light.
+TEST_F(ReceiverPathsTest, LightThroughAVeilAfterASurfaceIsIndirect) {
+    on_each_device([](Device& device) {
+        CornerLight setup(device, below_a_veil(corner_under_bright_ceiling()));
+        Buffer<IrradiancePacket> direct(device, 1);
+        setup.traced(kInfinity, 1, 4096, direct);
+        const double expected = mean_green(direct);
+        ASSERT_GT(expected, 0.1);
+        setup.traced(kInfinity, 4, 4096, direct);
+        EXPECT_NEAR(mean_green(direct), expected, 1e-3 * expected);
+    });
+}
+
 TEST_F(ReceiverPathsTest, AddsNothingWhereThereIsNothingToTrace) {
     on_each_device([](Device& device) {
         CornerLight setup(device, corner());

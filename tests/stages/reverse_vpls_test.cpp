@@ -158,6 +158,25 @@ TEST_F(ReverseVplsTest, InverseDensitiesAddUpToAreas) {
     });
 }
 
+/// With a shading normal that leans, half of the rays leave below the surface of their own point.
+TEST_F(ReverseVplsTest, APointMakesNoVplsOnItsOwnPlane) {
+    on_each_device([](Device& device) {
+        Scene floor;
+        add_quad(floor, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0},
+                 add_material(floor, lambertian({0.5f, 0.5f, 0.5f})));
+        const SceneOnDevice scene(device, floor);
+        const Importon leaning{.position = stand_off({0.1f, -1, 0.2f}, {0, 1, 0}, kExtent),
+                               .pad0 = 0,
+                               .normal = normalize({1, 0.2f, 0}),
+                               .flags = 2,
+                               .response = {1, 1, 1},
+                               .pad1 = 0};
+        Gatherer gatherer(device);
+        const CameraPoints points = make_camera_points(device, std::span(&leaning, 1), 200);
+        EXPECT_TRUE(ReverseVpls(device, gatherer).trace(scene.buffers, points, 1).empty());
+    });
+}
+
 TEST_F(ReverseVplsTest, NoPointsMakeNoVpls) {
     on_each_device([](Device& device) {
         const SceneOnDevice scene(device, room_with_block());

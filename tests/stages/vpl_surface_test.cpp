@@ -118,6 +118,8 @@ TEST_F(VplSurfaceTest, DepositsReflectWhatArrivesByTheNormalThatLeans) {
              LightTracer(device).run(on_device.buffers, region, KeepDeposits::all,
                                      {.walk_count = 100'000, .bounce_count = 1, .seed = 5})) {
             power += vpl.power.y;
+            ASSERT_LT(vpl.position.z, kDistance) << "it should stand off the wall";
+            ASSERT_GT(vpl.position.z, 0.999f * kDistance);
         }
         EXPECT_NEAR(power, expected, 0.01 * expected);
     });
