@@ -6,12 +6,10 @@
 // one pixel share a sequence of random numbers, and each takes its own part of it, so that all samples of the
 // pixel are evenly spread. Other receivers have numbers of their own, keyed by position. So no split of the
 // work changes the result. A receiver with `surfaces` surfaces before it gets paths of at most max_edges −
-// surfaces edges. VPLs bring it longer ones, whose light the rays take away again.
+// surfaces edges. VPLs bring it longer ones, whose light the rays take away again. With `shares`, the
+// Lambertian light of near places goes to one light of each receiver, which shared_lights.cl takes further.
 
 #include "lib/receiver_path.cl"
-#include "lib/vpl.cl"
-
-#define LONG_PATH 32u  // light over so many edges is too weak to be taken away
 
 inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
     packet->r[lane] = light.x;
@@ -21,8 +19,9 @@ inline void store_light(global IrradiancePacket* packet, uint lane, float3 light
 
 kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
                            uint packet_count, uint light_samples, uint path_count, uint max_edges,
-                           float clamp_radius, uint seed, global IrradiancePacket* restrict direct,
-                           global IrradiancePacket* restrict indirect) {
+                           float clamp_radius, uint seed, uint shares,
+                           global IrradiancePacket* restrict direct,
+                           global IrradiancePacket* restrict indirect, global SharedLight* restrict found) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -37,6 +36,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     at.mesh_n = receiver_mesh_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
+    FoundLight shared = nothing_found(shares != 0 && receiver_shares(receiver, lane, max_edges));
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
@@ -46,8 +46,11 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
         const uint sequence = receiver->sequence[lane];
         const uint4 key = sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
                                         : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
-        light = received_light(&scene, &at, &limits, random_uint4(key));
+        light = received_light(&scene, &at, &limits, random_uint4(key), &shared);
     }
     store_light(direct + packet, lane, light.direct);
     store_light(indirect + packet, lane, light.indirect);
+    if (shares != 0) {
+        found[index] = kept_light(&shared);
+    }
 }

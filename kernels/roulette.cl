@@ -12,7 +12,6 @@
 
 #include "lib/bundle.cl"
 #include "lib/gather.cl"
-#include "lib/random.cl"
 
 // The minimum probability of a VPL that could bring light. It only keeps 1/p finite.
 #define MIN_PROBABILITY 1e-6f
@@ -63,21 +62,6 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint strata,
     }
 }
 
-/// A uniform number in [0, 1) for a bundle. It is a hash of where the bundle's receivers are, so that no
-/// division of a picture changes it.
-inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed) {
-    uint4 key = (uint4)(seed, 0x726f756cu, 0, 0);
-    for (uint i = 0; i < bundle->count; ++i) {
-        const global ReceiverPacket* packet = packets + bundle->first + i;
-        for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            key ^= (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]),
-                           lane);
-            key = random_uint4(key);
-        }
-    }
-    return to_unit_float(key.x);
-}
-
 /// The bound below which a VPL is left to chance: `threshold` times the mean of all bounds.
 inline float roulette_limit(const global float* bounds, uint count, float threshold) {
     float total = 0.0f;
@@ -109,7 +93,7 @@ kernel void roulette_choose(const global float* bounds, uint vpl_count, uint str
         stratum_of(first_bundle + listed, vpl_count, strata, stratum_of_bundle, stratum_period);
     const size_t first = (size_t)listed * stride;
     const float limit = roulette_limit(bounds + first, stratum.count, threshold);
-    float sum = bundle_number(receivers, &bundle, seed);
+    float sum = bundle_number(receivers, &bundle, seed, 0x726f756cu);
     uint count = 0;
     for (uint k = 0; k < stratum.count; ++k) {
         const float bound = bounds[first + k];

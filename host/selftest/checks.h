@@ -106,6 +106,12 @@ void check_receiver_paths(Device& device, CheckResult& result);
 /// receiver from all lights of its packet.
 void check_local_lights(Device& device, CheckResult& result);
 
+// shared_light_checks.cpp: lights that a bundle shares.
+
+/// A case is a receiver, whose irradiance from the lights of its bundle must be that of Embree's rays, by
+/// packets and by single rays.
+void check_shared_lights(Device& device, CheckResult& result);
+
 // film_checks.cpp: the film against sums in double precision.
 
 /// A case is the value of a channel of a pixel.

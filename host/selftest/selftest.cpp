@@ -31,6 +31,7 @@ std::vector<NamedCheck> all_checks() {
             {"BSDFs", check_bsdfs},
             {"direct light", check_direct_light},
             {"paths of receivers", check_receiver_paths},
+            {"shared lights", check_shared_lights},
             {"light tracing", check_light_tracing},
             {"VPL contribution", check_vpl_contribution},
             {"reverse VPLs", check_reverse_vpls},

@@ -2,6 +2,7 @@
 #include "host/session/band_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/session/receiver_weight.h"
 
@@ -44,6 +45,7 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       vertices(device, packets * NEARLIGHT_PACKET_SIZE),
       direct(device, packets),
       indirect(device, packets),
+      found(device, packets * NEARLIGHT_PACKET_SIZE),
       gathered(device, packets),
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
@@ -128,6 +130,21 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                    buffers_.gathered, progress);
 }
 
+/// As trace_receivers(), where bundles share what the rays of their receivers find near by.
+void BandRenderer::trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths) {
+    stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths, buffers_.direct,
+                                       buffers_.indirect, buffers_.found);
+    stages_.shared_lights.add({.scene = scene_,
+                               .receivers = buffers_.receivers,
+                               .packet_count = packets,
+                               .found = buffers_.found,
+                               .clamp_radius = paths.clamp_radius,
+                               .max_edges = paths.max_edges,
+                               .rays_per_receiver = paths.path_count,
+                               .seed = picture_.seed},
+                              buffers_.indirect);
+}
+
 /// Direct light of a batch's receivers, and what their rays find.
 void BandRenderer::trace_receivers(std::size_t packets) {
     if (picture_.settings.indirect_only && !picture_.settings.compensate) {
@@ -135,8 +152,13 @@ void BandRenderer::trace_receivers(std::size_t packets) {
         buffers_.indirect.fill_zero();
         return;
     }
-    stages_.receiver_paths.run(scene_, buffers_.receivers, packets, path_settings(picture_), buffers_.direct,
-                               buffers_.indirect);
+    const ReceiverPathSettings paths = path_settings(picture_);
+    if (paths.path_count > 0 && std::isfinite(paths.clamp_radius)) {
+        trace_sharing_receivers(packets, paths);
+    } else {
+        stages_.receiver_paths.run(scene_, buffers_.receivers, packets, paths, buffers_.direct,
+                                   buffers_.indirect);
+    }
     if (picture_.settings.indirect_only) {
         buffers_.direct.fill_zero();
     }

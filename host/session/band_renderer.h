@@ -16,6 +16,7 @@
 #include "host/stages/light_cuts.h"
 #include "host/stages/receiver_paths.h"
 #include "host/stages/roulette.h"
+#include "host/stages/shared_lights.h"
 
 namespace nearlight::core {
 
@@ -25,12 +26,14 @@ struct BandStages {
         : device(on_device),
           camera_pass(device),
           receiver_paths(device),
+          shared_lights(device, gather_kernel),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
 
     Device& device;
     CameraPass camera_pass;
     ReceiverPaths receiver_paths;
+    SharedLights shared_lights;
     Gatherer gatherer;
     Film film;
     // These stages are made when they are first needed.
@@ -72,12 +75,14 @@ class BandRenderer {
         Buffer<CameraVertex> vertices;
         Buffer<IrradiancePacket> direct;
         Buffer<IrradiancePacket> indirect;
+        Buffer<SharedLight> found;  ///< lights that receivers share with their bundles
         GatherSums<Vpl> gathered;
         Buffer<float> sums;
         Buffer<float> layers;
     };
 
     void trace_receivers(std::size_t packets);
+    void trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths);
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);

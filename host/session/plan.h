@@ -48,7 +48,8 @@ struct RenderPlan {
 
 /// The bytes that one receiver takes in all buffers of a batch.
 inline constexpr std::size_t kBytesPerReceiver =
-    (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex);
+    (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex) +
+    sizeof(SharedLight);
 
 /// What a plan divides.
 struct PictureSize {

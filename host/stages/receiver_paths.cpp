@@ -6,14 +6,27 @@
 namespace nearlight::core {
 
 ReceiverPaths::ReceiverPaths(Device& device)
-    : program_(device, "receiver_paths.cl", kViewProgram), receiver_paths_(program_, "receiver_paths") {}
+    : program_(device, "receiver_paths.cl", kViewProgram),
+      receiver_paths_(program_, "receiver_paths"),
+      none_found_(device, 0) {}
 
 void ReceiverPaths::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                         std::size_t packet_count, const ReceiverPathSettings& settings,
                         Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect) {
     receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
-                                 settings.max_edges, settings.clamp_radius, settings.seed, direct, indirect);
+                                 settings.max_edges, settings.clamp_radius, settings.seed, 0u, direct,
+                                 indirect, none_found_);
+}
+
+void ReceiverPaths::run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                                std::size_t packet_count, const ReceiverPathSettings& settings,
+                                Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
+                                Buffer<SharedLight>& found) {
+    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
+                                 static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
+                                 settings.max_edges, settings.clamp_radius, settings.seed, 1u, direct,
+                                 indirect, found);
 }
 
 }  // namespace nearlight::core

@@ -33,9 +33,18 @@ class ReceiverPaths {
              const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
              Buffer<IrradiancePacket>& indirect);
 
+    /// As run(), except for the Lambertian light of places within the clamp radius. Where a receiver may
+    /// share it with others (lib/shared_light.cl), not `indirect` but `found` gets it, as one light for each
+    /// receiver, and SharedLights brings it to all of the bundle. The clamp radius must be finite.
+    void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                     std::size_t packet_count, const ReceiverPathSettings& settings,
+                     Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
+                     Buffer<SharedLight>& found);
+
   private:
     Program program_;
     Kernel receiver_paths_;
+    Buffer<SharedLight> none_found_;
 };
 
 }  // namespace nearlight::core

@@ -3,3 +3,4 @@
 #include "camera_pass.cl"
 #include "film.cl"
 #include "receiver_paths.cl"
+#include "shared_lights.cl"

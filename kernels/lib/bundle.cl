@@ -4,6 +4,7 @@
 #ifndef NEARLIGHT_LIB_BUNDLE
 #define NEARLIGHT_LIB_BUNDLE
 
+#include "lib/random.cl"
 #include "shared/types.h"
 
 /// `count` packets that follow one another, from `first` on. The bundle is empty where `count` is 0.
@@ -17,6 +18,22 @@ inline Bundle bundle_at(uint index, uint packet_count) {
     const uint there = first < packet_count ? packet_count - first : 0;
     const Bundle bundle = {first, min(there, (uint)NEARLIGHT_BUNDLE_PACKETS)};
     return bundle;
+}
+
+/// A uniform number in [0, 1) for a bundle and one purpose. It is a hash of where the bundle's receivers are,
+/// so that no division of a picture changes it.
+inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed,
+                           uint purpose) {
+    uint4 key = (uint4)(seed, purpose, 0, 0);
+    for (uint i = 0; i < bundle->count; ++i) {
+        const global ReceiverPacket* packet = packets + bundle->first + i;
+        for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            key ^= (uint4)(as_uint(packet->px[lane]), as_uint(packet->py[lane]), as_uint(packet->pz[lane]),
+                           lane);
+            key = random_uint4(key);
+        }
+    }
+    return to_unit_float(key.x);
 }
 
 /// The VPLs that a bundle may ask about: every `step`-th of the set from `first` on, `count` in all. Each of

@@ -95,9 +95,10 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    const RayShare share = {1.0f - weight, max_edges, max_edges};
+    const RayShare share = {1.0f - weight, max_edges, max_edges, 0};
+    Continuation way;
     if (brings_more(scene, &share)) {
-        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, random_uint4(keys));
+        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, random_uint4(keys), &way);
         irradiance += beyond.direct + beyond.indirect;
     }
     return irradiance;

@@ -11,6 +11,7 @@
 #define NEARLIGHT_LIB_RECEIVER_PATH
 
 #include "lib/path_ray.cl"
+#include "lib/shared_light.cl"
 
 /// A place that receives light by its Lambertian part.
 typedef struct ReceiverPoint {
@@ -117,6 +118,8 @@ typedef struct RayShare {
     float of_vpls;
     uint max_edges;
     uint vpl_edges;  // at least max_edges
+    uint
+        is_shared;  // 1: light of the Lambertian part of the first surface is for all receivers of the bundle
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -127,6 +130,9 @@ typedef struct Continuation {
     uint max_edges;
     float near_scale;  // of light over up to RayShare.max_edges edges
     float far_scale;   // of light over more
+    uint is_found;     // 1: the ray brings a light that its receiver shares
+    float3 shading;    // normal of the first surface
+    uint curve;        // its transmission curve
 } Continuation;
 
 /// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
@@ -146,6 +152,7 @@ inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsd
         chance = is_kept ? 0.5f : 1.0f;
     }
     Continuation way;
+    way.is_found = 0;
     if (u < chance) {
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
@@ -164,6 +171,18 @@ inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsd
     return way;
 }
 
+/// Decides between the parts of a first surface whose Lambertian part sends its light to all receivers of the
+/// bundle.
+inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* way) {
+    const float chance = first->s_share > 0.0f ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
+    way->is_found = u < chance;
+    way->parts = way->is_found ? BSDF_D : BSDF_S;
+    way->diffuse_weight = 1.0f;
+    way->near_scale = way->is_found ? 1.0f / chance : 1.0f / (1.0f - chance);
+    way->shading = first->frame.n;
+    way->curve = first->bsdf.curve;
+}
+
 /// Whether VPLs bring all light of the Lambertian part of a first surface whose normal no map turned.
 inline bool vpls_bring_diffuse(const RayShare* share) {
     return share->of_vpls == 1.0f && share->vpl_edges <= share->max_edges;
@@ -179,6 +198,9 @@ inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, 
         surface = surface_bsdf_of(scene, hit, seen, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
         if (view == 0) {
             *way = choose_continuation(scene, &surface, share, u.y);
+            if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
+                choose_found_light(&surface, u.y, way);
+            }
         }
         if (!way->as_vpl) {
             break;
@@ -213,11 +235,12 @@ inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, co
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. Light that came
 /// straight through veils is direct light.
 inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                     const RayShare* share, uint4 keys) {
+                                     const RayShare* share, uint4 keys, Continuation* first_way) {
     const float first_weight = max_component(ray.throughput);
     ReceivedLight light = nothing_received();
     Continuation way;
     way.max_edges = share->vpl_edges;
+    way.is_found = 0;
     for (uint surfaces = 1; surfaces < way.max_edges; ++surfaces) {
         const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
         const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
@@ -254,6 +277,7 @@ inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, Surfac
             break;
         }
     }
+    *first_way = way;
     return light;
 }
 
@@ -290,9 +314,23 @@ inline bool brings_more(const SceneView* scene, const RayShare* share) {
            share->vpl_edges > share->max_edges;
 }
 
+/// The light at the place that a ray met, which sends `radiance` to all sides. It counts in draws by what it
+/// brings to the receiver that found it, or at least a part of that, because others may be nearer.
+inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
+                                float3 radiance, float of_vpls) {
+    SharedLight light;
+    light.position = store3(offset_point(scene, hit->position, hit->geometric));
+    light.weight = max_component(radiance) * fmax(1.0f - of_vpls, 0.05f);
+    light.normal = store3(hit->geometric);
+    light.curve = way->curve;
+    light.radiance = store3(radiance);
+    light.shading = pack_direction(way->shading);
+    return light;
+}
+
 /// What one ray of a receiver brings.
 inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                               float2 u, uint4 keys) {
+                               float2 u, uint4 keys, FoundLight* found) {
     ReceivedLight light = nothing_received();
     const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
     if (is_black(ray.throughput)) {
@@ -312,28 +350,36 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
     const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction), limits->max_edges,
-                            limits->vpl_edges};
+                            limits->vpl_edges, found->is_wanted && hit.t < limits->clamp_radius};
     if (brings_more(scene, &share)) {
-        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, keys);
+        Continuation way;
+        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, keys, &way);
         light.direct += beyond.direct;
-        light.indirect = beyond.indirect;
+        if (way.is_found) {
+            const float sent = diffuse_transmission(scene, way.curve, -dot(way.shading, ray.direction));
+            const float3 radiance = beyond.indirect / (max_component(ray.throughput) * sent);
+            const SharedLight y = shared_light(scene, &hit, &way, radiance, share.of_vpls);
+            find_light(found, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
+        } else {
+            light.indirect = beyond.indirect;
+        }
     }
     return light;
 }
 
-/// All light of a receiver except what VPLs bring.
+/// All light of a receiver except what VPLs bring, and what `found` is to be shared.
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                                    uint4 keys) {
+                                    uint4 keys, FoundLight* found) {
     ReceivedLight light = nothing_received();
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
     const uint first_path = limits->sample * limits->path_count;
     for (uint path = first_path; path < first_path + limits->path_count; ++path) {
-        const ReceivedLight found = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
-                                              random_uint4((uint4)(keys.y, keys.z, keys.w, path)));
-        light.direct += found.direct;
-        light.indirect += found.indirect;
+        const ReceivedLight brought = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
+                                                random_uint4((uint4)(keys.y, keys.z, keys.w, path)), found);
+        light.direct += brought.direct;
+        light.indirect += brought.indirect;
     }
     const float scale = 1.0f / (float)max(limits->path_count, 1u);
     light.direct *= scale;

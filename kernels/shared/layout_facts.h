@@ -59,6 +59,9 @@
     OFFSET(Vpl, power)                              \
     SIZE(Importon)                                  \
     OFFSET(Importon, response)                      \
+    SIZE(SharedLight)                               \
+    OFFSET(SharedLight, normal)                     \
+    OFFSET(SharedLight, radiance)                   \
     SIZE(SurfaceSample)                             \
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \

@@ -24,6 +24,7 @@
 #include "host/stages/receiver_paths.h"
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/roulette.h"
+#include "host/stages/shared_lights.h"
 #include "kernels/shared/film_layers.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -252,6 +253,40 @@ TEST_F(SmallLaunchesTest, GathersOfPackets) {
 
 TEST_F(SmallLaunchesTest, GathersOfRays) {
     expect_same_of_both_trees([](Device& device) { return gathers(device, GatherKernel::rays); });
+}
+
+/// What the rays of a packet's receivers find, as lights of all of them.
+Numbers shared_lights(Device& device, GatherKernel kernel) {
+    const test::SceneOnDevice scene(device, bright_corner());
+    const DeviceScene on_device = upload_scene(device, scene.scene, scene.bvh, kernel);
+    const std::vector<ReceiverPacket> packets = few_receivers(scene, 8, 8);
+    const Buffer<ReceiverPacket> receivers(device, packets);
+    const ReceiverPathSettings settings{
+        .light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.8f, .seed = 2};
+    Buffer<IrradiancePacket> direct(device, packets.size());
+    Buffer<IrradiancePacket> indirect(device, packets.size());
+    Buffer<SharedLight> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
+    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
+                                      found);
+    SharedLights(device, kernel)
+        .add({.scene = on_device,
+              .receivers = receivers,
+              .packet_count = packets.size(),
+              .found = found,
+              .clamp_radius = settings.clamp_radius,
+              .max_edges = settings.max_edges,
+              .rays_per_receiver = settings.path_count,
+              .seed = settings.seed},
+             indirect);
+    return numbers_of(indirect.download());
+}
+
+TEST_F(SmallLaunchesTest, SharedLightsByPackets) {
+    expect_same_of_both_trees([](Device& device) { return shared_lights(device, GatherKernel::packets); });
+}
+
+TEST_F(SmallLaunchesTest, SharedLightsByRays) {
+    expect_same_of_both_trees([](Device& device) { return shared_lights(device, GatherKernel::rays); });
 }
 
 TEST_F(SmallLaunchesTest, LocalLightsOfAPacket) {

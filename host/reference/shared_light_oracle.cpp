@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/reference/shared_light_oracle.h"
+
+#include <cmath>
+#include <optional>
+
+#include "host/base/packed_direction.h"
+#include "host/base/random.h"
+#include "host/base/receiver_bundles.h"
+#include "host/base/receivers.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr std::size_t kBundleReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
+
+bool is_absent(const ReceiverPoint& point) {
+    return point.normal == Vec3{0, 0, 0};
+}
+
+/// Whether a receiver of the case shares lights: paths are short, so none behind a surface does.
+bool shares(const SharedLightCase& data, std::size_t receiver) {
+    const ReceiverPacket& packet = data.receivers[receiver / NEARLIGHT_PACKET_SIZE];
+    const std::size_t lane = receiver % NEARLIGHT_PACKET_SIZE;
+    const uint surfaces =
+        packet.surface[lane] >> NEARLIGHT_RECEIVER_SURFACES_SHIFT & NEARLIGHT_RECEIVER_SURFACES_MASK;
+    return !is_absent(receiver_at(packet, lane)) && packet.mesh_normal[lane] == 0 && surfaces == 0;
+}
+
+uint curve_of(const SharedLightCase& data, std::size_t receiver) {
+    return data.receivers[receiver / NEARLIGHT_PACKET_SIZE].surface[receiver % NEARLIGHT_PACKET_SIZE] &
+           NEARLIGHT_RECEIVER_CURVE_MASK;
+}
+
+/// A light and a receiver that is near enough and faces it.
+struct Pair {
+    double geometry, part, cos_light, cos_receiver;
+};
+
+std::optional<Pair> connect(const SharedLightCase& data, const SharedLight& light, const ReceiverPoint& x) {
+    const Vec3 d = x.position - light.position;
+    const double squared = dot(d, d);
+    const double limit = double{data.clamp_radius} * data.clamp_radius;
+    const double distance = std::sqrt(squared);
+    const double cos_light = dot(light.normal, d) / distance;
+    const double cos_receiver = -dot(x.normal, d) / distance;
+    if (!(squared > 0 && squared < limit && cos_light > 0 && cos_receiver > 0)) {
+        return std::nullopt;
+    }
+    return Pair{cos_light * cos_receiver / squared, 1 - squared / limit, cos_light, cos_receiver};
+}
+
+/// Every eighth receiver does not share, each for a reason of its own, and every third has a curve.
+void vary(std::vector<ReceiverPacket>& receivers) {
+    for (std::size_t i = 0; i < receivers.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        ReceiverPacket& packet = receivers[i / NEARLIGHT_PACKET_SIZE];
+        const std::size_t lane = i % NEARLIGHT_PACKET_SIZE;
+        packet.surface[lane] = i % 3 == 0 ? 1u : 0u;
+        if (i % 24 == 1) {
+            packet.surface[lane] |= 1u << NEARLIGHT_RECEIVER_SURFACES_SHIFT;
+        } else if (i % 24 == 9) {
+            packet.mesh_normal[lane] = pack_direction(receiver_at(packet, lane).normal);
+        } else if (i % 24 == 17) {
+            set_receiver(packet, lane, {});
+        }
+    }
+}
+
+SharedLight light_at(const ReceiverPoint& place, std::size_t number, Pcg32& random) {
+    return {.position = place.position,
+            .weight = 1,
+            .normal = place.normal,
+            .curve = number % 5 == 0 ? 1u : 0u,
+            .radiance = {random.uniform(), random.uniform(), 1 + random.uniform()},
+            .shading = pack_direction(place.normal)};
+}
+
+}  // namespace
+
+SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float clamp_radius,
+                                   const std::function<bool(Vec3, Vec3)>& is_clear) {
+    SharedLightCase data{.receivers = std::move(receivers), .found = {}, .clamp_radius = clamp_radius};
+    vary(data.receivers);
+    const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
+    data.found.resize(count, SharedLight{});
+    Pcg32 random(7, 1);
+    // Every fourth receiver makes 64 lights in a whole bundle, so that each is used with certainty.
+    for (std::size_t i = 0; i < count; i += 4) {
+        const std::size_t first = i / kBundleReceivers * kBundleReceivers;
+        const std::size_t end = std::min(count, first + kBundleReceivers);
+        const ReceiverPoint place = receiver_at(data.receivers, first + random.next() % (end - first));
+        if (is_absent(place)) {
+            continue;
+        }
+        const SharedLight light = light_at(place, i / 4, random);
+        bool clear = true;
+        for (std::size_t k = first; k < end && clear; ++k) {
+            const ReceiverPoint x = receiver_at(data.receivers, k);
+            clear = !connect(data, light, x) || is_clear(light.position, x.position);
+        }
+        if (clear) {
+            data.found[i] = light;
+        }
+    }
+    return data;
+}
+
+std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
+                                    const std::function<bool(Vec3, Vec3)>& is_visible,
+                                    const std::function<double(double)>& transmission) {
+    const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
+    std::vector<Vec3> result(count, Vec3{0, 0, 0});
+    for (std::size_t i = 0; i < count; ++i) {
+        const SharedLight& light = data.found[i];
+        const std::size_t first = i / kBundleReceivers * kBundleReceivers;
+        const std::size_t end = std::min(count, first + kBundleReceivers);
+        std::vector<std::pair<std::size_t, Pair>> seeing;
+        double density = 0;
+        for (std::size_t k = first; k < end && light.weight > 0; ++k) {
+            const ReceiverPoint x = receiver_at(data.receivers, k);
+            const std::optional<Pair> pair = shares(data, k) ? connect(data, light, x) : std::nullopt;
+            if (pair && is_visible(light.position, x.position)) {
+                seeing.emplace_back(k, *pair);
+                density += data.rays_per_receiver * pair->geometry / static_cast<double>(kPi);
+            }
+        }
+        for (const auto& [k, pair] : seeing) {
+            const double weight = pair.part * pair.geometry / density *
+                                  (light.curve == 1 ? transmission(pair.cos_light) : 1.0) *
+                                  (curve_of(data, k) == 1 ? transmission(pair.cos_receiver) : 1.0);
+            result[k] += light.radiance * static_cast<float>(weight);
+        }
+    }
+    return result;
+}
+
+}  // namespace nearlight::core

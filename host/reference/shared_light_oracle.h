@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The oracle of shared lights, in double precision.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/base/math.h"
+#include "kernels/shared/types.h"
+
+namespace nearlight::core {
+
+/// Bundles of receivers with a light for some of them, few enough for each bundle to use all of its lights.
+/// Some receivers are absent, some do not share, and some surfaces have the transmission curve 1.
+struct SharedLightCase {
+    std::vector<ReceiverPacket> receivers;
+    std::vector<SharedLight> found;  ///< one for each receiver
+    float clamp_radius = 0.0f;
+    uint max_edges = 8;
+    uint rays_per_receiver = 3;
+};
+
+/// Makes the case of some receivers; lights lie at other receivers of the same bundle. `is_clear(a, b)` says
+/// whether single precision is sure of what is between two points; lights for which it is not are left out.
+SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float clamp_radius,
+                                   const std::function<bool(Vec3, Vec3)>& is_clear);
+
+/// Irradiance of each receiver: Σ_j L_j·(1 − r²/R²)·G·V·T·T / p(j), p(j) = m/π · Σ_s G·V over the receivers s
+/// of the bundle that share. `transmission` is T of the curve 1 by the cosine.
+std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
+                                    const std::function<bool(Vec3, Vec3)>& is_visible,
+                                    const std::function<double(double)>& transmission);
+
+}  // namespace nearlight::core

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shared_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/math.h"
+#include "host/reference/edge_excuse.h"
+#include "host/reference/embree_scene.h"
+#include "host/reference/gather_workload.h"
+#include "host/reference/shared_light_oracle.h"
+#include "host/reference/test_rooms.h"
+#include "host/scene/material_model.h"
+#include "host/stages/receiver_paths.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+
+class SharedLightsTest : public test::DeviceTest {};
+
+constexpr std::size_t kReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
+constexpr float kRadius = 0.8f;
+
+/// A floor and a wall of one material under a point light, and a shelf on the wall that shades a part of the
+/// floor.
+Scene corner_with_shelf(const Material& material) {
+    Scene scene;
+    const uint surface = add_material(scene, material);
+    add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, surface);
+    add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, surface);
+    add_quad(scene, {-0.3f, 0.2f, 0.8f}, {0, 0, 0.2f}, {0.6f, 0, 0},
+             add_two_sided(scene, lambertian({0.3f, 0.4f, 0.5f})));
+    add_point_light(scene, {0.2f, 1.0f, 0.1f}, {1, 2, 3});
+    return scene;
+}
+
+/// Receivers on a grid of the floor near the wall; every fifth is absent.
+std::vector<ReceiverPacket> receivers_near_the_wall(std::size_t count = kReceivers) {
+    std::vector<ReceiverPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = -0.6f + 0.08f * static_cast<float>(i % 16);
+        const float z = 0.5f + 0.49f / 16 * static_cast<float>(i / 16);
+        points.push_back({{x, 1e-4f, z}, i % 5 == 4 ? Vec3{0, 0, 0} : Vec3{0, 1, 0}});
+    }
+    return test::pack_receivers(points);
+}
+
+/// Green light that rays bring to each receiver, over surfaces, in the mean over some seeds, and the mean of
+/// its squares.
+struct Brought {
+    std::vector<double> mean, square;
+    [[nodiscard]] double sum() const {
+        double sum = 0;
+        for (const double value : mean) {
+            sum += value;
+        }
+        return sum;
+    }
+    [[nodiscard]] double variance() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            sum += square[i] - mean[i] * mean[i];
+        }
+        return sum;
+    }
+};
+
+Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPacket>& packets, bool shared,
+                ReceiverPathSettings settings, uint seeds, GatherKernel kernel = GatherKernel::automatic) {
+    const Bvh bvh = build_scene_bvh(scene);
+    const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
+    const Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<IrradiancePacket> direct(device, packets.size());
+    Buffer<IrradiancePacket> indirect(device, packets.size());
+    Buffer<SharedLight> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
+    ReceiverPaths paths(device);
+    SharedLights lights(device, kernel);
+    const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
+    Brought result{std::vector<double>(count), std::vector<double>(count)};
+    for (uint seed = 0; seed < seeds; ++seed) {
+        settings.seed = 100 + seed;
+        if (shared) {
+            paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
+            lights.add({.scene = on_device,
+                        .receivers = receivers,
+                        .packet_count = packets.size(),
+                        .found = found,
+                        .clamp_radius = settings.clamp_radius,
+                        .max_edges = settings.max_edges,
+                        .rays_per_receiver = settings.path_count,
+                        .seed = settings.seed},
+                       indirect);
+        } else {
+            paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
+        }
+        const std::vector<IrradiancePacket> light = indirect.download();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double green = irradiance_at(light, i).y;
+            result.mean[i] += green / seeds;
+            result.square[i] += green * green / seeds;
+        }
+    }
+    return result;
+}
+
+constexpr ReceiverPathSettings kTwoRays{.path_count = 2, .max_edges = 4, .clamp_radius = kRadius};
+constexpr ReceiverPathSettings kManyRays{.path_count = 512, .max_edges = 4, .clamp_radius = kRadius};
+
+void expect_the_light_of_own_rays(Device& device, const Scene& scene,
+                                  const std::vector<ReceiverPacket>& packets, GatherKernel kernel) {
+    const Brought own = brought(device, scene, packets, false, kManyRays, 32, kernel);
+    const Brought shared = brought(device, scene, packets, true, kTwoRays, 2048, kernel);
+    ASSERT_GT(own.sum(), 1.0);
+    EXPECT_NEAR(shared.sum(), own.sum(), 0.005 * own.sum());
+    for (std::size_t i = 0; i < own.mean.size(); ++i) {
+        EXPECT_NEAR(shared.mean[i], own.mean[i], 0.15 * own.mean[i] + 1e-3) << i;
+    }
+}
+
+TEST_F(SharedLightsTest, BringWhatOwnRaysBring) {
+    on_each_device([](Device& device) {
+        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+            SCOPED_TRACE(kernel == GatherKernel::rays ? "single rays" : "packets");
+            expect_the_light_of_own_rays(device, corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f})),
+                                         receivers_near_the_wall(), kernel);
+        }
+    });
+}
+
+/// Coats have curves at both ends, and reflect other than diffusely, which each receiver finds by itself.
+TEST_F(SharedLightsTest, BringWhatOwnRaysBringBelowCoats) {
+    on_each_device([](Device& device) {
+        Scene scene = corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f}));
+        scene.materials[0] = coated(scene, {0.5f, 0.5f, 0.5f}, {.eta = 1.5});
+        std::vector<ReceiverPacket> packets = receivers_near_the_wall();
+        for (ReceiverPacket& packet : packets) {
+            std::ranges::fill(packet.surface, scene.materials[0].curve);
+        }
+        expect_the_light_of_own_rays(device, scene, packets, GatherKernel::automatic);
+    });
+}
+
+TEST_F(SharedLightsTest, AreLessNoiseThanOwnRays) {
+    on_each_device([](Device& device) {
+        const Scene scene = corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f}));
+        const std::vector<ReceiverPacket> packets = receivers_near_the_wall();
+        const Brought own = brought(device, scene, packets, false, kTwoRays, 32);
+        const Brought shared = brought(device, scene, packets, true, kTwoRays, 32);
+        EXPECT_LT(shared.variance(), 0.3 * own.variance());
+    });
+}
+
+/// A last bundle may have a single packet.
+TEST_F(SharedLightsTest, BundlesDoNotShareWithEachOther) {
+    on_each_device([](Device& device) {
+        const Scene scene = corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f}));
+        std::vector<ReceiverPacket> packets = receivers_near_the_wall();
+        const Brought alone = brought(device, scene, packets, true, kTwoRays, 1);
+        packets.push_back(packets[2]);
+        const Brought together = brought(device, scene, packets, true, kTwoRays, 1);
+        for (std::size_t i = 0; i < kReceivers; ++i) {
+            EXPECT_EQ(together.mean[i], alone.mean[i]) << i;
+        }
+        double last = 0;
+        for (std::size_t i = kReceivers; i < together.mean.size(); ++i) {
+            last += together.mean[i];
+        }
+        EXPECT_GT(last, 0);
+    });
+}
+
+/// Paths of receivers behind panes are shorter, and maps weigh light in another way.
+TEST_F(SharedLightsTest, ReceiversThatDifferKeepTheirOwnRays) {
+    on_each_device([](Device& device) {
+        const Scene scene = corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f}));
+        std::vector<ReceiverPacket> packets = receivers_near_the_wall();
+        std::ranges::fill(packets[0].surface, 1u << NEARLIGHT_RECEIVER_SURFACES_SHIFT);
+        std::ranges::fill(packets[1].mesh_normal, 32768u | 65535u << 16);  // pack_direction() of (0, 1, 0)
+        const Brought own = brought(device, scene, packets, false, kTwoRays, 1);
+        const Brought shared = brought(device, scene, packets, true, kTwoRays, 1);
+        const std::size_t differing = 2 * std::size_t{NEARLIGHT_PACKET_SIZE};
+        EXPECT_EQ(std::vector(shared.mean.begin(), shared.mean.begin() + differing),
+                  std::vector(own.mean.begin(), own.mean.begin() + differing));
+        EXPECT_NE(shared.mean, own.mean);
+        ReceiverPathSettings long_paths = kTwoRays;
+        long_paths.max_edges = 64;
+        EXPECT_NE(brought(device, scene, packets, true, long_paths, 1).mean[0],
+                  brought(device, scene, packets, false, long_paths, 1).mean[0])
+            << "an edge less of many does not matter";
+    });
+}
+
+/// The sum over listed lights is exact where a bundle uses all of them.
+TEST_F(SharedLightsTest, AgreeWithEmbree) {
+    on_each_device([](Device& device) {
+        Scene scene = make_delta_lit_room();
+        scene.transmission_curves.assign(2 * std::size_t{NEARLIGHT_CURVE_SIZE}, 0.5f);
+        const Bvh bvh = build_scene_bvh(scene);
+        const EmbreeScene embree(scene);
+        const float extent = max_component(bounds(scene).size());
+        const SharedLightCase data = make_shared_lights(
+            make_camera_receivers(scene, bvh, 24, 24), 0.3f * extent, [&](Vec3 from, Vec3 to) {
+                return distance_to_edges(bvh.triangles, from, to) > kSegmentEdgeTolerance * extent;
+            });
+        const std::vector<Vec3> wanted = shared_irradiance(
+            data, [&](Vec3 from, Vec3 to) { return !embree.blocked(from, to); }, [](double) { return 0.5; });
+        const auto lit = std::ranges::count_if(wanted, [](Vec3 light) { return light.z > 0; });
+        EXPECT_GT(lit, static_cast<std::ptrdiff_t>(wanted.size() / 2));
+        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+            const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
+            Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
+            irradiance.fill_zero();
+            SharedLights(device, kernel)
+                .add({.scene = on_device,
+                      .receivers = Buffer<ReceiverPacket>(device, data.receivers),
+                      .packet_count = data.receivers.size(),
+                      .found = Buffer<SharedLight>(device, data.found),
+                      .clamp_radius = data.clamp_radius,
+                      .max_edges = data.max_edges,
+                      .rays_per_receiver = data.rays_per_receiver,
+                      .seed = 1},
+                     irradiance);
+            const std::vector<IrradiancePacket> found = irradiance.download();
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                const Vec3 difference = irradiance_at(found, i) - wanted[i];
+                ASSERT_LE(length(difference), 1e-3f * length(wanted[i]) + 1e-6f) << i;
+            }
+        }
+    });
+}
+
+TEST_F(SharedLightsTest, NothingFoundAddsNothing) {
+    on_each_device([](Device& device) {
+        const Scene scene = corner_with_shelf(lambertian({0, 0, 0}));
+        EXPECT_EQ(brought(device, scene, receivers_near_the_wall(), true, kTwoRays, 1).sum(), 0.0);
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core
