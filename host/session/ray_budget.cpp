@@ -31,7 +31,7 @@ constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;  ///< and of one light s
 constexpr double kErrorOfDraw = 1.0;
 /// The error of rays ÷ what two rays at each of a thousand receivers show of it, which miss the rare bright
 /// paths that carry most, though bundles share what rays find (bench/log/sharing.md).
-constexpr double kHiddenErrorOfRays = 2;
+constexpr double kHiddenErrorOfRays = 4;
 /// How much more the error of VPLs counts than that of rays: neighbouring pixels share it, so that it is seen
 /// as splotches, and a denoiser leaves it (bench/log/limit.md).
 constexpr double kWeightOfSharedError = 3;
