@@ -7,6 +7,7 @@
 #include "shared/layout_facts.h"
 #include "shared/light_cut.h"
 #include "shared/packet_order.h"
+#include "shared/shared_light.h"
 #include "shared/types.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);

@@ -8,6 +8,7 @@
 #include "kernels/shared/layout_facts.h"
 #include "kernels/shared/light_cut.h"
 #include "kernels/shared/packet_order.h"
+#include "kernels/shared/shared_light.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {

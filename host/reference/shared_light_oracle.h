@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/math.h"
-#include "kernels/shared/types.h"
+#include "kernels/shared/shared_light.h"
 
 namespace nearlight::core {
 

@@ -10,6 +10,7 @@
 
 #include "host/cl/device.h"
 #include "host/stages/camera_pass.h"
+#include "kernels/shared/shared_light.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {

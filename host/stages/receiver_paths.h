@@ -5,6 +5,7 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
+#include "kernels/shared/shared_light.h"
 
 namespace nearlight::core {
 

@@ -242,19 +242,6 @@ typedef struct Importon {
 } Importon;
 #define NEARLIGHT_IMPORTON_SQUARED 2u  // a gather sums the squares of its geometry terms
 
-/// A light that the rays of a receiver found and that its bundle may share (shared_lights.cl). It has the
-/// members of a Vpl that a connection reads in the same places.
-typedef struct SharedLight {
-    Vec3 position;  // stands off its surface by the ray epsilon
-    float weight;   // in proportion to which bundles draw; 0: no light
-    Vec3 normal;    // of the mesh
-    uint curve;     // row of the surface's transmission curve
-    Vec3 radiance;  // W/m²/sr, which it sends to all sides times the curve
-    uint shading;   // shading normal, as pack_direction() packs it
-} SharedLight;
-#define NEARLIGHT_SHARED_LIGHTS 64u                           // about how many a bundle uses
-#define NEARLIGHT_SHARED_LIST (NEARLIGHT_SHARED_LIGHTS + 1u)  // rounding may add one
-
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {
     Vec3 position;
@@ -399,9 +386,6 @@ static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&
                   offsetof(Importon, flags) == offsetof(Vpl, flags) &&
                   offsetof(Importon, response) == offsetof(Vpl, power),
               "a gather reads an Importon as a Vpl");
-NEARLIGHT_CHECK_SHARED(SharedLight, 48);
-static_assert(offsetof(SharedLight, normal) == offsetof(Vpl, normal),
-              "a beam connects to a SharedLight as to a Vpl");
 NEARLIGHT_CHECK_SHARED(SurfaceSample, 48);
 NEARLIGHT_CHECK_SHARED(ReceiverPacket, 2304);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
