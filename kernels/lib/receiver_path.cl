@@ -118,8 +118,7 @@ typedef struct RayShare {
     float of_vpls;
     uint max_edges;
     uint vpl_edges;  // at least max_edges
-    uint
-        is_shared;  // 1: light of the Lambertian part of the first surface is for all receivers of the bundle
+    uint is_shared;  // 1: what the first surface sends by its Lambertian part is for the whole bundle
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -367,7 +366,7 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     return light;
 }
 
-/// All light of a receiver except what VPLs bring, and what `found` is to be shared.
+/// All light of a receiver except what VPLs bring, and except what `found` keeps for the bundle.
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
                                     uint4 keys, FoundLight* found) {
     ReceivedLight light = nothing_received();

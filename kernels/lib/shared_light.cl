@@ -68,8 +68,8 @@ inline SharedLight kept_light(const FoundLight* found) {
     return light;
 }
 
-/// A light as a beam reads it. SharedLight in shared/types.h has the members that it needs in the places of
-/// those of a Vpl.
+/// A light as a beam reads it. The struct SharedLight has the members that it needs in the places of those of
+/// a Vpl.
 inline const global Vpl* as_vpl(const global SharedLight* light) {
     return (const global Vpl*)light;
 }
