@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/checks.h"
 
-#include <array>
-#include <cmath>
-
 #include "host/base/receivers.h"
 #include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
@@ -43,6 +40,10 @@ void check_shared_lights(Device& device, CheckResult& result) {
         [&](Vec3 from, Vec3 to) { return distance_to_edges(bvh.triangles, from, to) > tolerance; });
     const std::vector<Vec3> wanted = shared_irradiance(
         data, [&](Vec3 from, Vec3 to) { return !embree.blocked(from, to); }, transmission);
+    const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+                                        .max_edges = data.max_edges,
+                                        .clamp_radius = data.clamp_radius,
+                                        .seed = 1};
     const Buffer<ReceiverPacket> receivers(device, data.receivers);
     const Buffer<SharedLight> lights(device, data.found);
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
@@ -50,15 +51,7 @@ void check_shared_lights(Device& device, CheckResult& result) {
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
         SharedLights(device, kernel)
-            .add({.scene = on_device,
-                  .receivers = receivers,
-                  .packet_count = data.receivers.size(),
-                  .found = lights,
-                  .clamp_radius = data.clamp_radius,
-                  .max_edges = data.max_edges,
-                  .rays_per_receiver = data.rays_per_receiver,
-                  .seed = 1},
-                 irradiance);
+            .add(on_device, receivers, data.receivers.size(), settings, lights, irradiance);
         const std::vector<IrradiancePacket> found = irradiance.download();
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             const Vec3 difference = irradiance_at(found, i) - wanted[i];

@@ -134,15 +134,7 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
 void BandRenderer::trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths) {
     stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths, buffers_.direct,
                                        buffers_.indirect, buffers_.found);
-    stages_.shared_lights.add({.scene = scene_,
-                               .receivers = buffers_.receivers,
-                               .packet_count = packets,
-                               .found = buffers_.found,
-                               .clamp_radius = paths.clamp_radius,
-                               .max_edges = paths.max_edges,
-                               .rays_per_receiver = paths.path_count,
-                               .seed = picture_.seed},
-                              buffers_.indirect);
+    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths, buffers_.found, buffers_.indirect);
 }
 
 /// Direct light of a batch's receivers, and what their rays find.

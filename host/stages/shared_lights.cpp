@@ -40,35 +40,38 @@ void SharedLights::make_lists(std::size_t bundle_count) {
 }
 
 /// Finds for each listed light the receivers that see it, and the density of rays there.
-void SharedLights::find_seeing_receivers(const SharedLightTask& task, std::size_t bundle_count) {
+void SharedLights::find_seeing_receivers(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                                         std::size_t packet_count, const ReceiverPathSettings& settings,
+                                         const Buffer<SharedLight>& found) {
+    const std::size_t bundle_count = BundleLayout{static_cast<uint>(packet_count)}.bundle_count();
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
-        visibility_.launch(items, local_size, nodes, triangles, task.receivers,
-                           static_cast<uint>(task.packet_count), task.found,
-                           task.clamp_radius * task.clamp_radius, task.max_edges, task.rays_per_receiver,
-                           listed_, lengths_, factors_, seen_by_, rest...);
+        visibility_.launch(items, local_size, nodes, triangles, receivers, static_cast<uint>(packet_count),
+                           found, settings.clamp_radius * settings.clamp_radius, settings.max_edges,
+                           settings.path_count, listed_, lengths_, factors_, seen_by_, rest...);
     };
-    const DeviceTree& tree = task.scene.tree;
     if (kernel_ == GatherKernel::rays) {
-        launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, tree.nodes,
-                  tree.triangles);
+        launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,
+                  scene.tree.triangles);
     } else {
         next_bundle_.fill_zero();
-        launch_on(bundle_count, 1, tree.wide_nodes, tree.blocks, next_bundle_);
+        launch_on(bundle_count, 1, scene.tree.wide_nodes, scene.tree.blocks, next_bundle_);
     }
 }
 
-void SharedLights::add(const SharedLightTask& task, Buffer<IrradiancePacket>& irradiance) {
-    const auto packet_count = static_cast<uint>(task.packet_count);
-    const std::size_t bundle_count = BundleLayout{packet_count}.bundle_count();
+void SharedLights::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                       std::size_t packet_count, const ReceiverPathSettings& settings,
+                       const Buffer<SharedLight>& found, Buffer<IrradiancePacket>& irradiance) {
+    const auto packets = static_cast<uint>(packet_count);
+    const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
     make_lists(bundle_count);
-    choose_.launch_items(bundle_count, task.receivers, packet_count, task.found, task.seed, listed_, factors_,
-                         lengths_);
-    find_seeing_receivers(task, bundle_count);
-    const Buffer<float>* curves = task.scene.curves_in_use();
-    gather_.launch_items(task.packet_count * NEARLIGHT_PACKET_SIZE, task.receivers, packet_count, task.found,
-                         curves != nullptr ? *curves : no_curves_, task.clamp_radius * task.clamp_radius,
-                         listed_, factors_, lengths_, seen_by_, irradiance);
+    choose_.launch_items(bundle_count, receivers, packets, found, settings.seed, listed_, factors_, lengths_);
+    find_seeing_receivers(scene, receivers, packet_count, settings, found);
+    const Buffer<float>* curves = scene.curves_in_use();
+    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, receivers, packets, found,
+                         curves != nullptr ? *curves : no_curves_,
+                         settings.clamp_radius * settings.clamp_radius, listed_, factors_, lengths_, seen_by_,
+                         irradiance);
 }
 
 }  // namespace nearlight::core

@@ -5,22 +5,11 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
+#include "host/stages/receiver_paths.h"
 #include "kernels/shared/shared_light.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {
-
-/// What ReceiverPaths::run_sharing found, and with which settings.
-struct SharedLightTask {
-    const DeviceScene& scene;  ///< its tree must be uploaded for the gather kernel
-    const Buffer<ReceiverPacket>& receivers;
-    std::size_t packet_count = 0;
-    const Buffer<SharedLight>& found;  ///< one for each receiver
-    float clamp_radius = 0.0f;         ///< ReceiverPathSettings::clamp_radius, finite
-    uint max_edges = 1;                ///< ReceiverPathSettings::max_edges
-    uint rays_per_receiver = 1;        ///< ReceiverPathSettings::path_count, at least 1
-    uint seed = 0;
-};
 
 class SharedLights {
   public:
@@ -28,12 +17,17 @@ class SharedLights {
     SharedLights(Device& device, GatherKernel kernel);
 
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what those of its bundle bring: an
-    /// unbiased estimate of what run_sharing() left out.
-    void add(const SharedLightTask& task, Buffer<IrradiancePacket>& irradiance);
+    /// unbiased estimate of what ReceiverPaths::run_sharing() left to `found` with the same settings. The
+    /// tree of the scene must be uploaded for the gather kernel.
+    void add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+             const ReceiverPathSettings& settings, const Buffer<SharedLight>& found,
+             Buffer<IrradiancePacket>& irradiance);
 
   private:
     void make_lists(std::size_t bundle_count);
-    void find_seeing_receivers(const SharedLightTask& task, std::size_t bundle_count);
+    void find_seeing_receivers(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                               std::size_t packet_count, const ReceiverPathSettings& settings,
+                               const Buffer<SharedLight>& found);
 
     Device* device_;
     GatherKernel kernel_;  ///< never `automatic`

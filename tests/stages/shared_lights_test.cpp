@@ -86,15 +86,7 @@ Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPa
         settings.seed = 100 + seed;
         if (shared) {
             paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
-            lights.add({.scene = on_device,
-                        .receivers = receivers,
-                        .packet_count = packets.size(),
-                        .found = found,
-                        .clamp_radius = settings.clamp_radius,
-                        .max_edges = settings.max_edges,
-                        .rays_per_receiver = settings.path_count,
-                        .seed = settings.seed},
-                       indirect);
+            lights.add(on_device, receivers, packets.size(), settings, found, indirect);
         } else {
             paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
         }
@@ -209,6 +201,10 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
             });
         const std::vector<Vec3> wanted = shared_irradiance(
             data, [&](Vec3 from, Vec3 to) { return !embree.blocked(from, to); }, [](double) { return 0.5; });
+        const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+                                            .max_edges = data.max_edges,
+                                            .clamp_radius = data.clamp_radius,
+                                            .seed = 1};
         const auto lit = std::ranges::count_if(wanted, [](Vec3 light) { return light.z > 0; });
         EXPECT_GT(lit, static_cast<std::ptrdiff_t>(wanted.size() / 2));
         for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
@@ -216,15 +212,8 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
             Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
             irradiance.fill_zero();
             SharedLights(device, kernel)
-                .add({.scene = on_device,
-                      .receivers = Buffer<ReceiverPacket>(device, data.receivers),
-                      .packet_count = data.receivers.size(),
-                      .found = Buffer<SharedLight>(device, data.found),
-                      .clamp_radius = data.clamp_radius,
-                      .max_edges = data.max_edges,
-                      .rays_per_receiver = data.rays_per_receiver,
-                      .seed = 1},
-                     irradiance);
+                .add(on_device, Buffer<ReceiverPacket>(device, data.receivers), data.receivers.size(),
+                     settings, Buffer<SharedLight>(device, data.found), irradiance);
             const std::vector<IrradiancePacket> found = irradiance.download();
             for (std::size_t i = 0; i < wanted.size(); ++i) {
                 const Vec3 difference = irradiance_at(found, i) - wanted[i];

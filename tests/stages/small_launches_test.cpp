@@ -268,16 +268,7 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
     Buffer<SharedLight> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
     ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
                                       found);
-    SharedLights(device, kernel)
-        .add({.scene = on_device,
-              .receivers = receivers,
-              .packet_count = packets.size(),
-              .found = found,
-              .clamp_radius = settings.clamp_radius,
-              .max_edges = settings.max_edges,
-              .rays_per_receiver = settings.path_count,
-              .seed = settings.seed},
-             indirect);
+    SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
     return numbers_of(indirect.download());
 }
 
