@@ -13,6 +13,7 @@
 #include "host/scene/material_model.h"
 #include "host/stages/receiver_paths.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/kernel_probe.h"
 #include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
@@ -220,6 +221,41 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
                 ASSERT_LE(length(difference), 1e-3f * length(wanted[i]) + 1e-6f) << i;
             }
         }
+    });
+}
+
+/// Of two lights, a receiver keeps either in proportion to its weight, and each then stands for both.
+TEST_F(SharedLightsTest, AReceiverKeepsEachOfItsFindsByItsWeight) {
+    on_each_device([](Device& device) {
+        test::KernelProbe probe(device, R"(
+#include "lib/random.cl"
+#include "lib/shared_light.cl"
+kernel void probe(global float* out) {
+    const uint i = (uint)get_global_id(0);
+    FoundLight found = nothing_found(1);
+    for (uint k = 0; k < 2; ++k) {
+        SharedLight light = nothing_found(1).light;
+        light.weight = k == 0 ? 1.0f : 3.0f;
+        light.radiance = store3(k == 0 ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 3.0f, 0.0f));
+        find_light(&found, &light, to_unit_float(random_uint4((uint4)(i, k, 3, 4)).x));
+    }
+    const SharedLight kept = kept_light(&found);
+    out[3 * i] = kept.radiance.x;
+    out[3 * i + 1] = kept.radiance.y;
+    out[3 * i + 2] = kept.weight;
+}
+)");
+        constexpr std::size_t kDraws = 4096;
+        Buffer<float> out(probe.device(), 3 * kDraws);
+        probe.kernel().launch(kDraws, 1, out);
+        const std::vector<float> kept = out.download();
+        double first = 0;
+        for (std::size_t i = 0; i < kDraws; ++i) {
+            EXPECT_FLOAT_EQ(kept[3 * i] + kept[3 * i + 1], 4.0f);
+            EXPECT_FLOAT_EQ(kept[3 * i + 2], 4.0f);
+            first += kept[3 * i] > 0 ? 1.0 / kDraws : 0.0;
+        }
+        EXPECT_NEAR(first, 0.25, 5 * std::sqrt(0.25 * 0.75 / kDraws));
     });
 }
 

@@ -11,18 +11,22 @@
 
 namespace nearlight::core::test {
 
-/// Compiles `source`, which may include the kernel library and has the entry point `probe`.
+/// Compiles `source`, which may include the kernel library and has the entry point `probe`. Buffers belong to
+/// device(), not to the one that it is like. The library is that of the like device's kernels, or the
+/// source's.
 class KernelProbe {
   public:
     KernelProbe(const Device& like, const std::string& source)
-        : device_(like.entry(), options(source)), kernel_(Program(device_, "probe.cl"), "probe") {}
+        : device_(like.entry(), options(like, source)), kernel_(Program(device_, "probe.cl"), "probe") {}
 
     [[nodiscard]] Device& device() { return device_; }
     [[nodiscard]] Kernel& kernel() { return kernel_; }
 
   private:
-    DeviceOptions options(const std::string& source) {
-        const std::filesystem::path kernels = std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels";
+    DeviceOptions options(const Device& like, const std::string& source) {
+        const std::filesystem::path given = like.options().kernel_dir;
+        const std::filesystem::path kernels =
+            given.empty() ? std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels" : given;
         for (const char* folder : {"lib", "shared"}) {
             std::filesystem::copy(kernels / folder, folder_ / folder,
                                   std::filesystem::copy_options::recursive);
