@@ -16,6 +16,7 @@
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
 #include "shared/packet_order.h"
+#include "shared/shared_light.h"
 
 #define MAX_CHAIN 255      // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
 #define SURE_SURFACES 16   // after which chance ends paths
@@ -87,15 +88,23 @@ inline uint light_sample_count(const CameraPath* path, float3 specular, uint max
     return max(1u, (uint)ceil((float)max_count * weight));
 }
 
-/// How many of `max_count` rays a surface sends in search of lights: highlights on what the camera sees
-/// straight or in mirrors and glass are the largest part of the noise of glossy rooms.
-inline uint light_ray_count(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface,
-                            uint max_count) {
+/// Whether a surface looks for lights in its S by more than the ray of the path: highlights on what the
+/// camera sees straight or in mirrors and glass are the largest part of the noise of glossy rooms.
+inline bool looks_for_lights(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface) {
     const bool is_glass = surface->bsdf.model == NEARLIGHT_BSDF_DIELECTRIC;  // its two ways divide the path
     return path->mode == BSDF_CAMERA && has_sampled_lights(scene) && !is_glass &&
-                   !is_delta_only(&surface->bsdf)
-               ? max_count
-               : 1;
+           !is_delta_only(&surface->bsdf);
+}
+
+/// What a surface asks lights whose S reflects `specular`. `is_receiver`: its D is a receiver.
+inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface,
+                                float3 specular, bool is_receiver, LightQuota max) {
+    LightQuota quota = max;
+    const bool looks = looks_for_lights(scene, path, surface);
+    quota.samples = max.samples > 0 ? light_sample_count(path, specular, max.samples) : 0;
+    quota.rays = looks ? max.rays : 1;
+    quota.bundle_rays = looks && is_receiver && !surface->mapped ? max.bundle_rays : 0;
+    return quota;
 }
 
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
@@ -131,26 +140,24 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
 
 /// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
 inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                           const SurfaceBsdf* surface, uint branch, LightQuota quota,
+                           const SurfaceBsdf* surface, uint branch, LightQuota* quota,
                            const SurfaceNumbers* numbers, float3* albedo) {
     const float3 wo = world_to_frame(&surface->frame, surface->wo);
     *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
     const float3 specular = s_albedo(&surface->bsdf, wo);
     const bool has_diffuse = !is_black(*albedo);
     if (is_black(specular)) {
+        quota->bundle_rays = 0;
         return has_diffuse ? WAY_RECEIVER : WAY_END;
     }
+    *quota = surface_quota(scene, path, surface, specular, has_diffuse, *quota);
     if (has_diffuse) {
         const float share = luminance(specular) / (luminance(specular) + luminance(*albedo));
         if (!take_second_way(path, branch, clamp(share, 0.05f, 0.95f), numbers->part)) {
             return WAY_RECEIVER;
         }
     }
-    if (quota.samples > 0) {
-        quota.samples = light_sample_count(path, specular, quota.samples);
-        quota.rays = light_ray_count(scene, path, surface, quota.rays);
-    }
-    return follow_specular(scene, path, hit, surface, branch, quota, numbers);
+    return follow_specular(scene, path, hit, surface, branch, *quota, numbers);
 }
 
 /// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths
@@ -164,6 +171,18 @@ inline bool goes_on(CameraPath* path, uint step, float u) {
     return u < survival;
 }
 
+/// The surface as what it reflects by S of its bundle's sky is computed (shared_sky.cl).
+inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model, uint light_samples) {
+    SeenSurface seen;
+    seen.triangle = hit->triangle;
+    seen.u = hit->weights.x;
+    seen.v = hit->weights.y;
+    seen.model = model;
+    seen.direction = store3(direction);
+    seen.light_samples = light_samples;
+    return seen;
+}
+
 /// Where a camera path ends, and what it saw on the way.
 typedef struct CameraReceiver {
     float3 position, normal;  // zero normal: there is no receiver
@@ -171,6 +190,7 @@ typedef struct CameraReceiver {
     uint mesh_normal;         // ReceiverPacket.mesh_normal
     uint sequence;            // ReceiverPacket.sequence
     CameraVertex vertex;
+    SeenSurface seen;
 } CameraReceiver;
 
 inline CameraReceiver absent_receiver(void) {
@@ -187,6 +207,7 @@ inline CameraReceiver absent_receiver(void) {
     receiver.vertex.filter_weight = 0.0f;
     receiver.vertex.traced = store3((float3)(0.0f));
     receiver.vertex.pad0 = 0.0f;
+    receiver.seen.light_samples = 0;
     return receiver;
 }
 
@@ -234,6 +255,7 @@ typedef struct CameraLimits {
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
     uint light_rays;     // of those that the camera sees, or sees in mirrors and through glass
     float min_weight;    // the light of receivers that weigh less than this is traced at once
+    uint bundle_rays;    // of a bundle, which look for the sky for the first surfaces too
 } CameraLimits;
 
 /// What the surface at a step may ask of lights. One that paths must not leave reflects no light of lamps,
@@ -241,7 +263,8 @@ typedef struct CameraLimits {
 inline LightQuota quota_at(const CameraLimits* limits, uint step) {
     const bool is_last = step + 1 >= limits->max_edges;
     const LightQuota quota = {is_last ? 0 : limits->light_samples, limits->light_rays,
-                              is_last ? 0 : limits->max_edges - step - 2};
+                              is_last ? 0 : limits->max_edges - step - 2,
+                              is_last || step > 0 ? 0 : limits->bundle_rays};
     return quota;
 }
 
@@ -252,10 +275,10 @@ inline void trace_light(const SceneView* scene, const CameraLimits* limits, Came
                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
     const PathLimits ray = {
-        max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0};
+        max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0, 0};
     FoundLight found = nothing_found(0);
-    const ReceivedLight light =
-        received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &found);
+    const ReceivedLight light = received_light(
+        scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &found, &found);
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
     path->emitted += response * light.direct;
     path->traced += response * light.indirect;
@@ -298,13 +321,16 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
         const SurfaceNumbers numbers = surface_numbers(path->key, step);
         const SurfaceBsdf surface = surface_bsdf(scene, &hit, path->ray.direction, path->mode, numbers.model);
         float3 albedo;
-        const uint way =
-            follow_surface(scene, path, &hit, &surface, branch, quota_at(limits, step), &numbers, &albedo);
+        LightQuota quota = quota_at(limits, step);
+        const uint way = follow_surface(scene, path, &hit, &surface, branch, &quota, &numbers, &albedo);
         const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
         if (way == WAY_RECEIVER && is_weak) {
             trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1);
         } else if (way == WAY_RECEIVER) {
             set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
+            if (quota.bundle_rays > 0) {
+                receiver.seen = seen_surface(&hit, straight, numbers.model, quota.samples);
+            }
         }
         if (way != WAY_ON || !goes_on(path, step, numbers.end)) {
             break;
@@ -324,6 +350,7 @@ inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.emitted = store3((float3)(0.0f));
     receiver->vertex.traced = store3((float3)(0.0f));
     receiver->normal = (float3)(0.0f);
+    receiver->seen.light_samples = 0;
 }
 
 inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to, uint lane,
@@ -344,8 +371,9 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                         const global CloseRange* restrict close_range, PacketOrder order,
                         uint first_tile_column, uint first_tile_row, uint tile_row_count, uint first_sample,
                         uint sequence_length, uint max_edges, uint light_samples, uint light_rays,
-                        float min_weight, uint seed, global ReceiverPacket* restrict receivers,
-                        global CameraVertex* restrict vertices) {
+                        float min_weight, uint bundle_rays, uint seed,
+                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices,
+                        global SeenSurface* restrict seen) {
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint sample = index / NEARLIGHT_PACKET_SIZE % order.sample_count;
@@ -363,7 +391,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
     const bool in_picture = x < camera->width && y < camera->height;
     const CameraPath start =
         start_path(camera, x, y, first_sample + sample, sequence_length, order.branch_count, seed);
-    const CameraLimits limits = {max_edges, light_samples, light_rays, min_weight};
+    const CameraLimits limits = {max_edges, light_samples, light_rays, min_weight, bundle_rays};
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;
@@ -379,5 +407,8 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         const uint packet = packet_at(order, column, row, sample, branch);
         store_receiver(&receiver, receivers + packet, lane,
                        vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + lane);
+        if (bundle_rays > 0) {
+            seen[(size_t)packet * NEARLIGHT_PACKET_SIZE + lane] = receiver.seen;
+        }
     }
 }

@@ -21,7 +21,8 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
                            uint packet_count, uint light_samples, uint path_count, uint max_edges,
                            float clamp_radius, uint seed, uint shares,
                            global IrradiancePacket* restrict direct,
-                           global IrradiancePacket* restrict indirect, global SharedLight* restrict found) {
+                           global IrradiancePacket* restrict indirect, global SharedLight* restrict found,
+                           global SharedLight* restrict found_sky) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -36,21 +37,28 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     at.mesh_n = receiver_mesh_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
-    FoundLight shared = nothing_found(shares != 0 && receiver_shares(receiver, lane, max_edges));
+    const bool does_share = shares != 0 && receiver_shares(receiver, lane, max_edges);
+    FoundLight shared = nothing_found(does_share);
+    FoundLight sky = nothing_found(does_share && scene.info->has_sky);
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
-        const PathLimits limits = {own_edges,    max_edges < LONG_PATH ? max_edges : own_edges,
-                                   clamp_radius, light_samples,
-                                   path_count,   receiver_sample(receiver, lane)};
+        const PathLimits limits = {own_edges,
+                                   max_edges < LONG_PATH ? max_edges : own_edges,
+                                   clamp_radius,
+                                   light_samples,
+                                   path_count,
+                                   sky.is_wanted ? NEARLIGHT_SKY_RAYS * path_count : 0,
+                                   receiver_sample(receiver, lane)};
         const uint sequence = receiver->sequence[lane];
         const uint4 key = sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
                                         : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
-        light = received_light(&scene, &at, &limits, random_uint4(key), &shared);
+        light = received_light(&scene, &at, &limits, random_uint4(key), &shared, &sky);
     }
     store_light(direct + packet, lane, light.direct);
     store_light(indirect + packet, lane, light.indirect);
     if (shares != 0) {
         found[index] = kept_light(&shared);
+        found_sky[index] = kept_light(&sky);
     }
 }

@@ -26,7 +26,7 @@
 #define SHARED_LIGHT_PURPOSE 0x5a4edu  // of random numbers
 
 kernel void shared_light_choose(const global ReceiverPacket* restrict receivers, uint packet_count,
-                                const global SharedLight* restrict found, uint seed,
+                                const global SharedLight* restrict found, uint wanted, uint seed,
                                 global uint* restrict listed, global float* restrict factors,
                                 global uint* restrict lengths) {
     const uint index = (uint)get_global_id(0);
@@ -40,7 +40,7 @@ kernel void shared_light_choose(const global ReceiverPacket* restrict receivers,
     for (uint i = first; i < end; ++i) {
         total += found[i].weight;
     }
-    const float per_weight = total > 0.0f ? (float)NEARLIGHT_SHARED_LIGHTS / total : 0.0f;
+    const float per_weight = total > 0.0f ? (float)wanted / total : 0.0f;
     float place = total > 0.0f ? bundle_number(receivers, &bundle, seed, SHARED_LIGHT_PURPOSE) : 0.0f;
     uint length = 0;
     for (uint i = first; i < end; ++i) {

@@ -2,6 +2,7 @@
 #include "host/reference/shared_light_oracle.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "host/base/packed_direction.h"
@@ -75,24 +76,22 @@ SharedLight light_at(const ReceiverPoint& place, std::size_t number, Pcg32& rand
             .shading = pack_direction(place.normal)};
 }
 
-}  // namespace
-
-SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float clamp_radius,
-                                   const std::function<bool(Vec3, Vec3)>& is_clear) {
-    SharedLightCase data{.receivers = std::move(receivers), .found = {}, .clamp_radius = clamp_radius};
-    vary(data.receivers);
+/// Gives every `stride`-th receiver a light at `place(first, end, random)`, where the receivers of its bundle
+/// are [first, end). The strides are so large that a whole bundle uses each light with certainty.
+template <typename Place>
+void place_lights(SharedLightCase& data, std::size_t stride, const std::function<bool(Vec3, Vec3)>& is_clear,
+                  const Place& place) {
     const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
     data.found.resize(count, SharedLight{});
     Pcg32 random(7, 1);
-    // Every fourth receiver makes 64 lights in a whole bundle, so that each is used with certainty.
-    for (std::size_t i = 0; i < count; i += 4) {
+    for (std::size_t i = 0; i < count; i += stride) {
         const std::size_t first = i / kBundleReceivers * kBundleReceivers;
         const std::size_t end = std::min(count, first + kBundleReceivers);
-        const ReceiverPoint place = receiver_at(data.receivers, first + random.next() % (end - first));
-        if (is_absent(place)) {
+        const ReceiverPoint at = place(first, end, random);
+        if (is_absent(at)) {
             continue;
         }
-        const SharedLight light = light_at(place, i / 4, random);
+        const SharedLight light = light_at(at, i / stride, random);
         bool clear = true;
         for (std::size_t k = first; k < end && clear; ++k) {
             const ReceiverPoint x = receiver_at(data.receivers, k);
@@ -102,14 +101,14 @@ SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float 
             data.found[i] = light;
         }
     }
-    return data;
 }
 
-std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
-                                    const std::function<bool(Vec3, Vec3)>& is_visible,
-                                    const std::function<double(double)>& transmission) {
+/// Calls visit(light, receiver, pair, density) for each light and each receiver that it lights; the density
+/// is that of all rays of the bundle there.
+template <typename Visitor>
+void for_each_connection(const SharedLightCase& data, const std::function<bool(Vec3, Vec3)>& is_visible,
+                         const Visitor& visit) {
     const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
-    std::vector<Vec3> result(count, Vec3{0, 0, 0});
     for (std::size_t i = 0; i < count; ++i) {
         const SharedLight& light = data.found[i];
         const std::size_t first = i / kBundleReceivers * kBundleReceivers;
@@ -125,12 +124,69 @@ std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
             }
         }
         for (const auto& [k, pair] : seeing) {
-            const double weight = pair.part * pair.geometry / density *
-                                  (light.curve == 1 ? transmission(pair.cos_light) : 1.0) *
-                                  (curve_of(data, k) == 1 ? transmission(pair.cos_receiver) : 1.0);
-            result[k] += light.radiance * static_cast<float>(weight);
+            visit(light, k, pair, density);
         }
     }
+}
+
+}  // namespace
+
+SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float clamp_radius,
+                                   const std::function<bool(Vec3, Vec3)>& is_clear) {
+    SharedLightCase data{.receivers = std::move(receivers), .found = {}, .clamp_radius = clamp_radius};
+    vary(data.receivers);
+    place_lights(data, 4, is_clear, [&](std::size_t first, std::size_t end, Pcg32& random) {
+        return receiver_at(data.receivers, first + random.next() % (end - first));
+    });
+    return data;
+}
+
+SharedLightCase make_shared_sky(std::vector<ReceiverPacket> receivers, Vec3 center, float radius,
+                                const std::function<bool(Vec3, Vec3)>& is_clear) {
+    SharedLightCase data{.receivers = std::move(receivers),
+                         .found = {},
+                         .clamp_radius = std::numeric_limits<float>::infinity()};
+    vary(data.receivers);
+    place_lights(data, 8, is_clear, [&](std::size_t, std::size_t, Pcg32& random) {
+        const Vec3 outwards =
+            normalize(Vec3{random.uniform() - 0.5f, random.uniform() - 0.5f, random.uniform() - 0.5f});
+        return ReceiverPoint{center + outwards * radius, -outwards};
+    });
+    for (SharedLight& light : data.found) {
+        light.radiance = light.weight > 0 ? Vec3{1, 1, 1} : Vec3{0, 0, 0};
+        light.curve = 0;
+    }
+    return data;
+}
+
+std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
+                                    const std::function<bool(Vec3, Vec3)>& is_visible,
+                                    const std::function<double(double)>& transmission) {
+    std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
+    for_each_connection(
+        data, is_visible,
+        [&](const SharedLight& light, std::size_t receiver, const Pair& pair, double density) {
+            const double weight = pair.part * pair.geometry / density *
+                                  (light.curve == 1 ? transmission(pair.cos_light) : 1.0) *
+                                  (curve_of(data, receiver) == 1 ? transmission(pair.cos_receiver) : 1.0);
+            result[receiver] += light.radiance * static_cast<float>(weight);
+        });
+    return result;
+}
+
+std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radiance, uint light_samples,
+                                        const std::function<bool(Vec3, Vec3)>& is_visible,
+                                        const std::function<double(double)>& transmission) {
+    std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
+    for_each_connection(
+        data, is_visible, [&](const SharedLight&, std::size_t receiver, const Pair& pair, double density) {
+            const double own = data.rays_per_receiver * pair.cos_receiver / static_cast<double>(kPi);
+            const double of_bundle = NEARLIGHT_SKY_RAYS * own;
+            const double of_samples = light_samples / (4 * static_cast<double>(kPi));
+            const double weight = of_bundle / (of_bundle + own + of_samples) * pair.geometry / density *
+                                  (curve_of(data, receiver) == 1 ? transmission(pair.cos_receiver) : 1.0);
+            result[receiver] += radiance * static_cast<float>(weight);
+        });
     return result;
 }
 

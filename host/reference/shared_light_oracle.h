@@ -32,4 +32,15 @@ std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
                                     const std::function<bool(Vec3, Vec3)>& is_visible,
                                     const std::function<double(double)>& transmission);
 
+/// As make_shared_lights(), with lights on a sphere around the scene.
+SharedLightCase make_shared_sky(std::vector<ReceiverPacket> receivers, Vec3 center, float radius,
+                                const std::function<bool(Vec3, Vec3)>& is_clear);
+
+/// Irradiance of each receiver from a sky of even radiance: Σ_j w·L·G·V·T / p(j), where w is the balance
+/// heuristic of NEARLIGHT_SKY_RAYS · m rays of the bundle, m rays of the receiver and its light samples,
+/// which are uniform over the sphere of directions. The other symbols are those of shared_irradiance().
+std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radiance, uint light_samples,
+                                        const std::function<bool(Vec3, Vec3)>& is_visible,
+                                        const std::function<double(double)>& transmission);
+
 }  // namespace nearlight::core

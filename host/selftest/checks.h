@@ -111,6 +111,8 @@ void check_local_lights(Device& device, CheckResult& result);
 /// A case is a receiver, whose irradiance from the lights of its bundle must be that of Embree's rays, by
 /// packets and by single rays.
 void check_shared_lights(Device& device, CheckResult& result);
+/// As check_shared_lights(), for light of the sky.
+void check_shared_sky(Device& device, CheckResult& result);
 
 // film_checks.cpp: the film against sums in double precision.
 

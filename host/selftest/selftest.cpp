@@ -32,6 +32,7 @@ std::vector<NamedCheck> all_checks() {
             {"direct light", check_direct_light},
             {"paths of receivers", check_receiver_paths},
             {"shared lights", check_shared_lights},
+            {"shared sky", check_shared_sky},
             {"light tracing", check_light_tracing},
             {"VPL contribution", check_vpl_contribution},
             {"reverse VPLs", check_reverse_vpls},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/checks.h"
 
+#include <functional>
+
 #include "host/base/receivers.h"
 #include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
@@ -8,6 +10,7 @@
 #include "host/reference/shared_light_oracle.h"
 #include "host/reference/test_rooms.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_sky.h"
 
 namespace nearlight::core {
 namespace {
@@ -27,19 +30,54 @@ Scene room_with_a_curve() {
     return scene;
 }
 
+/// The room without its ceiling, under a sky of even radiance.
+Scene room_under_sky(Vec3 radiance) {
+    Scene scene = room_with_a_curve();
+    scene.delta_emitters.clear();
+    const float top = bounds(scene).max.y;
+    std::erase_if(scene.triangles, [&](const Triangle& triangle) {
+        const auto is_at_top = [&](uint vertex) { return scene.vertices[vertex].position.y >= 0.999f * top; };
+        return is_at_top(triangle.v0) && is_at_top(triangle.v1) && is_at_top(triangle.v2);
+    });
+    scene.environment = {.width = 1, .height = 1, .radiance = {radiance}, .to_world = {}};
+    return scene;
+}
+
+/// A room, and the two questions of the oracle.
+struct Room {
+    explicit Room(Scene a_scene) : scene(std::move(a_scene)), bvh(build_scene_bvh(scene)), embree(scene) {}
+
+    [[nodiscard]] std::function<bool(Vec3, Vec3)> is_clear() const {
+        return [this](Vec3 from, Vec3 to) {
+            return distance_to_edges(bvh.triangles, from, to) > kSegmentEdgeTolerance * extent;
+        };
+    }
+    [[nodiscard]] std::function<bool(Vec3, Vec3)> is_visible() const {
+        return [this](Vec3 from, Vec3 to) { return !embree.blocked(from, to); };
+    }
+
+    Scene scene;
+    Bvh bvh;
+    EmbreeScene embree;
+    float extent = max_component(bounds(scene).size());
+};
+
+void expect_irradiance(const Buffer<IrradiancePacket>& irradiance, const std::vector<Vec3>& wanted,
+                       CheckResult& result) {
+    const std::vector<IrradiancePacket> found = irradiance.download();
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Vec3 difference = irradiance_at(found, i) - wanted[i];
+        result.expect(length(difference) <= 1e-3f * length(wanted[i]) + 1e-6f);
+    }
+}
+
 }  // namespace
 
 void check_shared_lights(Device& device, CheckResult& result) {
-    const Scene scene = room_with_a_curve();
-    const Bvh bvh = build_scene_bvh(scene);
-    const EmbreeScene embree(scene);
-    const float extent = max_component(bounds(scene).size());
-    const double tolerance = kSegmentEdgeTolerance * extent;
-    const SharedLightCase data = make_shared_lights(
-        make_camera_receivers(scene, bvh, 48, 48), 0.3f * extent,
-        [&](Vec3 from, Vec3 to) { return distance_to_edges(bvh.triangles, from, to) > tolerance; });
-    const std::vector<Vec3> wanted = shared_irradiance(
-        data, [&](Vec3 from, Vec3 to) { return !embree.blocked(from, to); }, transmission);
+    const Room room(room_with_a_curve());
+    const SharedLightCase data = make_shared_lights(make_camera_receivers(room.scene, room.bvh, 48, 48),
+                                                    0.3f * room.extent, room.is_clear());
+    const std::vector<Vec3> wanted = shared_irradiance(data, room.is_visible(), transmission);
     const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
                                         .max_edges = data.max_edges,
                                         .clamp_radius = data.clamp_radius,
@@ -47,16 +85,40 @@ void check_shared_lights(Device& device, CheckResult& result) {
     const Buffer<ReceiverPacket> receivers(device, data.receivers);
     const Buffer<SharedLight> lights(device, data.found);
     for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
+        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
         SharedLights(device, kernel)
             .add(on_device, receivers, data.receivers.size(), settings, lights, irradiance);
-        const std::vector<IrradiancePacket> found = irradiance.download();
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            const Vec3 difference = irradiance_at(found, i) - wanted[i];
-            result.expect(length(difference) <= 1e-3f * length(wanted[i]) + 1e-6f);
-        }
+        expect_irradiance(irradiance, wanted, result);
+    }
+}
+
+void check_shared_sky(Device& device, CheckResult& result) {
+    const Vec3 radiance{1, 2, 3};
+    const Room room(room_under_sky(radiance));
+    const SharedLightCase data = make_shared_sky(make_camera_receivers(room.scene, room.bvh, 48, 48),
+                                                 (bounds(room.scene).min + bounds(room.scene).max) * 0.5f,
+                                                 2 * room.extent, room.is_clear());
+    const ReceiverPathSettings settings{.light_samples = 5,
+                                        .path_count = data.rays_per_receiver,
+                                        .max_edges = data.max_edges,
+                                        .clamp_radius = 1.0f,
+                                        .seed = 1};
+    const std::vector<Vec3> wanted =
+        shared_sky_irradiance(data, radiance, settings.light_samples, room.is_visible(), transmission);
+    const Buffer<ReceiverPacket> receivers(device, data.receivers);
+    const Buffer<SharedLight> lights(device, data.found);
+    const Buffer<SeenSurface> none_seen(device, 0);
+    Buffer<CameraVertex> no_vertices(device, 0);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
+        Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
+        irradiance.fill_zero();
+        SharedSky(device, kernel)
+            .add(on_device, receivers, data.receivers.size(), settings, lights,
+                 {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
+        expect_irradiance(irradiance, wanted, result);
     }
 }
 

@@ -24,12 +24,23 @@ ReceiverPathSettings path_settings(const Picture& picture) {
             .seed = picture.seed};
 }
 
+/// Whether bundles share what the rays of their receivers find.
+bool shares_lights(const ReceiverPathSettings& paths) {
+    return paths.path_count > 0 && std::isfinite(paths.clamp_radius);
+}
+
+/// Whether they share light of the sky too.
+bool shares_sky(const DeviceScene& scene, const Picture& picture) {
+    return scene.host_info.has_sky != 0 && shares_lights(path_settings(picture));
+}
+
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.
-CameraBand with_light(CameraBand batch, const Picture& picture) {
+CameraBand with_light(CameraBand batch, const Picture& picture, bool shares_sky) {
     batch.max_depth = picture.max_depth;
     batch.min_weight = min_receiver_weight(picture.settings);
     batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
+    batch.sky_rays = shares_sky ? path_settings(picture).path_count : 0;
     return batch;
 }
 
@@ -40,12 +51,14 @@ std::size_t pixels_per_band(const Picture& picture) {
 
 }  // namespace
 
-BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, std::size_t pixels)
+BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, std::size_t pixels,
+                                         bool shares_sky)
     : receivers(device, packets),
       vertices(device, packets * NEARLIGHT_PACKET_SIZE),
+      seen(device, shares_sky ? packets * NEARLIGHT_PACKET_SIZE : 0),
       direct(device, packets),
       indirect(device, packets),
-      found(device, packets * NEARLIGHT_PACKET_SIZE),
+      found(device, packets),
       gathered(device, packets),
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
@@ -59,7 +72,8 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
       camera_(stages.device, std::span(&picture.camera, 1)),
       close_range_(stages.device, std::span(&picture.close_range, 1)),
       own_vpls_(vpls.is_on(stages.device) ? VplBuffer() : vpls.copy_to(stages.device)),
-      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture)) {
+      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture),
+               shares_sky(scene, picture)) {
     if (picture.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
@@ -130,11 +144,19 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                    buffers_.gathered, progress);
 }
 
-/// As trace_receivers(), where bundles share what the rays of their receivers find near by.
+/// As trace_receivers(), where bundles share what the rays of their receivers find.
 void BandRenderer::trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths) {
     stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths, buffers_.direct,
                                        buffers_.indirect, buffers_.found);
-    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths, buffers_.found, buffers_.indirect);
+    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths, buffers_.found.near,
+                              buffers_.indirect);
+    if (shares_sky(scene_, picture_)) {
+        stages_.shared_sky.add(scene_, buffers_.receivers, packets, paths, buffers_.found.sky,
+                               {.surfaces = buffers_.seen,
+                                .vertices = buffers_.vertices,
+                                .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},
+                               buffers_.direct);
+    }
 }
 
 /// Direct light of a batch's receivers, and what their rays find.
@@ -145,7 +167,7 @@ void BandRenderer::trace_receivers(std::size_t packets) {
         return;
     }
     const ReceiverPathSettings paths = path_settings(picture_);
-    if (paths.path_count > 0 && std::isfinite(paths.clamp_radius)) {
+    if (shares_lights(paths)) {
         trace_sharing_receivers(packets, paths);
     } else {
         stages_.receiver_paths.run(scene_, buffers_.receivers, packets, paths, buffers_.direct,
@@ -161,7 +183,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
     const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
-                            buffers_.vertices);
+                            buffers_.vertices, &buffers_.seen);
     trace_receivers(packets);
     const bool finished = gather_vpls(batch, progress);
     if (finished) {
@@ -187,7 +209,8 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
             return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
         };
-        if (!add_batch(with_light(batches[i], picture_), row_count, batch_progress)) {
+        if (!add_batch(with_light(batches[i], picture_, shares_sky(scene_, picture_)), row_count,
+                       batch_progress)) {
             return std::nullopt;
         }
     }

@@ -17,6 +17,7 @@
 #include "host/stages/receiver_paths.h"
 #include "host/stages/roulette.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_sky.h"
 
 namespace nearlight::core {
 
@@ -27,6 +28,7 @@ struct BandStages {
           camera_pass(device),
           receiver_paths(device),
           shared_lights(device, gather_kernel),
+          shared_sky(device, gather_kernel),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
 
@@ -34,6 +36,7 @@ struct BandStages {
     CameraPass camera_pass;
     ReceiverPaths receiver_paths;
     SharedLights shared_lights;
+    SharedSky shared_sky;
     Gatherer gatherer;
     Film film;
     // These stages are made when they are first needed.
@@ -69,13 +72,14 @@ class BandRenderer {
   private:
     /// Device memory that all batches use one after the other.
     struct BatchBuffers {
-        BatchBuffers(Device& device, std::size_t packets, std::size_t pixels);
+        BatchBuffers(Device& device, std::size_t packets, std::size_t pixels, bool shares_sky);
 
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
+        Buffer<SeenSurface> seen;  ///< as many as vertices where bundles share light of the sky, else none
         Buffer<IrradiancePacket> direct;
         Buffer<IrradiancePacket> indirect;
-        Buffer<SharedLight> found;  ///< lights that receivers share with their bundles
+        FoundLights found;
         GatherSums<Vpl> gathered;
         Buffer<float> sums;
         Buffer<float> layers;

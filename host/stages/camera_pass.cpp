@@ -30,17 +30,21 @@ std::size_t packet_count(const CameraBand& band, uint width) {
 }
 
 CameraPass::CameraPass(Device& device)
-    : program_(device, "camera_pass.cl", kViewProgram), camera_pass_(program_, "camera_pass") {}
+    : program_(device, "camera_pass.cl", kViewProgram),
+      camera_pass_(program_, "camera_pass"),
+      none_seen_(device, 0) {}
 
 void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
                      const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
-                     Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices) {
+                     Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,
+                     Buffer<SeenSurface>* seen) {
     const std::size_t sample_packets = packet_count(band, width) / band.branch_count;
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
                               packet_order(band, width), band.first_tile_column, band.first_tile_row,
                               whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
                               band.first_sample, band.samples_per_pixel, band.max_depth, band.light_samples,
-                              band.light_rays, band.min_weight, seed, receivers, vertices);
+                              band.light_rays, band.min_weight, band.sky_rays * NEARLIGHT_SKY_RAYS, seed,
+                              receivers, vertices, seen != nullptr ? *seen : none_seen_);
 }
 
 }  // namespace nearlight::core

@@ -5,6 +5,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 #include "kernels/shared/packet_order.h"
+#include "kernels/shared/shared_light.h"
 
 namespace nearlight::core {
 
@@ -29,6 +30,9 @@ struct CameraBand {
     /// Rays that each of these surfaces sends in search of such lights where the camera sees it straight or
     /// in mirrors and through glass; the first of them goes on as the path. At least 1.
     uint light_rays = 1;
+    /// Rays of a receiver, if bundles share what these find of the sky with the first surfaces of the
+    /// camera's paths too; 0: they do not.
+    uint sky_rays = 0;
     /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
     float min_weight = 0.0f;
 };
@@ -44,14 +48,17 @@ class CameraPass {
     explicit CameraPass(Device& device);
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
-    /// kernels/shared/packet_order.h states.
+    /// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedLights::add_sky()
+    /// must know of the surfaces, one entry for each vertex.
     void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
-             Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices);
+             Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,
+             Buffer<SeenSurface>* seen = nullptr);
 
   private:
     Program program_;
     Kernel camera_pass_;
+    Buffer<SeenSurface> none_seen_;
 };
 
 }  // namespace nearlight::core

@@ -114,7 +114,10 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
             .light_node_count = static_cast<uint>(emitters.light_tree.size()),
             .has_maps = std::ranges::any_of(scene.materials, is_map),
-            .veils = veils_of(scene)};
+            .veils = veils_of(scene),
+            .has_sky = std::ranges::any_of(emitters.emitters, [](const Emitter& emitter) {
+                return emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter.type == NEARLIGHT_EMITTER_SUN;
+            })};
 }
 
 /// Uploads everything but the tree.

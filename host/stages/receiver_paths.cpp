@@ -16,17 +16,17 @@ void ReceiverPaths::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& 
     receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
                                  settings.max_edges, settings.clamp_radius, settings.seed, 0u, direct,
-                                 indirect, none_found_);
+                                 indirect, none_found_.near, none_found_.sky);
 }
 
 void ReceiverPaths::run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                                 std::size_t packet_count, const ReceiverPathSettings& settings,
                                 Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
-                                Buffer<SharedLight>& found) {
+                                FoundLights& found) {
     receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
                                  settings.max_edges, settings.clamp_radius, settings.seed, 1u, direct,
-                                 indirect, found);
+                                 indirect, found.near, found.sky);
 }
 
 }  // namespace nearlight::core

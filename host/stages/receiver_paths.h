@@ -24,6 +24,16 @@ struct ReceiverPathSettings {
     uint seed = 0;
 };
 
+/// The lights that receivers find and share with their bundles: one of each kind for each receiver.
+struct FoundLights {
+    FoundLights(Device& device, std::size_t packet_count)
+        : near(device, packet_count * NEARLIGHT_PACKET_SIZE),
+          sky(device, packet_count * NEARLIGHT_PACKET_SIZE) {}
+
+    Buffer<SharedLight> near;  ///< places within the clamp radius
+    Buffer<SharedLight> sky;
+};
+
 class ReceiverPaths {
   public:
     explicit ReceiverPaths(Device& device);
@@ -34,18 +44,19 @@ class ReceiverPaths {
              const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
              Buffer<IrradiancePacket>& indirect);
 
-    /// As run(), except for the Lambertian light of places within the clamp radius. Where a receiver may
-    /// share it with others (lib/shared_light.cl), not `indirect` but `found` gets it, as one light for each
-    /// receiver, and SharedLights brings it to all of the bundle. The clamp radius must be finite.
+    /// As run(), except for the Lambertian light of places within the clamp radius, and for the sky. Where a
+    /// receiver may share what it finds of these with others (lib/shared_light.cl), not `indirect` and
+    /// `direct` but `found` gets it, and SharedLights brings it to all of the bundle. The clamp radius must
+    /// be finite.
     void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                      std::size_t packet_count, const ReceiverPathSettings& settings,
                      Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
-                     Buffer<SharedLight>& found);
+                     FoundLights& found);
 
   private:
     Program program_;
     Kernel receiver_paths_;
-    Buffer<SharedLight> none_found_;
+    FoundLights none_found_;
 };
 
 }  // namespace nearlight::core

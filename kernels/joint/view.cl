@@ -4,3 +4,4 @@
 #include "film.cl"
 #include "receiver_paths.cl"
 #include "shared_lights.cl"
+#include "shared_sky.cl"

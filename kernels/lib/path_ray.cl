@@ -11,10 +11,18 @@
 #include "lib/light/shadow.cl"
 #include "lib/random.cl"
 
+/// The density, per steradian and for each light sample of a surface, with which the rays of its bundle find
+/// the sky in a direction (lib/shared_sky.cl), if they count as `bundle_ratio` rays of its own.
+inline float bundle_density(float3 normal, float3 direction, float bundle_ratio) {
+    return bundle_ratio * fmax(dot(normal, direction), 0.0f) * M_1_PI_F;
+}
+
 /// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
-/// surface also sends `path_ratio` rays for each light sample.
+/// surface also sends `path_ratio` rays for each light sample, and `bundle_ratio` of its bundle look for the
+/// sky.
 inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                               const LightSample* light, uint parts, float path_ratio, uint max_veils) {
+                               const LightSample* light, uint parts, float path_ratio, float bundle_ratio,
+                               uint max_veils) {
     if (!may_shine(light)) {
         return (float3)(0.0f);
     }
@@ -23,16 +31,27 @@ inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, co
     if (is_black(value)) {
         return (float3)(0.0f);
     }
-    const float of_rays = light->is_delta ? 0.0f : path_ratio * pdf;
     const float3 origin = ray_origin(scene, hit, light->direction);
-    return value / (light->pdf + of_rays) * arriving_radiance(scene, origin, light, max_veils);
+    const ArrivingLight arriving = arriving_light(scene, origin, light, max_veils);
+    if (is_black(arriving.part)) {
+        return arriving.part;
+    }
+    float density = light->pdf;
+    if (!light->is_delta) {
+        density += path_ratio * pdf;
+        density += arriving_from_sky(light, &arriving)
+                       ? bundle_density(surface->frame.n, light->direction, bundle_ratio)
+                       : 0.0f;
+    }
+    return value / density * arriving.part * light_radiance(scene, light);
 }
 
 /// How a surface asks lights: by light samples, and by rays that follow the BSDF.
 typedef struct LightQuota {
     uint samples;
-    uint rays;       // the first goes on as the path, and the others only look for lights
-    uint max_veils;  // that light may pass
+    uint rays;         // the first goes on as the path, and the others only look for lights
+    uint max_veils;    // that light may pass
+    uint bundle_rays;  // of the bundle, which look for the sky
 } LightQuota;
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
@@ -42,17 +61,19 @@ inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, con
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
-        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, quota->max_veils);
+        exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, 0.0f, quota->max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
     }
     const float path_ratio = (float)quota->rays / (float)quota->samples;
+    const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < quota->samples; ++s) {
         const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
                                                sample_2d(s, 1, seed));
-        sum += reflected_sample(scene, hit, surface, &light, parts, path_ratio, quota->max_veils);
+        sum +=
+            reflected_sample(scene, hit, surface, &light, parts, path_ratio, bundle_ratio, quota->max_veils);
     }
     return exact + sum / (float)quota->samples;
 }
@@ -68,7 +89,8 @@ typedef struct PathRay {
     float share;    // of the light straight from where it was scattered; rays beside it bring the rest
     float passed;   // distance from scattered_at to the last veil
     float index;    // refractive index of what it is in ÷ that of where its path began
-    uint veils;     // passed since then
+    float bundle_ratio;  // rays of a bundle that look for the sky as this one does, for each light sample
+    uint veils;          // passed since then
 } PathRay;
 
 /// Starts a path that carries all light back along `direction`. Its throughput and pdf are still to be set.
@@ -88,6 +110,7 @@ inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
     ray->share = 1.0f;
     ray->passed = 0.0f;
     ray->veils = 0;
+    ray->bundle_ratio = 0.0f;
 }
 
 /// Radiance that lights send straight along the ray, weighted against light samples of where it was
@@ -97,7 +120,10 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
     if (hit->t < 0.0f) {
         const MapSample map = map_sample_towards(scene, ray->direction);
         const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
-        return light_radiance(scene, &sky) * (shares ? ray->share * ray->pdf / (ray->pdf + sky.pdf) : 1.0f);
+        const float of_bundle =
+            ray->veils == 0 ? bundle_density(ray->normal, ray->direction, ray->bundle_ratio) : 0.0f;
+        return light_radiance(scene, &sky) *
+               (shares ? ray->share * ray->pdf / (ray->pdf + sky.pdf + of_bundle) : 1.0f);
     }
     const float3 radiance = emitted_radiance(scene, hit, ray->direction);
     if (is_black(radiance) || !shares) {
@@ -139,6 +165,7 @@ inline void share_lights(PathRay* ray, const LightQuota* quota) {
     if (ray->pdf > 0.0f) {
         ray->pdf *= (float)quota->rays / (float)quota->samples;
         ray->share = 1.0f / (float)quota->rays;
+        ray->bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include "lib/path_ray.cl"
 #include "lib/shared_light.cl"
+#include "lib/shared_sky.cl"
 
 /// A place that receives light by its Lambertian part.
 typedef struct ReceiverPoint {
@@ -58,40 +59,56 @@ inline ReceivedLight nothing_received(void) {
 }
 
 /// What a light sample brings to the irradiance of a receiver through at most `max_veils` veils, weighted for
-/// `path_ratio` cosine-distributed rays for each light sample.
+/// `path_ratio` cosine-distributed rays for each light sample, and for `bundle_ratio` more of its bundle that
+/// look for the sky.
 inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
-                                 float path_ratio, uint max_veils) {
+                                 float path_ratio, float bundle_ratio, uint max_veils) {
     const float cosine = dot(at->n, light->direction);
     if (!(cosine > 0.0f) || !may_shine(light)) {
         return (float3)(0.0f);
     }
-    const float of_rays = light->is_delta ? 0.0f : path_ratio * cosine * M_1_PI_F;
-    const float weight = cosine * diffuse_transmission(scene, at->curve, cosine) *
-                         receiver_map_factor(at, light->direction) / (light->pdf + of_rays);
-    return weight > 0.0f ? weight * arriving_radiance(scene, at->x, light, max_veils) : (float3)(0.0f);
+    const float response =
+        cosine * diffuse_transmission(scene, at->curve, cosine) * receiver_map_factor(at, light->direction);
+    if (!(response > 0.0f)) {
+        return (float3)(0.0f);
+    }
+    const ArrivingLight arriving = arriving_light(scene, at->x, light, max_veils);
+    if (is_black(arriving.part)) {
+        return arriving.part;
+    }
+    float density = light->pdf;
+    if (!light->is_delta) {
+        const float rays = path_ratio + (arriving_from_sky(light, &arriving) ? bundle_ratio : 0.0f);
+        density += rays * cosine * M_1_PI_F;
+    }
+    return density > 0.0f ? response / density * arriving.part * light_radiance(scene, light)
+                          : (float3)(0.0f);
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
 /// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
-/// bring all of it. `first` is the number of the first sample in the sequence of `seed`.
+/// bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays of the
+/// bundle as `bundle_count` look for the sky too.
 inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                   uint path_count, uint max_veils, uint first, uint seed) {
+                                   uint path_count, uint bundle_count, uint max_veils, uint first,
+                                   uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);
-        exact += sampled_irradiance(scene, at, &light, 0.0f, max_veils);
+        exact += sampled_irradiance(scene, at, &light, 0.0f, 0.0f, max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
     }
     const float path_ratio = (float)path_count / (float)sample_count;
+    const float bundle_ratio = (float)bundle_count / (float)sample_count;
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < sample_count; ++s) {
         const float2 choice = sample_2d(first + s, 0, seed);
         const float2 u = sample_2d(first + s, 1, seed);
         const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
                                                  : sample_light_or_cosine(scene, at->x, at->n, choice, u);
-        sum += sampled_irradiance(scene, at, &light, path_ratio, max_veils);
+        sum += sampled_irradiance(scene, at, &light, path_ratio, bundle_ratio, max_veils);
     }
     return exact + sum / (float)sample_count;
 }
@@ -224,7 +241,7 @@ inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, co
         const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
         if (scale != 0.0f) {
             const uint edges = length == 0 ? share->max_edges : way->max_edges;
-            const LightQuota quota = {1, 1, edges - surfaces - 1};
+            const LightQuota quota = {1, 1, edges - surfaces - 1, 0};
             sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
         }
     }
@@ -287,6 +304,7 @@ typedef struct PathLimits {
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
     uint path_count;     // rays that each receiver sends
+    uint bundle_count;   // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
 } PathLimits;
 
@@ -329,9 +347,10 @@ inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, c
 
 /// What one ray of a receiver brings.
 inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                               float2 u, uint4 keys, FoundLight* found) {
+                               float2 u, uint4 keys, FoundLight* found, FoundLight* sky) {
     ReceivedLight light = nothing_received();
-    const PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    ray.bundle_ratio = (float)limits->bundle_count / (float)limits->light_samples;
     if (is_black(ray.throughput)) {
         return light;
     }
@@ -345,6 +364,10 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
         light.direct = ray.throughput * met_light(scene, &ray, &hit);
     }
     if (hit.t < 0.0f) {
+        if (sky->is_wanted) {
+            find_sky(scene, at->x, ray.direction, light.direct, to_unit_float(random_uint4(keys ^ 0x5c1u).x),
+                     sky);
+        }
         return light;
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
@@ -366,17 +389,18 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     return light;
 }
 
-/// All light of a receiver except what VPLs bring, and except what `found` keeps for the bundle.
+/// All light of a receiver except what VPLs bring, and except what `found` and `sky` keep for the bundle.
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                                    uint4 keys, FoundLight* found) {
+                                    uint4 keys, FoundLight* found, FoundLight* sky) {
     ReceivedLight light = nothing_received();
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
     const uint first_path = limits->sample * limits->path_count;
     for (uint path = first_path; path < first_path + limits->path_count; ++path) {
-        const ReceivedLight brought = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
-                                                random_uint4((uint4)(keys.y, keys.z, keys.w, path)), found);
+        const ReceivedLight brought =
+            ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
+                      random_uint4((uint4)(keys.y, keys.z, keys.w, path)), found, sky);
         light.direct += brought.direct;
         light.indirect += brought.indirect;
     }
@@ -385,8 +409,8 @@ inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint*
     light.indirect *= scale;
     if (limits->max_edges > 0) {
         light.direct +=
-            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->max_edges - 1,
-                                 limits->sample * limits->light_samples, keys.x);
+            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->bundle_count,
+                                 limits->max_edges - 1, limits->sample * limits->light_samples, keys.x);
     }
     return light;
 }

@@ -62,6 +62,8 @@
     SIZE(SharedLight)                               \
     OFFSET(SharedLight, normal)                     \
     OFFSET(SharedLight, radiance)                   \
+    SIZE(SeenSurface)                               \
+    OFFSET(SeenSurface, light_samples)              \
     SIZE(SurfaceSample)                             \
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \
@@ -92,6 +94,7 @@
     OFFSET(CloseRange, range)                       \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
+    OFFSET(SceneInfo, has_sky)                      \
     SIZE(BsdfQuery)                                 \
     OFFSET(BsdfQuery, choice)                       \
     SIZE(BsdfAnswer)                                \

@@ -352,6 +352,7 @@ typedef struct SceneInfo {
     uint light_node_count;     // 0: no tree of lights, they are chosen by power
     uint has_maps;             // 1: some surface has a normal or bump map
     uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
+    uint has_sky;              // 1: there is an environment map or a sun
 } SceneInfo;
 #define NEARLIGHT_VEILS_NONE 0u   // nothing
 #define NEARLIGHT_VEILS_THIN 1u   // thin panes, masks and `null`
@@ -393,7 +394,7 @@ NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
-NEARLIGHT_CHECK_SHARED(SceneInfo, 36);
+NEARLIGHT_CHECK_SHARED(SceneInfo, 40);
 }  // namespace nearlight::core
 #endif
 

@@ -74,7 +74,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
     const ReceiverPoint at = {x, n, (float3)(0.0f), 0};
-    float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, 0, 0, i);
+    float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, 0, 0, 0, i);
     for (uint ray = 0; ray < rays; ++ray) {
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
         const SurfaceHit hit = trace_surface(&scene, x, direction, INFINITY);

@@ -78,7 +78,7 @@ Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPa
     const Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
-    Buffer<SharedLight> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
+    FoundLights found(device, packets.size());
     ReceiverPaths paths(device);
     SharedLights lights(device, kernel);
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
@@ -87,7 +87,7 @@ Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPa
         settings.seed = 100 + seed;
         if (shared) {
             paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
-            lights.add(on_device, receivers, packets.size(), settings, found, indirect);
+            lights.add(on_device, receivers, packets.size(), settings, found.near, indirect);
         } else {
             paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
         }

@@ -25,6 +25,7 @@
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/roulette.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_sky.h"
 #include "kernels/shared/film_layers.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -85,6 +86,14 @@ Numbers numbers_of(const std::vector<Vpl>& vpls) {
     Numbers numbers;
     for (const Vpl& vpl : vpls) {
         numbers.insert(numbers.end(), {vpl.position.x, vpl.position.y, vpl.position.z, vpl.power.y});
+    }
+    return numbers;
+}
+
+Numbers numbers_of(const std::vector<CameraVertex>& vertices) {
+    Numbers numbers;
+    for (const CameraVertex& vertex : vertices) {
+        numbers.push_back(vertex.emitted.y);
     }
     return numbers;
 }
@@ -265,11 +274,23 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
         .light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.8f, .seed = 2};
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
-    Buffer<SharedLight> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
+    FoundLights found(device, packets.size());
     ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
                                       found);
-    SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
-    return numbers_of(indirect.download());
+    SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found.near, indirect);
+    Numbers numbers = numbers_of(indirect.download());
+    const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
+    const SeenSurface seen{
+        .triangle = 4, .u = 0.3f, .v = 0.3f, .model = 0.5f, .direction = {0, -1, 0}, .light_samples = 1};
+    Buffer<CameraVertex> vertices(device, std::vector(count, CameraVertex{}));
+    SharedSky(device, kernel)
+        .add(on_device, receivers, packets.size(), settings, found.sky,
+             {.surfaces = Buffer<SeenSurface>(device, std::vector(count, seen)), .vertices = vertices},
+             direct);
+    for (const Numbers& more : {numbers_of(direct.download()), numbers_of(vertices.download())}) {
+        numbers.insert(numbers.end(), more.begin(), more.end());
+    }
+    return numbers;
 }
 
 TEST_F(SmallLaunchesTest, SharedLightsByPackets) {

@@ -80,44 +80,50 @@ inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit, float
     return hit->t + ray_epsilon(hit->position, scene->info->extent) / fabs(dot(hit->geometric, direction));
 }
 
+/// What arrives of light, and how many veils it passed.
+typedef struct ArrivingLight {
+    float3 part;  // of what was sent; 0 where something blocks it
+    uint veils;
+} ArrivingLight;
+
+/// Whether light comes straight from the sky, so that a ray that meets nothing finds it too.
+inline bool arriving_from_sky(const LightSample* light, const ArrivingLight* arriving) {
+    return light->infinite && arriving->veils == 0;
+}
+
 /// What remains of light on the ray from x between t_min and t_max; nothing where it meets more veils than
 /// `max_veils`.
-inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min, float t_max,
-                                uint max_veils) {
-    float3 remains = (float3)(1.0f);
-    for (uint veils = 0;; ++veils) {
+inline ArrivingLight ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
+                                       float t_max, uint max_veils) {
+    ArrivingLight light = {(float3)(1.0f), 0};
+    for (;; ++light.veils) {
         const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
         if (hit.t < 0.0f) {
-            return remains;
+            return light;
         }
-        remains *= veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
-        if (is_black(remains)) {
-            return remains;
+        light.part *= light.veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
+        if (is_black(light.part)) {
+            return light;
         }
         t_min = beyond_surface(scene, &hit, direction);
     }
 }
 
-/// What remains at x of a light sample, on a path that has room for `max_veils` more surfaces. Veils block
+/// What arrives at x of a light sample, on a path that has room for `max_veils` more surfaces. Veils block
 /// the light of points and directions, which no ray can find behind them, unless glass is clear.
-inline float3 light_transmittance(const SceneView* scene, float3 x, const LightSample* light,
-                                  uint max_veils) {
+inline ArrivingLight arriving_light(const SceneView* scene, float3 x, const LightSample* light,
+                                    uint max_veils) {
     const uint veils = scene->info->veils;
     if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils != NEARLIGHT_VEILS_CLEAR) ||
         max_veils == 0) {
-        return (float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f);
+        const ArrivingLight straight = {(float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f), 0};
+        return straight;
     }
     const float3 to_target = light->target - x;
     const float distance = light->infinite ? INFINITY : length(to_target);
     return ray_transmittance(scene, x, light->infinite ? light->direction : to_target / distance,
                              light->infinite ? 0.0f : distance * NEARLIGHT_SEGMENT_T_MIN,
                              distance * NEARLIGHT_SEGMENT_T_MAX, min(max_veils, (uint)NEARLIGHT_MAX_VEILS));
-}
-
-/// What arrives at x of a light sample's radiance, likewise.
-inline float3 arriving_radiance(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {
-    const float3 remains = light_transmittance(scene, x, light, max_veils);
-    return is_black(remains) ? remains : remains * light_radiance(scene, light);
 }
 
 #endif

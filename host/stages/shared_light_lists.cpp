@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shared_light_lists.h"
+
+#include "host/base/receiver_bundles.h"
+#include "host/stages/joint_programs.h"
+
+namespace nearlight::core {
+namespace {
+
+constexpr std::size_t kMaskWords = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE / 32;
+
+Kernel visibility_kernel(Device& device, GatherKernel kernel) {
+    if (kernel == GatherKernel::rays) {
+        return {Program(device, "shared_light_rays.cl"), "shared_light_rays"};
+    }
+    const Defines defines{{"GATHER_BEAM_WIDTH", std::to_string(device.tunables().beam_width)}};
+    return {Program(device, "shared_light_packets.cl", defines), "shared_light_packets"};
+}
+
+}  // namespace
+
+SharedLightLists::SharedLightLists(Device& device, GatherKernel kernel)
+    : device_(&device),
+      kernel_(choose_kernel(kernel, device)),
+      program_(device, "shared_lights.cl", kViewProgram),
+      choose_(program_, "shared_light_choose"),
+      visibility_(visibility_kernel(device, kernel_)),
+      next_bundle_(device, 1) {}
+
+void SharedLightLists::resize(std::size_t bundle_count) {
+    if (lengths_.count() < bundle_count) {
+        const std::size_t entries = bundle_count * NEARLIGHT_SHARED_LIST;
+        listed_ = Buffer<uint>(*device_, entries);
+        factors_ = Buffer<float>(*device_, entries);
+        lengths_ = Buffer<uint>(*device_, bundle_count);
+        seen_by_ = Buffer<uint>(*device_, entries * kMaskWords);
+    }
+}
+
+void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                            std::size_t packet_count, const ReceiverPathSettings& settings, float radius,
+                            const Buffer<SharedLight>& found, uint count) {
+    const auto packets = static_cast<uint>(packet_count);
+    const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
+    resize(bundle_count);
+    choose_.launch_items(bundle_count, receivers, packets, found, count, settings.seed, listed_, factors_,
+                         lengths_);
+    const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
+                               const auto& triangles, const auto&... rest) {
+        visibility_.launch(items, local_size, nodes, triangles, receivers, packets, found, radius * radius,
+                           settings.max_edges, settings.path_count, listed_, lengths_, factors_, seen_by_,
+                           rest...);
+    };
+    if (kernel_ == GatherKernel::rays) {
+        launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,
+                  scene.tree.triangles);
+    } else {
+        next_bundle_.fill_zero();
+        launch_on(bundle_count, 1, scene.tree.wide_nodes, scene.tree.blocks, next_bundle_);
+    }
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of the lights that bundles of receivers share: those that each bundle uses of what the rays of its
+// receivers found, and which receivers see them. The kernels are shared_light_choose in shared_lights.cl,
+// shared_light_packets.cl and shared_light_rays.cl.
+#pragma once
+
+#include "host/cl/kernel.h"
+#include "host/stages/device_scene.h"
+#include "host/stages/receiver_paths.h"
+#include "kernels/shared/shared_light.h"
+#include "nearlight/settings.h"
+
+namespace nearlight::core {
+
+class SharedLightLists {
+  public:
+    /// Begins to compile the kernels. `kernel` is that of the gather.
+    SharedLightLists(Device& device, GatherKernel kernel);
+
+    /// Lists about `count` of the lights that ReceiverPaths::run_sharing() found, at most
+    /// NEARLIGHT_SHARED_LIGHTS, for each bundle. Light of farther places than `radius` (m) is left out. The
+    /// tree of the scene must be uploaded for the gather kernel.
+    void make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+              const ReceiverPathSettings& settings, float radius, const Buffer<SharedLight>& found,
+              uint count);
+
+    /// Calls visit(buffer) for listed, factors, lengths and seen_by, in the order in which kernels take them.
+    template <typename Visitor>
+    void for_each_buffer(Visitor&& visit) const {
+        visit(listed_), visit(factors_), visit(lengths_), visit(seen_by_);
+    }
+
+  private:
+    void resize(std::size_t bundle_count);
+
+    Device* device_;
+    GatherKernel kernel_;  ///< never `automatic`
+    Program program_;
+    Kernel choose_;
+    Kernel visibility_;
+    // NEARLIGHT_SHARED_LIST entries for each bundle.
+    Buffer<uint> listed_;       ///< the receivers that found the lights
+    Buffer<float> factors_;     ///< shared_factor() of each light
+    Buffer<uint> lengths_;      ///< of the lists
+    Buffer<uint> seen_by_;      ///< for each entry a bit for each receiver of the bundle
+    Buffer<uint> next_bundle_;  ///< the queue of shared_light_packets: a single counter
+};
+
+}  // namespace nearlight::core

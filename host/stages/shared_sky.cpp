@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shared_sky.h"
+
+#include <limits>
+
+#include "host/stages/joint_programs.h"
+
+namespace nearlight::core {
+
+SharedSky::SharedSky(Device& device, GatherKernel kernel)
+    : lists_(device, kernel),
+      program_(device, "shared_sky.cl", kViewProgram),
+      gather_(program_, "shared_sky_gather") {}
+
+void SharedSky::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                    std::size_t packet_count, const ReceiverPathSettings& settings,
+                    const Buffer<SharedLight>& found, const SeenSurfaces& seen,
+                    Buffer<IrradiancePacket>& irradiance) {
+    lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(), found,
+                NEARLIGHT_SHARED_SKY_LIGHTS);
+    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
+                         static_cast<uint>(packet_count), found, lists_, settings.path_count,
+                         settings.light_samples, irradiance, seen.surfaces.count() > 0 ? 1u : 0u, seen.rays,
+                         seen.surfaces, seen.vertices);
+}
+
+}  // namespace nearlight::core

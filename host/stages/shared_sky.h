@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of the sky that the rays of single receivers find and that all receivers of their bundle share. The
+// kernel is in shared_sky.cl.
+#pragma once
+
+#include "host/stages/shared_light_lists.h"
+
+namespace nearlight::core {
+
+/// The surfaces that the camera sees at receivers, as CameraPass::run() wrote them: one for each receiver, or
+/// none.
+struct SeenSurfaces {
+    const Buffer<SeenSurface>& surfaces;
+    Buffer<CameraVertex>& vertices;
+    uint rays = 1;  ///< that each of them sends in search of lights (CameraBand::light_rays)
+};
+
+class SharedSky {
+  public:
+    /// Begins to compile the kernels. `kernel` is that of the gather.
+    SharedSky(Device& device, GatherKernel kernel);
+
+    /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
+    /// left to found.sky, and to the vertices what the camera pass with the same rays left of the light that
+    /// surfaces reflect other than diffusely: unbiased estimates. The tree of the scene must be uploaded for
+    /// the gather kernel.
+    void add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+             const ReceiverPathSettings& settings, const Buffer<SharedLight>& found, const SeenSurfaces& seen,
+             Buffer<IrradiancePacket>& irradiance);
+
+  private:
+    SharedLightLists lists_;
+    Program program_;
+    Kernel gather_;
+};
+
+}  // namespace nearlight::core
