@@ -364,9 +364,8 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
         light.direct = ray.throughput * met_light(scene, &ray, &hit);
     }
     if (hit.t < 0.0f) {
-        if (sky->is_wanted) {
-            find_sky(scene, at->x, ray.direction, light.direct, to_unit_float(random_uint4(keys ^ 0x5c1u).x),
-                     sky);
+        if (sky->is_wanted && limits->max_edges > 0) {
+            find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), sky);
         }
         return light;
     }

@@ -25,13 +25,13 @@ inline float3 sky_place(const SceneView* scene, float3 x, float3 direction, floa
     return center + out;
 }
 
-/// Takes the sky that a ray from x met into the draw. `brought` is what it brought to the receiver itself.
-inline void find_sky(const SceneView* scene, float3 x, float3 direction, float3 brought, float u,
-                     FoundLight* sky) {
+/// Takes the sky that a ray from x met into the draw. All finds have the same weight, however dark the sky is
+/// where this ray met it: other receivers see another part of it behind the same place.
+inline void find_sky(const SceneView* scene, float3 x, float3 direction, float u, FoundLight* sky) {
     float3 normal;
     SharedLight light;
     light.position = store3(sky_place(scene, x, direction, &normal));
-    light.weight = max_component(brought);
+    light.weight = 1.0f;
     light.normal = store3(normal);
     light.curve = 0;
     light.radiance = store3((float3)(1.0f));

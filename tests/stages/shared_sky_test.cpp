@@ -34,6 +34,9 @@ Scene room_with_windows(const Material& floor) {
     add_quad(scene, {2, 0, -2}, {0, 0.4f, 0}, {0, 0, 4}, white);
     add_quad(scene, {-0.2f, 0.2f, 0.1f}, {0, 0, 0.4f}, {0.4f, 0, 0}, white);
     scene.environment = patterned_map(7, 4);
+    for (std::size_t i = 0; i < scene.environment.radiance.size(); i += 3) {
+        scene.environment.radiance[i] = {0, 0, 0};  // other receivers see light beside it
+    }
     set_camera(scene, {-1.5, 0.7, 0}, {0.2, 0, 0}, 50);
     return scene;
 }
