@@ -7,7 +7,8 @@
 // pixel are evenly spread. Other receivers have numbers of their own, keyed by position. So no split of the
 // work changes the result. A receiver with `surfaces` surfaces before it gets paths of at most max_edges −
 // surfaces edges. VPLs bring it longer ones, whose light the rays take away again. With `shares`, the
-// Lambertian light of near places goes to one light of each receiver, which shared_lights.cl takes further.
+// Lambertian light of near places goes to one light of each receiver, which shared_lights.cl takes further,
+// and if it is 2, the sky that rays meet goes to another one, for shared_sky.cl.
 
 #include "lib/receiver_path.cl"
 
@@ -39,7 +40,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     ReceivedLight light = nothing_received();
     const bool does_share = shares != 0 && receiver_shares(receiver, lane, max_edges);
     FoundLight shared = nothing_found(does_share);
-    FoundLight sky = nothing_found(does_share && scene.info->has_sky);
+    FoundLight sky = nothing_found(does_share && shares > 1 && scene.info->has_sky);
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;

@@ -21,7 +21,8 @@ ReceiverPathSettings path_settings(const Picture& picture) {
             .path_count = settings.compensate ? rays : 0,
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
-            .seed = picture.seed};
+            .seed = picture.seed,
+            .shares_sky = picture.shares_sky};
 }
 
 /// Whether bundles share what the rays of their receivers find.
@@ -31,7 +32,7 @@ bool shares_lights(const ReceiverPathSettings& paths) {
 
 /// Whether they share light of the sky too.
 bool shares_sky(const DeviceScene& scene, const Picture& picture) {
-    return scene.host_info.has_sky != 0 && shares_lights(path_settings(picture));
+    return picture.shares_sky && scene.host_info.has_sky != 0 && shares_lights(path_settings(picture));
 }
 
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.

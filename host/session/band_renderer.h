@@ -57,6 +57,7 @@ struct Picture {
     RenderPlan plan{};
     std::size_t asked_count = 0;            ///< VplSet::asked_count
     std::optional<LocalLightPlan> local{};  ///< VplSet::local
+    bool shares_sky = false;                ///< whether bundles share light of the sky
 };
 static_assert(std::is_trivially_copyable_v<Picture>);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/session.h"
+#include "host/session/sky_part.h"
 
 #include <algorithm>
 #include <utility>
@@ -99,8 +100,11 @@ Session::Session(Device& device, const Scene& scene, const SessionOptions& optio
 
 View Session::look(const SceneCamera& camera, const ViewSettings& settings, uint seed) {
     return pool_.on_leader([&](PoolDevice& leader) {
-        return choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, camera, settings,
-                           seed);
+        View view = choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, camera,
+                                settings, seed);
+        view.sky_part =
+            sky_part(leader.device(), leader.bands.receiver_paths, leader.scene, view.pilot, seed);
+        return view;
     });
 }
 

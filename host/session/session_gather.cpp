@@ -9,6 +9,7 @@
 #include "host/session/picture_window.h"
 #include "host/session/receiver_weight.h"
 #include "host/session/session.h"
+#include "host/session/sky_part.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -90,7 +91,8 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                           .seed = seed,
                           .plan = plan,
                           .asked_count = vpls.asked_count,
-                          .local = vpls.local};
+                          .local = vpls.local,
+                          .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart};
     if (remote_.devices.empty()) {
         return std::make_shared<PlannedPicture>(PlannedPicture{.picture = picture, .window = window});
     }

@@ -25,8 +25,8 @@ void ReceiverPaths::run_sharing(const DeviceScene& scene, const Buffer<ReceiverP
                                 FoundLights& found) {
     receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
-                                 settings.max_edges, settings.clamp_radius, settings.seed, 1u, direct,
-                                 indirect, found.near, found.sky);
+                                 settings.max_edges, settings.clamp_radius, settings.seed,
+                                 settings.shares_sky ? 2u : 1u, direct, indirect, found.near, found.sky);
 }
 
 }  // namespace nearlight::core

@@ -22,6 +22,7 @@ struct ReceiverPathSettings {
     /// distance r has the weight max0(1 − r²/R²). Infinity counts all of it, 0 none.
     float clamp_radius = 0.0f;
     uint seed = 0;
+    bool shares_sky = false;  ///< whether run_sharing() leaves light of the sky to `found`
 };
 
 /// The lights that receivers find and share with their bundles: one of each kind for each receiver.
@@ -44,10 +45,10 @@ class ReceiverPaths {
              const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
              Buffer<IrradiancePacket>& indirect);
 
-    /// As run(), except for the Lambertian light of places within the clamp radius, and for the sky. Where a
-    /// receiver may share what it finds of these with others (lib/shared_light.cl), not `indirect` and
-    /// `direct` but `found` gets it, and SharedLights brings it to all of the bundle. The clamp radius must
-    /// be finite.
+    /// As run(), except for the Lambertian light of places within the clamp radius, and for the sky if
+    /// settings.shares_sky. Where a receiver may share what it finds of these with others
+    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights brings it to
+    /// all of the bundle. The clamp radius must be finite.
     void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                      std::size_t packet_count, const ReceiverPathSettings& settings,
                      Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,

@@ -103,7 +103,8 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
         const ReceiverPathSettings settings{.path_count = search.rays,
                                             .max_edges = 3,
                                             .clamp_radius = 0.1f,
-                                            .seed = 50u + static_cast<uint>(seed)};
+                                            .seed = 50u + static_cast<uint>(seed),
+                                            .shares_sky = true};
         camera_pass.run(on_device, cameras, static_cast<uint>(kSide), regions, band, settings.seed, receivers,
                         vertices, &seen);
         if (search.shared) {

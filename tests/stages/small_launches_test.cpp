@@ -270,8 +270,12 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
     const DeviceScene on_device = upload_scene(device, scene.scene, scene.bvh, kernel);
     const std::vector<ReceiverPacket> packets = few_receivers(scene, 8, 8);
     const Buffer<ReceiverPacket> receivers(device, packets);
-    const ReceiverPathSettings settings{
-        .light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.8f, .seed = 2};
+    const ReceiverPathSettings settings{.light_samples = 1,
+                                        .path_count = 1,
+                                        .max_edges = 3,
+                                        .clamp_radius = 0.8f,
+                                        .seed = 2,
+                                        .shares_sky = true};
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
     FoundLights found(device, packets.size());
