@@ -276,9 +276,9 @@ inline void trace_light(const SceneView* scene, const CameraLimits* limits, Came
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
     const PathLimits ray = {
         max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0, 0};
-    FoundLight found = nothing_found(0);
+    Finds finds = nothing_shared();
     const ReceivedLight light = received_light(
-        scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &found, &found);
+        scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &finds);
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
     path->emitted += response * light.direct;
     path->traced += response * light.indirect;

@@ -6,10 +6,13 @@
 // one pixel share a sequence of random numbers, and each takes its own part of it, so that all samples of the
 // pixel are evenly spread. Other receivers have numbers of their own, keyed by position. So no split of the
 // work changes the result. A receiver with `surfaces` surfaces before it gets paths of at most max_edges −
-// surfaces edges. VPLs bring it longer ones, whose light the rays take away again. With `shares`, the
-// Lambertian light of near places goes to one light of each receiver, which shared_lights.cl takes further,
-// and if it is 2, the sky that rays meet goes to another one, for shared_sky.cl.
+// surfaces edges. VPLs bring it longer ones, whose light the rays take away again.
+//
+// `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
+// shared_lights.cl, shared_sky.cl and shared_reflections.cl to take further. Reflections want the `spacing`
+// of each receiver, which receiver_spacing finds: one work-item for each bundle; any work-group size.
 
+#include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
 
 inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
@@ -22,8 +25,11 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
                            uint packet_count, uint light_samples, uint path_count, uint max_edges,
                            float clamp_radius, uint seed, uint shares,
                            global IrradiancePacket* restrict direct,
-                           global IrradiancePacket* restrict indirect, global SharedLight* restrict found,
-                           global SharedLight* restrict found_sky) {
+                           global IrradiancePacket* restrict indirect,
+                           global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
+                           global SharedLight* restrict found_reflections,
+                           global SharedReflection* restrict reflections,
+                           const global float* restrict spacing) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -38,9 +44,13 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     at.mesh_n = receiver_mesh_normal(receiver, lane);
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
-    const bool does_share = shares != 0 && receiver_shares(receiver, lane, max_edges);
-    FoundLight shared = nothing_found(does_share);
-    FoundLight sky = nothing_found(does_share && shares > 1 && scene.info->has_sky);
+    Finds finds = nothing_shared();
+    if (shares != 0 && receiver_shares(receiver, lane, max_edges)) {
+        finds.near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;
+        finds.sky.is_wanted = (shares & NEARLIGHT_SHARES_SKY) != 0 && scene.info->has_sky;
+        finds.reflections.light.is_wanted = (shares & NEARLIGHT_SHARES_REFLECTIONS) != 0;
+        finds.reflections.spacing = finds.reflections.light.is_wanted ? spacing[index] : 0.0f;
+    }
     if (dot(at.n, at.n) > 0.0f) {
         const uint surfaces = receiver_surfaces(receiver, lane);
         const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
@@ -49,17 +59,85 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
                                    clamp_radius,
                                    light_samples,
                                    path_count,
-                                   sky.is_wanted ? NEARLIGHT_SKY_RAYS * path_count : 0,
+                                   finds.sky.is_wanted ? NEARLIGHT_SKY_RAYS * path_count : 0,
                                    receiver_sample(receiver, lane)};
         const uint sequence = receiver->sequence[lane];
         const uint4 key = sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
                                         : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
-        light = received_light(&scene, &at, &limits, random_uint4(key), &shared, &sky);
+        light = received_light(&scene, &at, &limits, random_uint4(key), &finds);
     }
     store_light(direct + packet, lane, light.direct);
     store_light(indirect + packet, lane, light.indirect);
-    if (shares != 0) {
-        found[index] = kept_light(&shared);
-        found_sky[index] = kept_light(&sky);
+    if (shares & NEARLIGHT_SHARES_NEAR) {
+        found_near[index] = kept_light(&finds.near);
+    }
+    if (shares & NEARLIGHT_SHARES_SKY) {
+        found_sky[index] = kept_light(&finds.sky);
+    }
+    if (shares & NEARLIGHT_SHARES_REFLECTIONS) {
+        found_reflections[index] = kept_light(&finds.reflections.light);
+        reflections[index] = finds.reflections.surface;
+    }
+}
+
+#define BUNDLE_ROWS (BUNDLE_RECEIVERS / 16)
+
+/// Where the receivers of a bundle are that share lights; +∞ stands for others.
+typedef struct SharingPlaces {
+    float x[BUNDLE_RECEIVERS], y[BUNDLE_RECEIVERS], z[BUNDLE_RECEIVERS];
+    uint count;
+    float squared_extent;  // of the box around them: the square of its diagonal, m²
+} SharingPlaces;
+
+inline void find_sharing_places(SharingPlaces* places, const global ReceiverPacket* receivers,
+                                const Bundle* bundle, uint max_edges) {
+    float3 low = (float3)(INFINITY);
+    float3 high = (float3)(-INFINITY);
+    places->count = 0;
+    for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
+        float3 x = (float3)(INFINITY);
+        if (bundle_receiver_shares(receivers, bundle, lane, max_edges)) {
+            x = receiver_position(receivers + bundle->first + lane / NEARLIGHT_PACKET_SIZE,
+                                  lane % NEARLIGHT_PACKET_SIZE);
+            low = fmin(low, x);
+            high = fmax(high, x);
+            ++places->count;
+        }
+        places->x[lane] = x.x;
+        places->y[lane] = x.y;
+        places->z[lane] = x.z;
+    }
+    places->squared_extent = dot(high - low, high - low);
+}
+
+/// The radius (m) of the neighbourhood of a receiver that shares: a sphere around it that holds at least a
+/// quarter of those that share. Half the squared radius would hold fewer.
+inline float neighbourhood_radius(const SharingPlaces* places, uint lane) {
+    float16 squared[BUNDLE_ROWS];
+    for (uint row = 0; row < BUNDLE_ROWS; ++row) {
+        const float16 x = vload16(row, places->x) - places->x[lane];
+        const float16 y = vload16(row, places->y) - places->y[lane];
+        const float16 z = vload16(row, places->z) - places->z[lane];
+        squared[row] = x * x + y * y + z * z;
+    }
+    for (float limit = places->squared_extent;; limit *= 0.5f) {
+        uint inside = 0;
+        for (uint row = 0; row < BUNDLE_ROWS; ++row) {
+            inside += popcount(lane_bits16(squared[row] < 0.5f * limit));
+        }
+        if (4 * inside < places->count) {
+            return sqrt(limit);
+        }
+    }
+}
+
+kernel void receiver_spacing(const global ReceiverPacket* restrict receivers, uint packet_count,
+                             uint max_edges, global float* restrict spacing) {
+    const Bundle bundle = bundle_at((uint)get_global_id(0), packet_count);
+    SharingPlaces places;
+    find_sharing_places(&places, receivers, &bundle, max_edges);
+    for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
+        spacing[bundle.first * NEARLIGHT_PACKET_SIZE + lane] =
+            places.x[lane] < INFINITY ? neighbourhood_radius(&places, lane) : 0.0f;
     }
 }

@@ -9,6 +9,7 @@
 #include "host/base/random.h"
 #include "host/base/receiver_bundles.h"
 #include "host/base/receivers.h"
+#include "host/reference/bsdf/surface_bsdf.h"
 
 namespace nearlight::core {
 namespace {
@@ -103,11 +104,18 @@ void place_lights(SharedLightCase& data, std::size_t stride, const std::function
     }
 }
 
-/// Calls visit(light, receiver, pair, density) for each light and each receiver that it lights; the density
-/// is that of all rays of the bundle there.
-template <typename Visitor>
+/// A receiver that a light lights, and the density of all rays of the bundle there.
+struct Connection {
+    std::size_t light, receiver;
+    Pair pair;
+    double density;
+};
+
+/// Calls visit(connection) for each light and each receiver that it lights. paths(light, receiver) is what
+/// the receiver's rays to the light count in its density, and nothing where the two do not share the light.
+template <typename Paths, typename Visitor>
 void for_each_connection(const SharedLightCase& data, const std::function<bool(Vec3, Vec3)>& is_visible,
-                         const Visitor& visit) {
+                         const Paths& paths, const Visitor& visit) {
     const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
     for (std::size_t i = 0; i < count; ++i) {
         const SharedLight& light = data.found[i];
@@ -118,15 +126,38 @@ void for_each_connection(const SharedLightCase& data, const std::function<bool(V
         for (std::size_t k = first; k < end && light.weight > 0; ++k) {
             const ReceiverPoint x = receiver_at(data.receivers, k);
             const std::optional<Pair> pair = shares(data, k) ? connect(data, light, x) : std::nullopt;
-            if (pair && is_visible(light.position, x.position)) {
+            const std::optional<double> of_paths =
+                pair && is_visible(light.position, x.position) ? paths(i, k) : std::nullopt;
+            if (of_paths) {
                 seeing.emplace_back(k, *pair);
-                density += data.rays_per_receiver * pair->geometry / static_cast<double>(kPi);
+                density += *of_paths * data.rays_per_receiver * pair->geometry / static_cast<double>(kPi);
             }
         }
         for (const auto& [k, pair] : seeing) {
-            visit(light, k, pair, density);
+            visit(Connection{i, k, pair, density});
         }
     }
+}
+
+std::optional<double> every_path(std::size_t /*light*/, std::size_t /*receiver*/) {
+    return 1.0;
+}
+
+/// What the surface of a reflection does to the light that arrives there, for one receiver.
+struct Gloss {
+    Vec3d value;  ///< S times the cosine
+    double pdf;   ///< of S's own samples
+    double width;
+};
+
+Gloss gloss_towards(const SharedReflectionCase& data, const Scene& scene, std::size_t light, Vec3 x) {
+    const SharedReflection& at = data.reflections[light];
+    const Vec3d wo = normalize(as_double(x) - as_double(data.lights.found[light].position));
+    const Surface surface = surface_at(scene, {1.0f, at.u, at.v, at.triangle}, as_float(-wo));
+    const SurfaceBsdf bsdf(scene, surface, wo, static_cast<double>(at.model));
+    const Vec3d wi = as_double(at.arriving);
+    const BsdfParameters& parameters = bsdf.parameters();
+    return {bsdf.eval(wi).specular, bsdf.specular_pdf(wi), std::min(parameters.alpha_x, parameters.alpha_y)};
 }
 
 }  // namespace
@@ -163,14 +194,13 @@ std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
                                     const std::function<bool(Vec3, Vec3)>& is_visible,
                                     const std::function<double(double)>& transmission) {
     std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
-    for_each_connection(
-        data, is_visible,
-        [&](const SharedLight& light, std::size_t receiver, const Pair& pair, double density) {
-            const double weight = pair.part * pair.geometry / density *
-                                  (light.curve == 1 ? transmission(pair.cos_light) : 1.0) *
-                                  (curve_of(data, receiver) == 1 ? transmission(pair.cos_receiver) : 1.0);
-            result[receiver] += light.radiance * static_cast<float>(weight);
-        });
+    for_each_connection(data, is_visible, every_path, [&](const Connection& c) {
+        const SharedLight& light = data.found[c.light];
+        const double weight = c.pair.part * c.pair.geometry / c.density *
+                              (light.curve == 1 ? transmission(c.pair.cos_light) : 1.0) *
+                              (curve_of(data, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+        result[c.receiver] += light.radiance * static_cast<float>(weight);
+    });
     return result;
 }
 
@@ -178,15 +208,79 @@ std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radian
                                         const std::function<bool(Vec3, Vec3)>& is_visible,
                                         const std::function<double(double)>& transmission) {
     std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
-    for_each_connection(
-        data, is_visible, [&](const SharedLight&, std::size_t receiver, const Pair& pair, double density) {
-            const double own = data.rays_per_receiver * pair.cos_receiver / static_cast<double>(kPi);
-            const double of_bundle = NEARLIGHT_SKY_RAYS * own;
-            const double of_samples = light_samples / (4 * static_cast<double>(kPi));
-            const double weight = of_bundle / (of_bundle + own + of_samples) * pair.geometry / density *
-                                  (curve_of(data, receiver) == 1 ? transmission(pair.cos_receiver) : 1.0);
-            result[receiver] += radiance * static_cast<float>(weight);
-        });
+    for_each_connection(data, is_visible, every_path, [&](const Connection& c) {
+        const double own = data.rays_per_receiver * c.pair.cos_receiver / static_cast<double>(kPi);
+        const double of_bundle = NEARLIGHT_SKY_RAYS * own;
+        const double of_samples = light_samples / (4 * static_cast<double>(kPi));
+        const double weight = of_bundle / (of_bundle + own + of_samples) * c.pair.geometry / c.density *
+                              (curve_of(data, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+        result[c.receiver] += radiance * static_cast<float>(weight);
+    });
+    return result;
+}
+
+SharedReflectionCase make_shared_reflections(std::vector<ReceiverPacket> receivers, const Scene& scene,
+                                             const std::function<bool(Vec3, Vec3)>& is_clear) {
+    SharedReflectionCase data{.lights = {.receivers = std::move(receivers),
+                                         .found = {},
+                                         .clamp_radius = std::numeric_limits<float>::infinity()},
+                              .reflections = {},
+                              .spacing = {}};
+    vary(data.lights.receivers);
+    const float extent = max_component(bounds(scene).size());
+    std::vector<SharedReflection> places;
+    place_lights(data.lights, 16, is_clear, [&](std::size_t, std::size_t, Pcg32& random) {
+        SharedReflection at{.triangle = random.next() % static_cast<uint>(scene.triangles.size()),
+                            .u = 0.1f + 0.4f * random.uniform(),
+                            .v = 0.1f + 0.4f * random.uniform(),
+                            .model = random.uniform(),
+                            .arriving = {},
+                            .light_pdf = 2 * random.uniform() - 0.5f};
+        const Triangle& triangle = scene.triangles[at.triangle];
+        const Vec3 corner = scene.vertices[triangle.v0].position;
+        const Vec3 edge1 = scene.vertices[triangle.v1].position - corner;
+        const Vec3 edge2 = scene.vertices[triangle.v2].position - corner;
+        const Vec3 normal = normalize(cross(edge1, edge2));
+        const Vec3 aside{random.uniform() - 0.5f, random.uniform() - 0.5f, random.uniform() - 0.5f};
+        at.arriving = normalize(normal + aside);
+        places.push_back(at);
+        return ReceiverPoint{corner + edge1 * at.u + edge2 * at.v + normal * (1e-4f * extent), normal};
+    });
+    data.reflections.resize(data.lights.found.size(), SharedReflection{});
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        data.reflections[16 * i] = places[i];
+    }
+    for (std::size_t i = 0; i < data.lights.found.size(); ++i) {
+        data.lights.found[i].curve = 0;
+        data.spacing.push_back(0.1f * extent * static_cast<float>(i % 7));
+    }
+    return data;
+}
+
+std::vector<Vec3> reflected_irradiance(const SharedReflectionCase& data, const Scene& scene,
+                                       const std::function<bool(Vec3, Vec3)>& is_visible,
+                                       const std::function<double(double)>& transmission) {
+    std::vector<Vec3> result(data.lights.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
+    const auto gloss = [&](std::size_t light, std::size_t receiver) {
+        return gloss_towards(data, scene, light, receiver_at(data.lights.receivers, receiver).position);
+    };
+    const auto paths = [&](std::size_t light, std::size_t receiver) -> std::optional<double> {
+        const Gloss g = gloss(light, receiver);
+        const float distance =
+            length(receiver_at(data.lights.receivers, receiver).position - data.lights.found[light].position);
+        if (!(g.width * distance > NEARLIGHT_GLOSS_REACH * data.spacing[receiver])) {
+            return std::nullopt;
+        }
+        const double of_lights = data.reflections[light].light_pdf;
+        return of_lights < 0 ? -of_lights : of_lights + g.pdf;
+    };
+    for_each_connection(data.lights, is_visible, paths, [&](const Connection& c) {
+        const double weight =
+            c.pair.geometry / c.density *
+            (curve_of(data.lights, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+        result[c.receiver] +=
+            as_float(gloss(c.light, c.receiver).value * weight) * data.lights.found[c.light].radiance;
+    });
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/math.h"
+#include "host/scene/scene.h"
 #include "kernels/shared/shared_light.h"
 
 namespace nearlight::core {
@@ -42,5 +43,23 @@ SharedLightCase make_shared_sky(std::vector<ReceiverPacket> receivers, Vec3 cent
 std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radiance, uint light_samples,
                                         const std::function<bool(Vec3, Vec3)>& is_visible,
                                         const std::function<double(double)>& transmission);
+
+/// Lights of a case as reflections: radiance arrives at their places, on surfaces with gloss.
+struct SharedReflectionCase {
+    SharedLightCase lights;
+    std::vector<SharedReflection> reflections;  ///< one for each receiver
+    std::vector<float> spacing;                 ///< radius (m) of the neighbourhood of each receiver
+};
+
+/// As make_shared_lights(), with lights that arrive at the fronts of triangles of the scene. Some of them are
+/// delta lights.
+SharedReflectionCase make_shared_reflections(std::vector<ReceiverPacket> receivers, const Scene& scene,
+                                             const std::function<bool(Vec3, Vec3)>& is_clear);
+
+/// Irradiance of each receiver: Σ_j L_j·S·|cosω|·G·V·T / p(j), p(j) = m/π · Σ_s G·V·(p_L + p_S) over the
+/// receivers s of the bundle that share light of j. The materials of the scene have microfacets.
+std::vector<Vec3> reflected_irradiance(const SharedReflectionCase& data, const Scene& scene,
+                                       const std::function<bool(Vec3, Vec3)>& is_visible,
+                                       const std::function<double(double)>& transmission);
 
 }  // namespace nearlight::core

@@ -166,6 +166,15 @@ bool has_specular(const Scene& scene, const Material& material) {
     });
 }
 
+bool has_rough_gloss(const Scene& scene, const Material& material) {
+    return any_of_tree(scene, material, [](const Material& m) {
+        const bool is_coat_or_metal =
+            m.model == NEARLIGHT_BSDF_PLASTIC || m.model == NEARLIGHT_BSDF_CONDUCTOR;
+        return m.model == NEARLIGHT_BSDF_PRINCIPLED ||
+               (is_coat_or_metal && max_component(m.roughness.value) >= NEARLIGHT_MIN_ALPHA);
+    });
+}
+
 bool reflects_back(const Scene& scene, const Material& material) {
     return lets_through(scene, material) || any_of_tree(scene, material, [](const Material& m) {
                return m.model == NEARLIGHT_BSDF_TWO_SIDED;

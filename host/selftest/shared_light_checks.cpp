@@ -9,7 +9,9 @@
 #include "host/reference/gather_workload.h"
 #include "host/reference/shared_light_oracle.h"
 #include "host/reference/test_rooms.h"
+#include "host/scene/material_model.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
 
 namespace nearlight::core {
@@ -40,6 +42,18 @@ Scene room_under_sky(Vec3 radiance) {
         return is_at_top(triangle.v0) && is_at_top(triangle.v1) && is_at_top(triangle.v2);
     });
     scene.environment = {.width = 1, .height = 1, .radiance = {radiance}, .to_world = {}};
+    return scene;
+}
+
+/// The room with metal of several roughnesses everywhere.
+Scene room_of_metal() {
+    Scene scene = room_with_a_curve();
+    float alpha = 0.15f;
+    for (Material& material : scene.materials) {
+        material = conductor_material({0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f});
+        material.roughness = parameter_of(Vec3{alpha, alpha, 0});
+        alpha += 0.1f;
+    }
     return scene;
 }
 
@@ -118,6 +132,31 @@ void check_shared_sky(Device& device, CheckResult& result) {
         SharedSky(device, kernel)
             .add(on_device, receivers, data.receivers.size(), settings, lights,
                  {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
+        expect_irradiance(irradiance, wanted, result);
+    }
+}
+
+void check_shared_reflections(Device& device, CheckResult& result) {
+    const Room room(room_of_metal());
+    const SharedReflectionCase data = make_shared_reflections(
+        make_camera_receivers(room.scene, room.bvh, 48, 48), room.scene, room.is_clear());
+    const std::vector<Vec3> wanted = reflected_irradiance(data, room.scene, room.is_visible(), transmission);
+    const ReceiverPathSettings settings{.path_count = data.lights.rays_per_receiver,
+                                        .max_edges = data.lights.max_edges,
+                                        .clamp_radius = 1.0f,
+                                        .seed = 1,
+                                        .shares_reflections = true};
+    const std::size_t packets = data.lights.receivers.size();
+    const Buffer<ReceiverPacket> receivers(device, data.lights.receivers);
+    FoundLights found(device, packets, settings);
+    found.reflected.upload(data.lights.found);
+    found.reflections.upload(data.reflections);
+    found.spacing.upload(data.spacing);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
+        Buffer<IrradiancePacket> irradiance(device, packets);
+        irradiance.fill_zero();
+        SharedReflections(device, kernel).add(on_device, receivers, packets, settings, found, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }

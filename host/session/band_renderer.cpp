@@ -14,7 +14,12 @@ uint per_sample(uint per_pixel, const GatherSettings& settings) {
     return std::max(1u, (per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
 }
 
-ReceiverPathSettings path_settings(const Picture& picture) {
+/// Whether bundles share what the rays of their receivers find.
+bool shares_lights(const Picture& picture) {
+    return picture.settings.compensate && std::isfinite(picture.budget.clamp_radius);
+}
+
+ReceiverPathSettings path_settings(const DeviceScene& scene, const Picture& picture) {
     const GatherSettings& settings = picture.settings;
     const uint rays = per_sample(settings.rays_per_pixel, settings);
     return {.light_samples = per_sample(picture.budget.light_samples_per_pixel, settings),
@@ -22,26 +27,17 @@ ReceiverPathSettings path_settings(const Picture& picture) {
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed,
-            .shares_sky = picture.shares_sky};
-}
-
-/// Whether bundles share what the rays of their receivers find.
-bool shares_lights(const ReceiverPathSettings& paths) {
-    return paths.path_count > 0 && std::isfinite(paths.clamp_radius);
-}
-
-/// Whether they share light of the sky too.
-bool shares_sky(const DeviceScene& scene, const Picture& picture) {
-    return picture.shares_sky && scene.host_info.has_sky != 0 && shares_lights(path_settings(picture));
+            .shares_sky = shares_lights(picture) && picture.shares_sky && scene.host_info.has_sky != 0,
+            .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};
 }
 
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.
-CameraBand with_light(CameraBand batch, const Picture& picture, bool shares_sky) {
+CameraBand with_light(CameraBand batch, const Picture& picture, const ReceiverPathSettings& paths) {
     batch.max_depth = picture.max_depth;
     batch.min_weight = min_receiver_weight(picture.settings);
     batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
-    batch.sky_rays = shares_sky ? path_settings(picture).path_count : 0;
+    batch.sky_rays = paths.shares_sky ? paths.path_count : 0;
     return batch;
 }
 
@@ -53,13 +49,13 @@ std::size_t pixels_per_band(const Picture& picture) {
 }  // namespace
 
 BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, std::size_t pixels,
-                                         bool shares_sky)
+                                         const ReceiverPathSettings& paths)
     : receivers(device, packets),
       vertices(device, packets * NEARLIGHT_PACKET_SIZE),
-      seen(device, shares_sky ? packets * NEARLIGHT_PACKET_SIZE : 0),
+      seen(device, paths.shares_sky ? packets * NEARLIGHT_PACKET_SIZE : 0),
       direct(device, packets),
       indirect(device, packets),
-      found(device, packets),
+      found(device, packets, paths),
       gathered(device, packets),
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
@@ -73,8 +69,8 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
       camera_(stages.device, std::span(&picture.camera, 1)),
       close_range_(stages.device, std::span(&picture.close_range, 1)),
       own_vpls_(vpls.is_on(stages.device) ? VplBuffer() : vpls.copy_to(stages.device)),
-      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture),
-               shares_sky(scene, picture)) {
+      paths_(path_settings(scene, picture)),
+      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture), paths_) {
     if (picture.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
@@ -146,13 +142,17 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
 }
 
 /// As trace_receivers(), where bundles share what the rays of their receivers find.
-void BandRenderer::trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths) {
-    stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths, buffers_.direct,
+void BandRenderer::trace_sharing_receivers(std::size_t packets) {
+    stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths_, buffers_.direct,
                                        buffers_.indirect, buffers_.found);
-    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths, buffers_.found.near,
+    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.near,
                               buffers_.indirect);
-    if (shares_sky(scene_, picture_)) {
-        stages_.shared_sky.add(scene_, buffers_.receivers, packets, paths, buffers_.found.sky,
+    if (paths_.shares_reflections) {
+        stages_.shared_reflections.add(scene_, buffers_.receivers, packets, paths_, buffers_.found,
+                                       buffers_.indirect);
+    }
+    if (paths_.shares_sky) {
+        stages_.shared_sky.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.sky,
                                {.surfaces = buffers_.seen,
                                 .vertices = buffers_.vertices,
                                 .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},
@@ -167,11 +167,10 @@ void BandRenderer::trace_receivers(std::size_t packets) {
         buffers_.indirect.fill_zero();
         return;
     }
-    const ReceiverPathSettings paths = path_settings(picture_);
-    if (shares_lights(paths)) {
-        trace_sharing_receivers(packets, paths);
+    if (shares_lights(picture_)) {
+        trace_sharing_receivers(packets);
     } else {
-        stages_.receiver_paths.run(scene_, buffers_.receivers, packets, paths, buffers_.direct,
+        stages_.receiver_paths.run(scene_, buffers_.receivers, packets, paths_, buffers_.direct,
                                    buffers_.indirect);
     }
     if (picture_.settings.indirect_only) {
@@ -210,8 +209,7 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress&
             const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
             return progress((static_cast<double>(i) + within) / static_cast<double>(batches.size()));
         };
-        if (!add_batch(with_light(batches[i], picture_, shares_sky(scene_, picture_)), row_count,
-                       batch_progress)) {
+        if (!add_batch(with_light(batches[i], picture_, paths_), row_count, batch_progress)) {
             return std::nullopt;
         }
     }

@@ -17,6 +17,7 @@
 #include "host/stages/receiver_paths.h"
 #include "host/stages/roulette.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
 
 namespace nearlight::core {
@@ -29,6 +30,7 @@ struct BandStages {
           receiver_paths(device),
           shared_lights(device, gather_kernel),
           shared_sky(device, gather_kernel),
+          shared_reflections(device, gather_kernel),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
 
@@ -37,6 +39,7 @@ struct BandStages {
     ReceiverPaths receiver_paths;
     SharedLights shared_lights;
     SharedSky shared_sky;
+    SharedReflections shared_reflections;
     Gatherer gatherer;
     Film film;
     // These stages are made when they are first needed.
@@ -73,7 +76,8 @@ class BandRenderer {
   private:
     /// Device memory that all batches use one after the other.
     struct BatchBuffers {
-        BatchBuffers(Device& device, std::size_t packets, std::size_t pixels, bool shares_sky);
+        BatchBuffers(Device& device, std::size_t packets, std::size_t pixels,
+                     const ReceiverPathSettings& paths);
 
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
@@ -87,7 +91,7 @@ class BandRenderer {
     };
 
     void trace_receivers(std::size_t packets);
-    void trace_sharing_receivers(std::size_t packets, const ReceiverPathSettings& paths);
+    void trace_sharing_receivers(std::size_t packets);
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
@@ -101,6 +105,7 @@ class BandRenderer {
     Buffer<CloseRange> close_range_;
     VplBuffer own_vpls_;               ///< empty if given_vpls_ are on this device
     std::optional<CutTree> cut_tree_;  ///< over the VPLs, if bundles ask cuts
+    ReceiverPathSettings paths_;
     BatchBuffers buffers_;
 };
 

@@ -14,12 +14,11 @@ float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, c
     }
     Buffer<IrradiancePacket> direct(device, view.packet_count);
     Buffer<IrradiancePacket> indirect(device, view.packet_count);
-    FoundLights found(device, view.packet_count);
     // So many edges that receivers behind glass take part, and a radius so small that no near light does.
-    paths.run_sharing(
-        scene, view.receivers, view.packet_count,
-        {.path_count = 1, .max_edges = 64, .clamp_radius = 1e-6f, .seed = seed, .shares_sky = true}, direct,
-        indirect, found);
+    const ReceiverPathSettings settings{
+        .path_count = 1, .max_edges = 64, .clamp_radius = 1e-6f, .seed = seed, .shares_sky = true};
+    FoundLights found(device, view.packet_count, settings);
+    paths.run_sharing(scene, view.receivers, view.packet_count, settings, direct, indirect, found);
     const std::vector<SharedLight> lights = found.sky.download();
     const auto met = std::ranges::count_if(lights, [](const SharedLight& light) { return light.weight > 0; });
     std::ptrdiff_t present = 0;

@@ -130,6 +130,8 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.host_info = describe(scene, emitters);
     on_device.divides_paths = std::ranges::any_of(
         scene.materials, [&](const Material& material) { return has_two_ways(scene, material); });
+    on_device.has_rough_gloss = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return has_rough_gloss(scene, material); });
     on_device.total_power = emitters.total_power;
     for (const Triangle& triangle : scene.triangles) {
         on_device.total_area += triangle_area(scene, triangle);

@@ -30,10 +30,11 @@ struct DeviceScene {
 
     // The host needs these without asking the device.
     SceneInfo host_info{};
-    bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
-    float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
-    float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
-    double total_area = 0.0;     ///< area of all triangles, m²
+    bool has_rough_gloss = false;  ///< some material spreads light by gloss
+    bool divides_paths = false;    ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;      ///< luminance of what surfaces reflect or let through, averaged over area
+    float total_power = 0.0f;      ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;       ///< area of all triangles, m²
 
     /// The transmission curves for a gather; null where all of them are 1.
     [[nodiscard]] const Buffer<float>* curves_in_use() const {

@@ -1,32 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/receiver_paths.h"
 
+#include "host/base/receiver_bundles.h"
 #include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
+namespace {
+
+uint shared_kinds(const ReceiverPathSettings& settings) {
+    return NEARLIGHT_SHARES_NEAR | (settings.shares_sky ? NEARLIGHT_SHARES_SKY : 0u) |
+           (settings.shares_reflections ? NEARLIGHT_SHARES_REFLECTIONS : 0u);
+}
+
+}  // namespace
+
+FoundLights::FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings) {
+    const std::size_t count = packet_count * NEARLIGHT_PACKET_SIZE;
+    const std::size_t reflection_count = settings.shares_reflections ? count : 0;
+    near = Buffer<SharedLight>(device, count);
+    sky = Buffer<SharedLight>(device, settings.shares_sky ? count : 0);
+    reflected = Buffer<SharedLight>(device, reflection_count);
+    reflections = Buffer<SharedReflection>(device, reflection_count);
+    spacing = Buffer<float>(device, reflection_count);
+}
 
 ReceiverPaths::ReceiverPaths(Device& device)
     : program_(device, "receiver_paths.cl", kViewProgram),
       receiver_paths_(program_, "receiver_paths"),
-      none_found_(device, 0) {}
+      receiver_spacing_(program_, "receiver_spacing"),
+      none_found_(device, 0, {}) {}
 
 void ReceiverPaths::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                         std::size_t packet_count, const ReceiverPathSettings& settings,
                         Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect) {
-    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
-                                 static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
-                                 settings.max_edges, settings.clamp_radius, settings.seed, 0u, direct,
-                                 indirect, none_found_.near, none_found_.sky);
+    launch(scene, receivers, packet_count, settings, 0u, direct, indirect, none_found_);
 }
 
 void ReceiverPaths::run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                                 std::size_t packet_count, const ReceiverPathSettings& settings,
                                 Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                                 FoundLights& found) {
+    if (settings.shares_reflections) {
+        const auto packets = static_cast<uint>(packet_count);
+        receiver_spacing_.launch_items(BundleLayout{packets}.bundle_count(), receivers, packets,
+                                       settings.max_edges, found.spacing);
+    }
+    launch(scene, receivers, packet_count, settings, shared_kinds(settings), direct, indirect, found);
+}
+
+void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
+                           std::size_t packet_count, const ReceiverPathSettings& settings, uint shared_kinds,
+                           Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
+                           FoundLights& found) {
     receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
-                                 settings.max_edges, settings.clamp_radius, settings.seed,
-                                 settings.shares_sky ? 2u : 1u, direct, indirect, found.near, found.sky);
+                                 settings.max_edges, settings.clamp_radius, settings.seed, shared_kinds,
+                                 direct, indirect, found.near, found.sky, found.reflected, found.reflections,
+                                 found.spacing);
 }
 
 }  // namespace nearlight::core

@@ -22,17 +22,20 @@ struct ReceiverPathSettings {
     /// distance r has the weight max0(1 − r²/R²). Infinity counts all of it, 0 none.
     float clamp_radius = 0.0f;
     uint seed = 0;
-    bool shares_sky = false;  ///< whether run_sharing() leaves light of the sky to `found`
+    bool shares_sky = false;          ///< whether run_sharing() leaves light of the sky to `found`
+    bool shares_reflections = false;  ///< whether it leaves light there that rough gloss reflects
 };
 
 /// The lights that receivers find and share with their bundles: one of each kind for each receiver.
 struct FoundLights {
-    FoundLights(Device& device, std::size_t packet_count)
-        : near(device, packet_count * NEARLIGHT_PACKET_SIZE),
-          sky(device, packet_count * NEARLIGHT_PACKET_SIZE) {}
+    /// Makes room for those that run_sharing() leaves with such settings.
+    FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings);
 
     Buffer<SharedLight> near;  ///< places within the clamp radius
     Buffer<SharedLight> sky;
+    Buffer<SharedLight> reflected;         ///< places with gloss, and the radiance that arrives there
+    Buffer<SharedReflection> reflections;  ///< their surfaces
+    Buffer<float> spacing;                 ///< radius (m) of the neighbourhood of each receiver
 };
 
 class ReceiverPaths {
@@ -45,18 +48,23 @@ class ReceiverPaths {
              const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
              Buffer<IrradiancePacket>& indirect);
 
-    /// As run(), except for the Lambertian light of places within the clamp radius, and for the sky if
-    /// settings.shares_sky. Where a receiver may share what it finds of these with others
-    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights brings it to
-    /// all of the bundle. The clamp radius must be finite.
+    /// As run(), except for the Lambertian light of places within the clamp radius, and for other kinds of
+    /// light if the settings say so. Where a receiver may share what it finds of these with others
+    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights, SharedSky
+    /// and SharedReflections bring it to all of the bundle. The clamp radius must be finite.
     void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                      std::size_t packet_count, const ReceiverPathSettings& settings,
                      Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                      FoundLights& found);
 
   private:
+    void launch(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+                const ReceiverPathSettings& settings, uint shared_kinds, Buffer<IrradiancePacket>& direct,
+                Buffer<IrradiancePacket>& indirect, FoundLights& found);
+
     Program program_;
     Kernel receiver_paths_;
+    Kernel receiver_spacing_;
     FoundLights none_found_;
 };
 

@@ -4,4 +4,5 @@
 #include "film.cl"
 #include "receiver_paths.cl"
 #include "shared_lights.cl"
+#include "shared_reflections.cl"
 #include "shared_sky.cl"

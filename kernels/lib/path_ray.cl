@@ -113,26 +113,51 @@ inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
     ray->bundle_ratio = 0.0f;
 }
 
-/// Radiance that lights send straight along the ray, weighted against light samples of where it was
-/// scattered.
-inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
-    const bool shares = ray->pdf > 0.0f && ray->veils <= NEARLIGHT_MAX_VEILS;
+/// Light that a ray met.
+typedef struct MetLight {
+    float3 radiance;  // that lights send straight along the ray
+    float of_others;  // density per steradian with which others look for it, per light sample of where the
+                      // ray was scattered
+} MetLight;
+
+/// Whether light samples of where the ray was scattered look for the lights that it meets, too.
+inline bool shares_met_light(const PathRay* ray) {
+    return ray->pdf > 0.0f && ray->veils <= NEARLIGHT_MAX_VEILS;
+}
+
+inline MetLight find_met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
+    MetLight met;
+    met.of_others = 0.0f;
     if (hit->t < 0.0f) {
         const MapSample map = map_sample_towards(scene, ray->direction);
         const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
-        const float of_bundle =
-            ray->veils == 0 ? bundle_density(ray->normal, ray->direction, ray->bundle_ratio) : 0.0f;
-        return light_radiance(scene, &sky) *
-               (shares ? ray->share * ray->pdf / (ray->pdf + sky.pdf + of_bundle) : 1.0f);
+        met.radiance = light_radiance(scene, &sky);
+        if (shares_met_light(ray)) {
+            met.of_others =
+                sky.pdf +
+                (ray->veils == 0 ? bundle_density(ray->normal, ray->direction, ray->bundle_ratio) : 0.0f);
+        }
+        return met;
     }
-    const float3 radiance = emitted_radiance(scene, hit, ray->direction);
-    if (is_black(radiance) || !shares) {
-        return radiance;
+    met.radiance = emitted_radiance(scene, hit, ray->direction);
+    if (!is_black(met.radiance) && shares_met_light(ray)) {
+        SurfaceHit seen = *hit;
+        seen.t += ray->passed;
+        met.of_others = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
     }
-    SurfaceHit seen = *hit;
-    seen.t += ray->passed;
-    const float of_lights = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
-    return radiance * (ray->share * ray->pdf / (ray->pdf + of_lights));
+    return met;
+}
+
+/// The part of the light met that the ray brings; others bring the rest.
+inline float met_weight(const PathRay* ray, const MetLight* met) {
+    return shares_met_light(ray) ? ray->share * ray->pdf / (ray->pdf + met->of_others) : 1.0f;
+}
+
+/// Radiance that lights send straight along the ray, weighted against light samples of where it was
+/// scattered.
+inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
+    const MetLight met = find_met_light(scene, ray, hit);
+    return met.radiance * met_weight(ray, &met);
 }
 
 /// The largest component of what the ray brings back of power. Refraction scales radiance by the square of

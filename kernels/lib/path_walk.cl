@@ -99,8 +99,10 @@ inline float3 short_walk_irradiance(const SceneView* scene, const Connections* t
     }
     const RayShare share = {1.0f - weight, max_edges, max_edges, 0};
     Continuation way;
+    FoundReflection none = no_reflection_found();
     if (brings_more(scene, &share)) {
-        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, random_uint4(keys), &way);
+        const ReceivedLight beyond =
+            continued_light(scene, ray, hit, &share, random_uint4(keys), &way, &none);
         irradiance += beyond.direct + beyond.indirect;
     }
     return irradiance;

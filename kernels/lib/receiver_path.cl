@@ -12,6 +12,7 @@
 
 #include "lib/path_ray.cl"
 #include "lib/shared_light.cl"
+#include "lib/shared_reflection.cl"
 #include "lib/shared_sky.cl"
 
 /// A place that receives light by its Lambertian part.
@@ -111,6 +112,19 @@ inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* 
         sum += sampled_irradiance(scene, at, &light, path_ratio, bundle_ratio, max_veils);
     }
     return exact + sum / (float)sample_count;
+}
+
+/// What a receiver leaves to its bundle.
+typedef struct Finds {
+    FoundLight near;              // Lambertian light of places within the clamp radius
+    FoundLight sky;               // light of the sky that its rays meet
+    FoundReflection reflections;  // light that rough gloss reflects
+} Finds;
+
+/// Those of a receiver that keeps everything to itself.
+inline Finds nothing_shared(void) {
+    const Finds finds = {nothing_found(0), nothing_found(0), no_reflection_found()};
+    return finds;
 }
 
 /// Paths end by chance at surfaces that send on less than this part of what the ray began with.
@@ -248,53 +262,213 @@ inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, co
     return sum;
 }
 
-/// Light over at least one surface, from a ray that has met `hit`, the first of them. Light that came
-/// straight through veils is direct light.
-inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                     const RayShare* share, uint4 keys, Continuation* first_way) {
-    const float first_weight = max_component(ray.throughput);
-    ReceivedLight light = nothing_received();
+/// A path whose first surface reflects its light by S to the whole bundle: what the path finds from there on
+/// arrives at that surface.
+typedef struct BundlePath {
+    uint is_one;
+    GlossyPlace place;
+    ArrivingRay ray;  // by which the path goes on from the first surface
+} BundlePath;
+
+/// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing
+/// else is left on this way.
+inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x, float3 y,
+                               const Continuation* way) {
+    const bool is_alone = (way->parts & BSDF_S) && way->far_scale == 0.0f &&
+                          (!(way->parts & BSDF_D) || is_black(surface->bsdf.diffuse));
+    return found->light.is_wanted && is_alone && !surface->mapped &&
+           shares_gloss(x, y, gloss_width(&surface->bsdf), found->spacing);
+}
+
+/// Begins the bundle's path at the first surface of a receiver's ray, if it is one. Part of these paths end
+/// there: then no part of the surface is left.
+inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
+                                    const SurfaceHit* hit, const SurfaceBsdf* surface, float model, float u,
+                                    Continuation* way) {
+    const float3 y = offset_point(scene, hit->position, hit->geometric);
+    BundlePath path;
+    path.is_one = reflects_to_bundle(found, surface, x, y, way);
+    if (path.is_one) {
+        way->parts = u < REFLECTED_PART ? BSDF_S : 0;
+        way->near_scale /= REFLECTED_PART;
+        path.place = glossy_place(y, hit, surface, model);
+    }
+    return path;
+}
+
+/// Takes what a light sample sends to the first surface of a bundle's path into the draw. The path counts
+/// `scale` times.
+inline void find_reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                  const GlossyPlace* place, const LightSample* light, uint max_veils,
+                                  float scale, float u, FoundReflection* found) {
+    if (!may_shine(light) || !(light->pdf > 0.0f) || !(dot(surface->frame.n, light->direction) > 0.0f)) {
+        return;
+    }
+    const ArrivingLight arriving =
+        arriving_light(scene, ray_origin(scene, hit, light->direction), light, max_veils);
+    if (is_black(arriving.part)) {
+        return;
+    }
+    ArrivingRay ray;
+    ray.direction = light->direction;
+    ray.value = bsdf_eval(scene, surface, light->direction, BSDF_S, &ray.pdf);
+    find_reflection(found, place, &ray, scale * arriving.part * light_radiance(scene, light),
+                    light->is_delta ? -light->pdf : light->pdf, u);
+}
+
+/// The same for all that reflected_light() asks lights with one sample.
+inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                  const GlossyPlace* place, uint max_veils, float scale, uint seed,
+                                  FoundReflection* found) {
+    const uint exact = exact_light_count(scene);
+    const uint count = exact + (has_sampled_lights(scene) ? 1 : 0);
+    for (uint i = 0; i < count; ++i) {
+        const LightSample light = i < exact ? exact_light(scene, i, hit->position)
+                                            : sample_light(scene, hit->position, surface->frame.n,
+                                                           sample_2d(0, 0, seed), sample_2d(0, 1, seed));
+        const float u = to_unit_float(random_uint4((uint4)(seed, i, 0xe3ac7u, 0u)).x);
+        find_reflected_sample(scene, hit, surface, place, &light, max_veils, scale, u, found);
+    }
+}
+
+/// A path from a receiver, at one of its surfaces.
+typedef struct ContinuedPath {
+    PathRay ray;  // that met the surface
+    SurfaceHit hit;
     Continuation way;
-    way.max_edges = share->vpl_edges;
-    way.is_found = 0;
-    for (uint surfaces = 1; surfaces < way.max_edges; ++surfaces) {
-        const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
-        const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
-        const float2 choices = (float2)(to_unit_float(more.x), to_unit_float(more.w));
-        SurfaceBsdf surface;
-        uint parts = BSDF_D | BSDF_S;
-        if (surfaces == 1) {
-            surface = first_surface(scene, &hit, ray.direction, share, choices, &way);
-            parts = way.parts;
-            if (parts == 0 || way.max_edges < 2) {
-                break;
-            }
-        } else {
-            surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, choices.x);
+    BundlePath of_bundle;
+    float first_weight;  // of the ray's throughput where it began to count
+    ReceivedLight light;
+} ContinuedPath;
+
+/// The random numbers of a path at one surface.
+typedef struct PathNumbers {
+    float model;  // for masks and blends
+    float way;
+    float lobe;  // within S
+    float2 direction;
+    float end;            // whether the path ends by chance
+    float goes_on, draw;  // for the bundle's paths
+    uint light_seed;
+} PathNumbers;
+
+inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
+    const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
+    const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
+    const uint4 of_bundle = random_uint4(more ^ 0xd4a35u);
+    PathNumbers numbers;
+    numbers.model = to_unit_float(more.x);
+    numbers.way = to_unit_float(more.w);
+    numbers.lobe = to_unit_float(more.y);
+    numbers.direction = (float2)(to_unit_float(random.y), to_unit_float(random.z));
+    numbers.end = to_unit_float(more.z);
+    numbers.goes_on = to_unit_float(of_bundle.x);
+    numbers.draw = to_unit_float(of_bundle.y);
+    numbers.light_seed = random.w;
+    return numbers;
+}
+
+/// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
+/// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
+/// bundle's goes into the draw.
+inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surfaces, float scale, float u,
+                          FoundReflection* found) {
+    const PathRay* ray = &path->ray;
+    const MetLight met = find_met_light(scene, ray, &path->hit);
+    const float3 brought = scale * ray->throughput * met.radiance;
+    if (path->of_bundle.is_one && ray->veils + 1 == surfaces) {
+        find_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
+    } else if (ray->veils == surfaces) {
+        path->light.direct += brought * met_weight(ray, &met);
+    } else {
+        path->light.indirect += brought * met_weight(ray, &met);
+    }
+}
+
+/// Adds the light of lamps that a surface of the path reflects, and scatters the ray there. At the first
+/// surface of a bundle's path the light goes into the draw, and the ray goes on to bring all that arrives
+/// there. Returns false where the path ends.
+inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path, const SurfaceBsdf* surface,
+                                uint parts, const RayShare* share, uint surfaces, const PathNumbers* numbers,
+                                FoundReflection* found) {
+    const float3 before = path->ray.throughput;
+    const float survived = max_component(before) / path->first_weight;
+    const bool begins_bundle_path = path->of_bundle.is_one && surfaces == 1;
+    if (begins_bundle_path) {
+        find_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, share->max_edges - 2,
+                              path->way.near_scale * survived, numbers->light_seed, found);
+    } else {
+        path->light.indirect += before * continued_sample(scene, &path->hit, surface, parts, share,
+                                                          &path->way, surfaces, numbers->light_seed);
+    }
+    if (!scatter_ray(scene, &path->ray, &path->hit, surface, parts, numbers->lobe, numbers->direction)) {
+        return false;
+    }
+    if (begins_bundle_path) {
+        ArrivingRay* ray = &path->of_bundle.ray;
+        ray->direction = path->ray.direction;
+        ray->pdf = path->ray.pdf;
+        ray->value = path->ray.throughput / max_component(before) * ray->pdf;
+        path->ray.throughput = (float3)(survived);
+        path->first_weight = survived;
+    }
+    return true;
+}
+
+/// Follows the path over one surface to the next. Returns false where it ends.
+inline bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
+                         uint4 keys, FoundReflection* found) {
+    const PathNumbers numbers = path_numbers(keys, surfaces);
+    SurfaceBsdf surface;
+    uint parts = BSDF_D | BSDF_S;
+    if (surfaces == 1) {
+        surface = first_surface(scene, &path->hit, path->ray.direction, share,
+                                (float2)(numbers.model, numbers.way), &path->way);
+        path->of_bundle = begin_bundle_path(scene, found, path->ray.scattered_at, &path->hit, &surface,
+                                            numbers.model, numbers.goes_on, &path->way);
+        parts = path->way.parts;
+        if (parts == 0 || path->way.max_edges < 2) {
+            return false;
         }
-        const float scale = surfaces < share->max_edges ? way.near_scale : way.far_scale;
-        if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, to_unit_float(more.z))) {
-            break;
-        }
-        light.indirect +=
-            ray.throughput * continued_sample(scene, &hit, &surface, parts, share, &way, surfaces, random.w);
-        if (!scatter_ray(scene, &ray, &hit, &surface, parts, to_unit_float(more.y),
-                         (float2)(to_unit_float(random.y), to_unit_float(random.z)))) {
-            break;
-        }
-        hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
-        const float3 met = scale * ray.throughput * met_light(scene, &ray, &hit);
-        if (ray.veils == surfaces) {
-            light.direct += met;
-        } else {
-            light.indirect += met;
-        }
-        if (hit.t < 0.0f) {
+    } else {
+        surface = surface_bsdf(scene, &path->hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
+    }
+    if (!survives(&path->ray, bsdf_albedo(scene, &surface), surfaces, path->first_weight, numbers.end) ||
+        !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {
+        return false;
+    }
+    path->hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
+    add_met_light(scene, path, surfaces,
+                  surfaces < share->max_edges ? path->way.near_scale : path->way.far_scale, numbers.draw,
+                  found);
+    return path->hit.t >= 0.0f;
+}
+
+/// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
+/// the bundle is left out.
+inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
+                                     const RayShare* share, uint4 keys, Continuation* first_way,
+                                     FoundReflection* found) {
+    ContinuedPath path;
+    path.ray = ray;
+    path.hit = hit;
+    path.first_weight = max_component(ray.throughput);
+    path.light = nothing_received();
+    path.of_bundle.is_one = 0;
+    path.way.max_edges = share->vpl_edges;
+    path.way.is_found = 0;
+    for (uint surfaces = 1; surfaces < path.way.max_edges; ++surfaces) {
+        if (!pass_surface(scene, &path, share, surfaces, keys, found)) {
             break;
         }
     }
-    *first_way = way;
-    return light;
+    if (path.of_bundle.is_one && !is_black(path.light.indirect)) {
+        find_reflection(found, &path.of_bundle.place, &path.of_bundle.ray, path.light.indirect, 0.0f,
+                        to_unit_float(random_uint4(keys ^ 0xb0bd1eu).x));
+        path.light.indirect = (float3)(0.0f);
+    }
+    *first_way = path.way;
+    return path.light;
 }
 
 /// How far rays from receivers go, and what VPLs bring already.
@@ -347,7 +521,7 @@ inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, c
 
 /// What one ray of a receiver brings.
 inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                               float2 u, uint4 keys, FoundLight* found, FoundLight* sky) {
+                               float2 u, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
     ray.bundle_ratio = (float)limits->bundle_count / (float)limits->light_samples;
@@ -364,23 +538,24 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
         light.direct = ray.throughput * met_light(scene, &ray, &hit);
     }
     if (hit.t < 0.0f) {
-        if (sky->is_wanted && limits->max_edges > 0) {
-            find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), sky);
+        if (finds->sky.is_wanted && limits->max_edges > 0) {
+            find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), &finds->sky);
         }
         return light;
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
     const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction), limits->max_edges,
-                            limits->vpl_edges, found->is_wanted && hit.t < limits->clamp_radius};
+                            limits->vpl_edges, finds->near.is_wanted && hit.t < limits->clamp_radius};
     if (brings_more(scene, &share)) {
         Continuation way;
-        const ReceivedLight beyond = continued_light(scene, ray, hit, &share, keys, &way);
+        const ReceivedLight beyond =
+            continued_light(scene, ray, hit, &share, keys, &way, &finds->reflections);
         light.direct += beyond.direct;
         if (way.is_found) {
             const float sent = diffuse_transmission(scene, way.curve, -dot(way.shading, ray.direction));
             const float3 radiance = beyond.indirect / (max_component(ray.throughput) * sent);
             const SharedLight y = shared_light(scene, &hit, &way, radiance, share.of_vpls);
-            find_light(found, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
+            find_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
         } else {
             light.indirect = beyond.indirect;
         }
@@ -388,18 +563,17 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
     return light;
 }
 
-/// All light of a receiver except what VPLs bring, and except what `found` and `sky` keep for the bundle.
+/// All light of a receiver except what VPLs bring, and except what `finds` keeps for the bundle.
 inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                                    uint4 keys, FoundLight* found, FoundLight* sky) {
+                                    uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
     const uint first_path = limits->sample * limits->path_count;
     for (uint path = first_path; path < first_path + limits->path_count; ++path) {
-        const ReceivedLight brought =
-            ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
-                      random_uint4((uint4)(keys.y, keys.z, keys.w, path)), found, sky);
+        const ReceivedLight brought = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
+                                                random_uint4((uint4)(keys.y, keys.z, keys.w, path)), finds);
         light.direct += brought.direct;
         light.indirect += brought.indirect;
     }

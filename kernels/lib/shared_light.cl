@@ -47,15 +47,18 @@ inline FoundLight nothing_found(uint is_wanted) {
     return found;
 }
 
-/// Takes one more light into the draw; `u` is uniform in [0, 1).
-inline void find_light(FoundLight* found, const SharedLight* light, float u) {
+/// Takes one more light into the draw; `u` is uniform in [0, 1). Returns whether it is the one to be kept so
+/// far.
+inline bool find_light(FoundLight* found, const SharedLight* light, float u) {
     if (!(light->weight > 0.0f && light->weight < INFINITY)) {
-        return;
+        return false;
     }
     found->sum += light->weight;
-    if (u * found->sum < light->weight) {
+    const bool is_kept = u * found->sum < light->weight;
+    if (is_kept) {
         found->light = *light;
     }
+    return is_kept;
 }
 
 /// The light that was drawn, as strong as it must be to stand for all.

@@ -64,6 +64,8 @@
     OFFSET(SharedLight, radiance)                   \
     SIZE(SeenSurface)                               \
     OFFSET(SeenSurface, light_samples)              \
+    SIZE(SharedReflection)                          \
+    OFFSET(SharedReflection, light_pdf)             \
     SIZE(SurfaceSample)                             \
     OFFSET(SurfaceSample, v)                        \
     SIZE(ReceiverPacket)                            \

@@ -38,8 +38,29 @@ typedef struct SeenSurface {
     uint light_samples;  // that the surface takes of lights; 0: it does not ask the bundle
 } SeenSurface;
 
+/// A surface that reflects light other than diffusely to the receivers of a bundle (shared_reflections.cl).
+/// The SharedLight that belongs to it has its place, and the radiance that arrives there.
+typedef struct SharedReflection {
+    uint triangle;
+    float u, v;       // weights of the triangle's v1 and v2
+    float model;      // random number that chooses between the parts of masks and blends
+    Vec3 arriving;    // unit vector to where the light comes from
+    float light_pdf;  // with which light samples of the surface pick this direction, per steradian, or minus
+                      // the probability of the delta light, which no ray meets
+} SharedReflection;
+#define NEARLIGHT_SHARED_REFLECTIONS 16u  // about how many a bundle uses
+/// A lobe must be this many times as wide as the neighbourhood of a receiver looks from the surface. Where it
+/// is narrower, hardly any other receiver has a use for what this one finds, and bundles show as tiles.
+#define NEARLIGHT_GLOSS_REACH 0.3f
+
+// What receivers share with their bundles, as bits.
+#define NEARLIGHT_SHARES_NEAR 1u         // Lambertian light of places within the clamp radius
+#define NEARLIGHT_SHARES_SKY 2u          // the sky that rays meet
+#define NEARLIGHT_SHARES_REFLECTIONS 4u  // light that rough gloss reflects
+
 #ifdef __cplusplus
 NEARLIGHT_CHECK_SHARED(SeenSurface, 32);
+NEARLIGHT_CHECK_SHARED(SharedReflection, 32);
 NEARLIGHT_CHECK_SHARED(SharedLight, 48);
 static_assert(offsetof(SharedLight, normal) == offsetof(Vpl, normal),
               "a beam connects to a SharedLight as to a Vpl");

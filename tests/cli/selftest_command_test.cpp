@@ -30,8 +30,8 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
         EXPECT_EQ(names,
                   "layout, scan, compaction, sort, morton, classify, light visibility, placement, "
                   "patch VPLs, VPL light, closest hit, any hit, gather packets, gather rays, roulette, "
-                  "light cuts, BSDFs, direct light, paths of receivers, shared lights, shared sky, light "
-                  "tracing, VPL contribution, "
+                  "light cuts, BSDFs, direct light, paths of receivers, shared lights, shared sky, "
+                  "shared reflections, light tracing, VPL contribution, "
                   "reverse VPLs, "
                   "metropolis chains, local lights, camera pass, first surfaces, film");
     }

@@ -67,7 +67,7 @@ class SeveralDevices : public test::DeviceTest {
         std::filesystem::create_directory(folder / "joint");
         for (const char* name :
              {"camera_pass.cl", "receiver_paths.cl", "film.cl", "joint/view.cl", "shared_lights.cl",
-              "shared_light_packets.cl", "shared_light_rays.cl", "shared_sky.cl"}) {
+              "shared_light_packets.cl", "shared_light_rays.cl", "shared_reflections.cl", "shared_sky.cl"}) {
             std::ofstream(folder / name) << expand_kernel_source(name);
         }
         for (const char* name : {"gather_packets.cl", "gather_rays.cl"}) {

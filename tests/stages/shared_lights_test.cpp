@@ -12,6 +12,7 @@
 #include "host/reference/test_rooms.h"
 #include "host/scene/material_model.h"
 #include "host/stages/receiver_paths.h"
+#include "tests/support/brought_light.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
 #include "tests/support/scene_on_device.h"
@@ -21,6 +22,8 @@ namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
+using test::brought;
+using test::Brought;
 
 class SharedLightsTest : public test::DeviceTest {};
 
@@ -49,56 +52,6 @@ std::vector<ReceiverPacket> receivers_near_the_wall(std::size_t count = kReceive
         points.push_back({{x, 1e-4f, z}, i % 5 == 4 ? Vec3{0, 0, 0} : Vec3{0, 1, 0}});
     }
     return test::pack_receivers(points);
-}
-
-/// Green light that rays bring to each receiver, over surfaces, in the mean over some seeds, and the mean of
-/// its squares.
-struct Brought {
-    std::vector<double> mean, square;
-    [[nodiscard]] double sum() const {
-        double sum = 0;
-        for (const double value : mean) {
-            sum += value;
-        }
-        return sum;
-    }
-    [[nodiscard]] double variance() const {
-        double sum = 0;
-        for (std::size_t i = 0; i < mean.size(); ++i) {
-            sum += square[i] - mean[i] * mean[i];
-        }
-        return sum;
-    }
-};
-
-Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPacket>& packets, bool shared,
-                ReceiverPathSettings settings, uint seeds, GatherKernel kernel = GatherKernel::automatic) {
-    const Bvh bvh = build_scene_bvh(scene);
-    const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
-    const Buffer<ReceiverPacket> receivers(device, packets);
-    Buffer<IrradiancePacket> direct(device, packets.size());
-    Buffer<IrradiancePacket> indirect(device, packets.size());
-    FoundLights found(device, packets.size());
-    ReceiverPaths paths(device);
-    SharedLights lights(device, kernel);
-    const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
-    Brought result{std::vector<double>(count), std::vector<double>(count)};
-    for (uint seed = 0; seed < seeds; ++seed) {
-        settings.seed = 100 + seed;
-        if (shared) {
-            paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
-            lights.add(on_device, receivers, packets.size(), settings, found.near, indirect);
-        } else {
-            paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
-        }
-        const std::vector<IrradiancePacket> light = indirect.download();
-        for (std::size_t i = 0; i < count; ++i) {
-            const double green = irradiance_at(light, i).y;
-            result.mean[i] += green / seeds;
-            result.square[i] += green * green / seeds;
-        }
-    }
-    return result;
 }
 
 constexpr ReceiverPathSettings kTwoRays{.path_count = 2, .max_edges = 4, .clamp_radius = kRadius};

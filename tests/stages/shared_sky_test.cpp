@@ -93,7 +93,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
     Buffer<SeenSurface> seen(device, count);
     Buffer<IrradiancePacket> direct(device, packets);
     Buffer<IrradiancePacket> indirect(device, packets);
-    FoundLights found(device, packets);
+    FoundLights found(device, packets, {.shares_sky = true});
     CameraPass camera_pass(device);
     ReceiverPaths paths(device);
     SharedSky sky(device, search.kernel);

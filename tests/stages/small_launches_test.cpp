@@ -25,6 +25,7 @@
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/roulette.h"
 #include "host/stages/shared_lights.h"
+#include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
 #include "kernels/shared/film_layers.h"
 #include "tests/support/device_fixture.h"
@@ -275,13 +276,15 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
                                         .max_edges = 3,
                                         .clamp_radius = 0.8f,
                                         .seed = 2,
-                                        .shares_sky = true};
+                                        .shares_sky = true,
+                                        .shares_reflections = true};
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
-    FoundLights found(device, packets.size());
+    FoundLights found(device, packets.size(), settings);
     ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
                                       found);
     SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found.near, indirect);
+    SharedReflections(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
     Numbers numbers = numbers_of(indirect.download());
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     const SeenSurface seen{

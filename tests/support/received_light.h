@@ -23,8 +23,8 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint rays, g
     const SceneView scene = SCENE_VIEW;
     const ReceiverPoint at = {position.xyz, normal.xyz, (float3)(0.0f), 0};
     const PathLimits limits = {1, 1, INFINITY, 1, rays, 0, 0};
-    FoundLight found = nothing_found(0);
-    out[i] = received_light(&scene, &at, &limits, random_uint4((uint4)(i, 5, 6, 7)), &found, &found).direct.y;
+    Finds finds = nothing_shared();
+    out[i] = received_light(&scene, &at, &limits, random_uint4((uint4)(i, 5, 6, 7)), &finds).direct.y;
 }
 )");
     const SceneOnDevice on_device(probe.device(), scene);

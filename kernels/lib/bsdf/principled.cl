@@ -100,10 +100,15 @@ inline float3 principled_fresnel(const Bsdf* bsdf, float reflectance, float cosi
                          : mix(dielectric, mix(bsdf->base, (float3)(1.0f), grazing), bsdf->metallic);
 }
 
+/// α of the clearcoat.
+inline float clearcoat_alpha(const Bsdf* bsdf) {
+    return mix(0.1f, 0.001f, bsdf->clearcoat_gloss);
+}
+
 /// Clearcoat: facets of the distribution GTR1 with half vector m. `pdf` gets the density of their mirror
 /// directions.
 inline float clearcoat_eval(const Bsdf* bsdf, float3 wo, float3 wi, float3 m, float* pdf) {
-    const float alpha = mix(0.1f, 0.001f, bsdf->clearcoat_gloss);
+    const float alpha = clearcoat_alpha(bsdf);
     const float a2 = alpha * alpha;
     const float density = (a2 - 1.0f) / (M_PI_F * log(a2) * (1.0f + (a2 - 1.0f) * m.z * m.z));
     const float cosine = dot(wo, m);
@@ -215,7 +220,7 @@ inline float3 principled_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf
 
 /// A normal of the clearcoat's facets.
 inline float3 sample_clearcoat_facet(const Bsdf* bsdf, float2 v) {
-    const float alpha = mix(0.1f, 0.001f, bsdf->clearcoat_gloss);
+    const float alpha = clearcoat_alpha(bsdf);
     const float a2 = alpha * alpha;
     const float cos2 = clamp((1.0f - pow(a2, 1.0f - v.x)) / (1.0f - a2), 0.0f, 1.0f);
     return (float3)(sqrt(1.0f - cos2) * circle_point(v.y), sqrt(cos2));

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that rays bring to receivers over surfaces, each by its own rays or by those of its bundle.
+#pragma once
+
+#include <vector>
+
+#include "host/base/receivers.h"
+#include "host/stages/receiver_paths.h"
+#include "host/stages/shared_lights.h"
+#include "host/stages/shared_reflections.h"
+
+namespace nearlight::core::test {
+
+/// Green light that rays bring to each receiver, in the mean over some seeds, and the mean of its squares.
+struct Brought {
+    std::vector<double> mean, square;
+    [[nodiscard]] double sum() const {
+        double sum = 0;
+        for (const double value : mean) {
+            sum += value;
+        }
+        return sum;
+    }
+    [[nodiscard]] double variance() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            sum += square[i] - mean[i] * mean[i];
+        }
+        return sum;
+    }
+};
+
+/// Light over surfaces; what the settings say is left to the bundle if it is `shared`.
+inline Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPacket>& packets,
+                       bool shared, ReceiverPathSettings settings, uint seeds,
+                       GatherKernel kernel = GatherKernel::automatic) {
+    const Bvh bvh = build_scene_bvh(scene);
+    const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
+    const Buffer<ReceiverPacket> receivers(device, packets);
+    Buffer<IrradiancePacket> direct(device, packets.size());
+    Buffer<IrradiancePacket> indirect(device, packets.size());
+    FoundLights found(device, packets.size(), settings);
+    ReceiverPaths paths(device);
+    SharedLights lights(device, kernel);
+    SharedReflections reflections(device, kernel);
+    const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
+    Brought result{std::vector<double>(count), std::vector<double>(count)};
+    for (uint seed = 0; seed < seeds; ++seed) {
+        settings.seed = 100 + seed;
+        if (shared) {
+            paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
+            lights.add(on_device, receivers, packets.size(), settings, found.near, indirect);
+            if (settings.shares_reflections) {
+                reflections.add(on_device, receivers, packets.size(), settings, found, indirect);
+            }
+        } else {
+            paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
+        }
+        const std::vector<IrradiancePacket> light = indirect.download();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double green = irradiance_at(light, i).y;
+            result.mean[i] += green / seeds;
+            result.square[i] += green * green / seeds;
+        }
+    }
+    return result;
+}
+
+}  // namespace nearlight::core::test
