@@ -22,13 +22,7 @@
 
 /// The surface of a reflection as a receiver sees it towards which `wo` points.
 inline SurfaceBsdf resolve_reflecting(const SceneView* scene, const global SharedReflection* at, float3 wo) {
-    const Triangle triangle = scene->triangles[at->triangle];
-    const float3 corner = load3(scene->vertices[triangle.v0].position);
-    const float3 edge1 = load3(scene->vertices[triangle.v1].position) - corner;
-    const float3 edge2 = load3(scene->vertices[triangle.v2].position) - corner;
-    const float3 normal = normalize(cross(edge1, edge2));
-    const SurfaceHit hit = surface_at(scene, at->triangle, (float2)(at->u, at->v),
-                                      corner + at->u * edge1 + at->v * edge2, normal, dot(normal, wo) > 0.0f);
+    const SurfaceHit hit = surface_met_at(scene, at->triangle, (float2)(at->u, at->v), -wo);
     return surface_bsdf(scene, &hit, -wo, BSDF_RADIANCE, at->model);
 }
 

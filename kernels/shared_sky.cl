@@ -51,15 +51,8 @@ inline float bundle_weight(const ArrivingSky* sky, float bundle_rays, float of_o
 
 /// The surface that the camera saw at a receiver.
 inline SurfaceBsdf resolve_seen(const SceneView* scene, const global SeenSurface* seen) {
-    const Triangle triangle = scene->triangles[seen->triangle];
-    const float3 corner = load3(scene->vertices[triangle.v0].position);
-    const float3 edge1 = load3(scene->vertices[triangle.v1].position) - corner;
-    const float3 edge2 = load3(scene->vertices[triangle.v2].position) - corner;
-    const float3 normal = normalize(cross(edge1, edge2));
     const float3 direction = load3(seen->direction);
-    const SurfaceHit hit =
-        surface_at(scene, seen->triangle, (float2)(seen->u, seen->v),
-                   corner + seen->u * edge1 + seen->v * edge2, normal, dot(normal, direction) < 0.0f);
+    const SurfaceHit hit = surface_met_at(scene, seen->triangle, (float2)(seen->u, seen->v), direction);
     return surface_bsdf(scene, &hit, direction, BSDF_CAMERA, seen->model);
 }
 

@@ -93,6 +93,17 @@ inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 we
     return hit;
 }
 
+/// The surface at a point of a triangle, met by a ray along `direction`; t is left 0.
+inline SurfaceHit surface_met_at(const SceneView* scene, uint triangle_id, float2 weights, float3 direction) {
+    const Triangle triangle = scene->triangles[triangle_id];
+    const float3 corner = load3(scene->vertices[triangle.v0].position);
+    const float3 edge1 = load3(scene->vertices[triangle.v1].position) - corner;
+    const float3 edge2 = load3(scene->vertices[triangle.v2].position) - corner;
+    const float3 normal = normalize(cross(edge1, edge2));
+    return surface_at(scene, triangle_id, weights, corner + weights.x * edge1 + weights.y * edge2, normal,
+                      dot(normal, direction) < 0.0f);
+}
+
 inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* of_tree, uint triangle_id,
                                    float3 direction, RayHit ray_hit) {
     const float3 normal = normalize(of_tree->normal);

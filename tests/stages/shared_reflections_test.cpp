@@ -56,7 +56,7 @@ constexpr ReceiverPathSettings kTwoRays{
 constexpr ReceiverPathSettings kManyRays{.path_count = 512, .max_edges = 4, .clamp_radius = 0.5f};
 
 void expect_what_own_rays_bring(Device& device, const Scene& scene,
-                                  GatherKernel kernel = GatherKernel::automatic) {
+                                GatherKernel kernel = GatherKernel::automatic) {
     const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
     const Brought own = brought(device, scene, packets, false, kManyRays, 64, kernel);
     const Brought shared = brought(device, scene, packets, true, kTwoRays, 8192, kernel);
@@ -141,8 +141,7 @@ TEST_F(SharedReflectionsTest, AreLessNoiseThanOwnRays) {
     });
 }
 
-std::vector<SharedLight> found_reflections(Device& device, const Scene& scene,
-                                           const std::vector<ReceiverPacket>& packets) {
+FoundLights find_reflections(Device& device, const Scene& scene, const std::vector<ReceiverPacket>& packets) {
     const Bvh bvh = build_scene_bvh(scene);
     const DeviceScene on_device = upload_scene(device, scene, bvh, GatherKernel::automatic);
     const Buffer<ReceiverPacket> receivers(device, packets);
@@ -151,7 +150,11 @@ std::vector<SharedLight> found_reflections(Device& device, const Scene& scene,
     FoundLights found(device, packets.size(), kTwoRays);
     ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), kTwoRays, direct, indirect,
                                       found);
-    return found.reflected.download();
+    return found;
+}
+
+std::vector<SharedLight> found_reflections(Device& device, const Material& floor) {
+    return find_reflections(device, floor_under_lamp(floor), receivers_on_the_ceiling()).reflected.download();
 }
 
 std::ptrdiff_t number_of_finds(const std::vector<SharedLight>& lights) {
@@ -161,17 +164,15 @@ std::ptrdiff_t number_of_finds(const std::vector<SharedLight>& lights) {
 /// Others have no use for what they would reflect.
 TEST_F(SharedReflectionsTest, NarrowLobesAreLeftToTheirReceivers) {
     on_each_device([](Device& device) {
-        const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
-        EXPECT_GT(number_of_finds(found_reflections(device, floor_under_lamp(metal(0.2f)), packets)), 40);
-        EXPECT_EQ(number_of_finds(found_reflections(device, floor_under_lamp(metal(0.01f)), packets)), 0);
+        EXPECT_GT(number_of_finds(found_reflections(device, metal(0.2f))), 40);
+        EXPECT_EQ(number_of_finds(found_reflections(device, metal(0.01f))), 0);
     });
 }
 
 /// Those that are far from all others keep what they find.
 TEST_F(SharedReflectionsTest, LonelyReceiversKeepTheirLight) {
     on_each_device([](Device& device) {
-        const std::vector<SharedLight> lights =
-            found_reflections(device, floor_under_lamp(metal(0.2f)), receivers_on_the_ceiling());
+        const std::vector<SharedLight> lights = found_reflections(device, metal(0.2f));
         EXPECT_EQ(number_of_finds({lights.end() - 3, lights.end()}), 0);
     });
 }
@@ -179,16 +180,8 @@ TEST_F(SharedReflectionsTest, LonelyReceiversKeepTheirLight) {
 /// The radius of a neighbourhood holds a quarter of the receivers, and half its square does not.
 TEST_F(SharedReflectionsTest, ANeighbourhoodHoldsAQuarter) {
     on_each_device([](Device& device) {
-        const Scene scene = floor_under_lamp(metal(0.2f));
-        const Bvh bvh = build_scene_bvh(scene);
-        const DeviceScene on_device = upload_scene(device, scene, bvh, GatherKernel::automatic);
         const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
-        const Buffer<ReceiverPacket> receivers(device, packets);
-        Buffer<IrradiancePacket> direct(device, packets.size());
-        Buffer<IrradiancePacket> indirect(device, packets.size());
-        FoundLights found(device, packets.size(), kTwoRays);
-        ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), kTwoRays, direct, indirect,
-                                          found);
+        const FoundLights found = find_reflections(device, floor_under_lamp(metal(0.2f)), packets);
         std::vector<Vec3> present;
         for (std::size_t i = 0; i < kReceivers; ++i) {
             if (const ReceiverPoint x = receiver_at(packets, i); x.normal != Vec3{0, 0, 0}) {
