@@ -45,7 +45,7 @@ nlohmann::ordered_json to_json(const std::vector<DeviceReport>& reports, bool pa
 }
 
 void print_row(const CheckResult& check) {
-    print(fmt::format("  {:<16} {:>9} {:>11}  {}\n", check.name, check.cases, check.mismatches,
+    print(fmt::format("  {:<18} {:>9} {:>11}  {}\n", check.name, check.cases, check.mismatches,
                       check.pass() ? "ok" : "FAILED"));
     if (!check.problem.empty()) {
         print(fmt::format("    {}\n", check.problem));
@@ -55,7 +55,7 @@ void print_row(const CheckResult& check) {
 /// Tests one device. A device that cannot be opened fails like a check, so that the others are still tested.
 DeviceReport test_device(const DeviceEntry& entry, const DeviceOptions& options, bool print_rows) {
     if (print_rows) {
-        print(fmt::format("{} ({})\n  {:<16} {:>9} {:>11}\n", entry.name, entry.platform, "kernel", "cases",
+        print(fmt::format("{} ({})\n  {:<18} {:>9} {:>11}\n", entry.name, entry.platform, "kernel", "cases",
                           "mismatches"));
     }
     const auto done = [&](const CheckResult& check) {
