@@ -114,8 +114,10 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfBlends) {
     on_each_device([](Device& device) {
         Scene scene = floor_under_lamp(metal(0.2f));
         const uint rough = add_material(scene, metal(0.4f));
-        const uint dull = add_material(scene, lambertian({0.2f, 0.2f, 0.2f}));
-        scene.materials[0] = blend_material(parameter_of(0.3f), rough, dull);
+        Material red = metal(0.15f);
+        red.specular = parameter_of(Vec3{1, 0.1f, 0.1f});
+        const uint second = add_material(scene, red);
+        scene.materials[0] = blend_material(parameter_of(0.4f), rough, second);
         expect_what_own_rays_bring(device, scene);
     });
 }
