@@ -100,8 +100,9 @@ inline SurfaceHit surface_met_at(const SceneView* scene, uint triangle_id, float
     const float3 edge1 = load3(scene->vertices[triangle.v1].position) - corner;
     const float3 edge2 = load3(scene->vertices[triangle.v2].position) - corner;
     const float3 normal = normalize(cross(edge1, edge2));
+    const bool front = dot(direction, normal) < 0.0f;
     return surface_at(scene, triangle_id, weights, corner + weights.x * edge1 + weights.y * edge2, normal,
-                      dot(normal, direction) < 0.0f);
+                      front);
 }
 
 inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* of_tree, uint triangle_id,
