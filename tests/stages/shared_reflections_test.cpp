@@ -77,7 +77,7 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBring) {
     });
 }
 
-/// A point light, which no ray meets, a sky, and a wall that the floor reflects: light over more surfaces.
+/// A lamp, a point, a sky, and a wall that the floor reflects: light over more surfaces.
 TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfAllLights) {
     on_each_device([](Device& device) {
         Scene scene = floor_under_lamp(metal(0.3f));
@@ -85,6 +85,18 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfAllLights) {
                  add_two_sided(scene, lambertian({0.5f, 0.7f, 0.5f})));
         add_point_light(scene, {0.5f, 0.6f, -0.8f}, {0.3f, 0.3f, 0.3f});
         scene.environment = patterned_map(6, 4);
+        expect_what_own_rays_bring(device, scene);
+    });
+}
+
+/// No ray meets a point, so only light samples count in the density of what it sends.
+TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfPoints) {
+    on_each_device([](Device& device) {
+        Scene scene = floor_under_lamp(metal(0.3f));
+        for (Material& material : scene.materials) {
+            material.emission = parameter_of(0.0f);
+        }
+        add_point_light(scene, {-0.8f, 0.6f, 0.3f}, {1, 2, 3});
         expect_what_own_rays_bring(device, scene);
     });
 }
