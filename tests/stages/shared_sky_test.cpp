@@ -25,8 +25,8 @@ constexpr int kSide = 16;  // pixels of the picture's width and height
 /// the table and at the floor, which reflects a window.
 Scene room_with_windows(const Material& floor) {
     Scene scene;
-    const uint white = add_two_sided(scene, lambertian({0.7f, 0.7f, 0.7f}));
     add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, add_material(scene, floor));
+    const uint white = add_two_sided(scene, lambertian({0.7f, 0.7f, 0.7f}));
     add_quad(scene, {-2, 2, -2}, {4, 0, 0}, {0, 0, 4}, white);
     add_quad(scene, {-2, 0, 2}, {0, 2, 0}, {4, 0, 0}, white);
     add_quad(scene, {-2, 0, -2}, {4, 0, 0}, {0, 2, 0}, white);
@@ -181,6 +181,31 @@ TEST_F(SharedSkyTest, BringsWhatOwnRaysBringOnCoats) {
         [](Device& device) { expect_the_light_of_own_rays(device, coated_room(), GatherKernel::automatic); });
 }
 
+/// What the floor reflects of the sky comes on top of what it sends out itself.
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringOnLamps) {
+    on_each_device([](Device& device) {
+        Scene scene = coated_room();
+        scene.materials[0].emission = parameter_of(0.1f);
+        expect_the_light_of_own_rays(device, scene, GatherKernel::automatic);
+    });
+}
+
+/// Light samples find bright spots of the sky far more often than rays of the bundle do, so that their
+/// weights matter.
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringOfBrightSpots) {
+    on_each_device([](Device& device) {
+        Scene scene = coated_room();
+        scene.environment = patterned_map(32, 16);
+        for (std::size_t i = 0; i < scene.environment.radiance.size(); i += 37) {
+            scene.environment.radiance[i] = {100, 100, 100};
+        }
+        const Light own = find_light(device, scene, {.shared = false, .rays = 32, .seeds = 2048});
+        const Light shared = find_light(device, scene, {.seeds = 8192});
+        EXPECT_NEAR(Light::mean(shared.direct), Light::mean(own.direct), 0.008 * Light::mean(own.direct));
+        EXPECT_NEAR(Light::mean(shared.emitted), Light::mean(own.emitted), 0.003 * Light::mean(own.emitted));
+    });
+}
+
 /// Only light that comes straight from the sky is shared; rays and light samples bring what passes veils.
 TEST_F(SharedSkyTest, BringsWhatOwnRaysBringBehindPanes) {
     on_each_device([](Device& device) {
@@ -193,11 +218,19 @@ TEST_F(SharedSkyTest, BringsWhatOwnRaysBringBehindPanes) {
 
 TEST_F(SharedSkyTest, IsLessNoiseThanOwnRays) {
     on_each_device([](Device& device) {
+        const Scene dull = room_with_windows(lambertian({0.5f, 0.5f, 0.5f}));
+        const Light own = find_light(device, dull, {.shared = false, .seeds = 64});
+        const Light shared = find_light(device, dull, {.seeds = 64});
+        EXPECT_LT(Light::variance(shared.direct, shared.direct_square),
+                  0.3 * Light::variance(own.direct, own.direct_square));
+    });
+}
+
+TEST_F(SharedSkyTest, IsLessNoiseThanOwnRaysOfCoats) {
+    on_each_device([](Device& device) {
         const Scene scene = coated_room();
         const Light own = find_light(device, scene, {.shared = false, .seeds = 64});
         const Light shared = find_light(device, scene, {.seeds = 64});
-        EXPECT_LT(Light::variance(shared.direct, shared.direct_square),
-                  0.3 * Light::variance(own.direct, own.direct_square));
         EXPECT_LT(Light::variance(shared.emitted, shared.emitted_square),
                   0.6 * Light::variance(own.emitted, own.emitted_square));
     });
