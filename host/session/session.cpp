@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/session.h"
-#include "host/session/sky_part.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "host/session/light_shares.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
+#include "host/session/sky_part.h"
 #include "host/session/vpl_file.h"
 
 namespace nearlight::core {

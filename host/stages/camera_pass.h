@@ -48,8 +48,8 @@ class CameraPass {
     explicit CameraPass(Device& device);
 
     /// Writes packet_count() packets and 64 vertices for each of them, in the order that
-    /// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedLights::add_sky()
-    /// must know of the surfaces, one entry for each vertex.
+    /// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedSky::add() must
+    /// know of the surfaces, one entry for each vertex.
     void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
              const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
              Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,

@@ -14,15 +14,12 @@ uint shared_kinds(const ReceiverPathSettings& settings) {
 
 }  // namespace
 
-FoundLights::FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings) {
-    const std::size_t count = packet_count * NEARLIGHT_PACKET_SIZE;
-    const std::size_t reflection_count = settings.shares_reflections ? count : 0;
-    near = Buffer<SharedLight>(device, count);
-    sky = Buffer<SharedLight>(device, settings.shares_sky ? count : 0);
-    reflected = Buffer<SharedLight>(device, reflection_count);
-    reflections = Buffer<SharedReflection>(device, reflection_count);
-    spacing = Buffer<float>(device, reflection_count);
-}
+FoundLights::FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings)
+    : near(device, packet_count * NEARLIGHT_PACKET_SIZE),
+      sky(device, settings.shares_sky ? near.count() : 0),
+      reflected(device, settings.shares_reflections ? near.count() : 0),
+      reflections(device, reflected.count()),
+      spacing(device, reflected.count()) {}
 
 ReceiverPaths::ReceiverPaths(Device& device)
     : program_(device, "receiver_paths.cl", kViewProgram),

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "host/base/receivers.h"
+#include "host/bvh/bvh.h"
+#include "host/stages/device_scene.h"
 #include "host/stages/receiver_paths.h"
 #include "host/stages/shared_lights.h"
 #include "host/stages/shared_reflections.h"

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// The path of a receiver's ray from the first surface that the ray meets: what of that surface's light is
+// wanted besides what VPLs bring (lib/receiver_path.cl), and what the receiver leaves to its bundle of it.
+#ifndef NEARLIGHT_LIB_CONTINUED_PATH
+#define NEARLIGHT_LIB_CONTINUED_PATH
+
+#include "lib/receiver_point.cl"
+#include "lib/shared_light.cl"
+#include "lib/shared_reflection.cl"
+
+/// Paths end by chance at surfaces that send on less than this part of what the ray began with.
+#define FULL_PATH_WEIGHT 0.25f
+
+/// Ends weak paths by chance, before anything is spent on the light that their surface reflects. `albedo` is
+/// about what the surface reflects of all light. Returns false where this path ends.
+inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
+    const float part = carried_part(ray, albedo) / first_weight;
+    const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(0.95f, part);
+    if (!(u < survival)) {
+        return false;
+    }
+    ray->throughput /= survival;
+    return true;
+}
+
+/// What a ray brings over at least one surface, besides what VPLs bring. VPLs stand for the Lambertian part
+/// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light. On these
+/// paths they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
+typedef struct RayShare {
+    float of_vpls;
+    uint max_edges;
+    uint vpl_edges;  // at least max_edges
+    uint is_shared;  // 1: what the first surface sends by its Lambertian part is for the whole bundle
+} RayShare;
+
+/// How a ray goes on from its first surface.
+typedef struct Continuation {
+    uint parts;            // of the first surface that count
+    float diffuse_weight;  // of its Lambertian part
+    uint as_vpl;           // 1: the first surface is seen along its normal, as VPLs have it
+    uint max_edges;
+    float near_scale;  // of light over up to RayShare.max_edges edges
+    float far_scale;   // of light over more
+    uint is_found;     // 1: the ray brings a light that its receiver shares
+    float3 shading;    // normal of the first surface
+    uint curve;        // its transmission curve
+} Continuation;
+
+/// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
+/// brings the rest. They bring too much where a map shadows the receiver, where it turns the normal of the
+/// first surface for this viewer, and on paths that are too long for a receiver behind mirrors or glass.
+/// There the ray takes light away, by chance `u`, or else brings what is left of the others.
+inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
+                                        const RayShare* share, float u) {
+    const bool has_specular = scene->info->has_specular;
+    const bool is_turned = first->mapped == MAPPED_TURNED && share->of_vpls > 0.0f;
+    const float kept = is_turned ? 1.0f : fmax(1.0f - share->of_vpls, 0.0f);
+    const float taken = is_turned ? share->of_vpls : fmax(share->of_vpls - 1.0f, 0.0f);
+    const bool is_short = share->vpl_edges > share->max_edges && share->of_vpls > 0.0f;
+    const bool is_kept = kept > 0.0f || has_specular;
+    float chance = is_kept ? fmin(0.5f, taken) : fmin(1.0f, 4.0f * taken);
+    if (is_short) {
+        chance = is_kept ? 0.5f : 1.0f;
+    }
+    Continuation way;
+    way.is_found = 0;
+    if (u < chance) {
+        way.parts = BSDF_D;
+        way.diffuse_weight = 1.0f;
+        way.as_vpl = is_turned;
+        way.max_edges = share->vpl_edges;
+        way.near_scale = -taken / chance;
+        way.far_scale = -share->of_vpls / chance;
+    } else {
+        way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
+        way.diffuse_weight = kept;
+        way.as_vpl = 0;
+        way.max_edges = share->max_edges;
+        way.near_scale = 1.0f / (1.0f - chance);
+        way.far_scale = 0.0f;
+    }
+    return way;
+}
+
+/// Decides between the parts of a first surface whose Lambertian part sends its light to all receivers of the
+/// bundle.
+inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* way) {
+    const float chance = first->s_share > 0.0f ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
+    way->is_found = u < chance;
+    way->parts = way->is_found ? BSDF_D : BSDF_S;
+    way->diffuse_weight = 1.0f;
+    way->near_scale = way->is_found ? 1.0f / chance : 1.0f / (1.0f - chance);
+    way->shading = first->frame.n;
+    way->curve = first->bsdf.curve;
+}
+
+/// Whether VPLs bring all light of the Lambertian part of a first surface whose normal no map turned.
+inline bool vpls_bring_diffuse(const RayShare* share) {
+    return share->of_vpls == 1.0f && share->vpl_edges <= share->max_edges;
+}
+
+/// The first surface that a ray met, and how the ray goes on from it.
+inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                 const RayShare* share, float2 u, Continuation* way) {
+    SurfaceBsdf surface;
+    float3 seen = direction;
+#pragma unroll 1
+    for (uint view = 0; view < 2; ++view) {
+        surface = surface_bsdf_of(scene, hit, seen, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
+        if (view == 0) {
+            *way = choose_continuation(scene, &surface, share, u.y);
+            if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
+                choose_found_light(&surface, u.y, way);
+            }
+        }
+        if (!way->as_vpl) {
+            break;
+        }
+        seen = -hit->geometric;
+    }
+    surface.bsdf.diffuse *= way->diffuse_weight;
+    return surface;
+}
+
+/// What a light sample at the surface number `surfaces` of a path sends back along it. Through veils that
+/// make the path longer than RayShare.max_edges, the light counts as that of a long path.
+inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                               uint parts, const RayShare* share, const Continuation* way, uint surfaces,
+                               uint seed) {
+    const bool is_near = surfaces < share->max_edges;
+    const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
+    float3 sum = (float3)(0.0f);
+#pragma unroll 1
+    for (uint length = 0; length < 2; ++length) {
+        const float far_scale = has_far ? way->far_scale : 0.0f;
+        const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
+        if (scale != 0.0f) {
+            const uint edges = length == 0 ? share->max_edges : way->max_edges;
+            const LightQuota quota = {1, 1, edges - surfaces - 1, 0};
+            sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
+        }
+    }
+    return sum;
+}
+
+/// A path whose first surface reflects its light by S to the whole bundle: what the path finds from there on
+/// arrives at that surface.
+typedef struct BundlePath {
+    uint is_one;
+    GlossyPlace place;
+    ArrivingRay ray;  // by which the path goes on from the first surface
+} BundlePath;
+
+/// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing
+/// else is left on this way.
+inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x, float3 y,
+                               const Continuation* way) {
+    const bool is_alone = (way->parts & BSDF_S) && way->far_scale == 0.0f &&
+                          (!(way->parts & BSDF_D) || is_black(surface->bsdf.diffuse));
+    return found->light.is_wanted && is_alone && !surface->mapped &&
+           shares_gloss(x, y, gloss_width(&surface->bsdf), found->spacing);
+}
+
+/// Begins the bundle's path at the first surface of a receiver's ray, if it is one. Part of these paths end
+/// there: then no part of the surface is left.
+inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
+                                    const SurfaceHit* hit, const SurfaceBsdf* surface, float model, float u,
+                                    Continuation* way) {
+    const float3 y = offset_point(scene, hit->position, hit->geometric);
+    BundlePath path;
+    path.is_one = reflects_to_bundle(found, surface, x, y, way);
+    if (path.is_one) {
+        way->parts = u < REFLECTED_PART ? BSDF_S : 0;
+        way->near_scale /= REFLECTED_PART;
+        path.place = glossy_place(y, hit, surface, model);
+    }
+    return path;
+}
+
+/// Takes what a light sample sends to the first surface of a bundle's path into the draw. The path counts
+/// `scale` times.
+inline void find_reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                  const GlossyPlace* place, const LightSample* light, uint max_veils,
+                                  float scale, float u, FoundReflection* found) {
+    if (!may_shine(light) || !(light->pdf > 0.0f) || !(dot(surface->frame.n, light->direction) > 0.0f)) {
+        return;
+    }
+    const ArrivingLight arriving =
+        arriving_light(scene, ray_origin(scene, hit, light->direction), light, max_veils);
+    if (is_black(arriving.part)) {
+        return;
+    }
+    ArrivingRay ray;
+    ray.direction = light->direction;
+    ray.value = bsdf_eval(scene, surface, light->direction, BSDF_S, &ray.pdf);
+    find_reflection(found, place, &ray, scale * arriving.part * light_radiance(scene, light),
+                    light->is_delta ? -light->pdf : light->pdf, u);
+}
+
+/// The same for all that reflected_light() asks lights with one sample.
+inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                  const GlossyPlace* place, uint max_veils, float scale, uint seed,
+                                  FoundReflection* found) {
+    const uint exact = exact_light_count(scene);
+    const uint count = exact + (has_sampled_lights(scene) ? 1 : 0);
+    for (uint i = 0; i < count; ++i) {
+        const LightSample light = i < exact ? exact_light(scene, i, hit->position)
+                                            : sample_light(scene, hit->position, surface->frame.n,
+                                                           sample_2d(0, 0, seed), sample_2d(0, 1, seed));
+        const float u = to_unit_float(random_uint4((uint4)(seed, i, 0xe3ac7u, 0u)).x);
+        find_reflected_sample(scene, hit, surface, place, &light, max_veils, scale, u, found);
+    }
+}
+
+/// A path from a receiver, at one of its surfaces.
+typedef struct ContinuedPath {
+    PathRay ray;  // that met the surface
+    SurfaceHit hit;
+    Continuation way;
+    BundlePath of_bundle;
+    float first_weight;  // of the ray's throughput where it began to count
+    ReceivedLight light;
+} ContinuedPath;
+
+/// The random numbers of a path at one surface.
+typedef struct PathNumbers {
+    float model;  // for masks and blends
+    float way;
+    float lobe;  // within S
+    float2 direction;
+    float end;            // whether the path ends by chance
+    float goes_on, draw;  // for the bundle's paths
+    uint light_seed;
+} PathNumbers;
+
+inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
+    const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
+    const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
+    const uint4 of_bundle = random_uint4(more ^ 0xd4a35u);
+    PathNumbers numbers;
+    numbers.model = to_unit_float(more.x);
+    numbers.way = to_unit_float(more.w);
+    numbers.lobe = to_unit_float(more.y);
+    numbers.direction = (float2)(to_unit_float(random.y), to_unit_float(random.z));
+    numbers.end = to_unit_float(more.z);
+    numbers.goes_on = to_unit_float(of_bundle.x);
+    numbers.draw = to_unit_float(of_bundle.y);
+    numbers.light_seed = random.w;
+    return numbers;
+}
+
+/// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
+/// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
+/// bundle's goes into the draw.
+inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surfaces, float scale, float u,
+                          FoundReflection* found) {
+    const PathRay* ray = &path->ray;
+    const MetLight met = find_met_light(scene, ray, &path->hit);
+    const float3 brought = scale * ray->throughput * met.radiance;
+    if (path->of_bundle.is_one && ray->veils + 1 == surfaces) {
+        find_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
+    } else if (ray->veils == surfaces) {
+        path->light.direct += brought * met_weight(ray, &met);
+    } else {
+        path->light.indirect += brought * met_weight(ray, &met);
+    }
+}
+
+/// Adds the light of lamps that a surface of the path reflects, and scatters the ray there. At the first
+/// surface of a bundle's path the light goes into the draw, and the ray goes on to bring all that arrives
+/// there. Returns false where the path ends.
+inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path, const SurfaceBsdf* surface,
+                                uint parts, const RayShare* share, uint surfaces, const PathNumbers* numbers,
+                                FoundReflection* found) {
+    const float3 before = path->ray.throughput;
+    const float survived = max_component(before) / path->first_weight;
+    const bool begins_bundle_path = path->of_bundle.is_one && surfaces == 1;
+    if (begins_bundle_path) {
+        find_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, share->max_edges - 2,
+                              path->way.near_scale * survived, numbers->light_seed, found);
+    } else {
+        path->light.indirect += before * continued_sample(scene, &path->hit, surface, parts, share,
+                                                          &path->way, surfaces, numbers->light_seed);
+    }
+    if (!scatter_ray(scene, &path->ray, &path->hit, surface, parts, numbers->lobe, numbers->direction)) {
+        return false;
+    }
+    if (begins_bundle_path) {
+        ArrivingRay* ray = &path->of_bundle.ray;
+        ray->direction = path->ray.direction;
+        ray->pdf = path->ray.pdf;
+        ray->value = path->ray.throughput / max_component(before) * ray->pdf;
+        path->ray.throughput = (float3)(survived);
+        path->first_weight = survived;
+    }
+    return true;
+}
+
+/// Follows the path over one surface to the next. Returns false where it ends.
+inline bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
+                         uint4 keys, FoundReflection* found) {
+    const PathNumbers numbers = path_numbers(keys, surfaces);
+    SurfaceBsdf surface;
+    uint parts = BSDF_D | BSDF_S;
+    if (surfaces == 1) {
+        surface = first_surface(scene, &path->hit, path->ray.direction, share,
+                                (float2)(numbers.model, numbers.way), &path->way);
+        path->of_bundle = begin_bundle_path(scene, found, path->ray.scattered_at, &path->hit, &surface,
+                                            numbers.model, numbers.goes_on, &path->way);
+        parts = path->way.parts;
+        if (parts == 0 || path->way.max_edges < 2) {
+            return false;
+        }
+    } else {
+        surface = surface_bsdf(scene, &path->hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
+    }
+    if (!survives(&path->ray, bsdf_albedo(scene, &surface), surfaces, path->first_weight, numbers.end) ||
+        !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {
+        return false;
+    }
+    path->hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
+    add_met_light(scene, path, surfaces,
+                  surfaces < share->max_edges ? path->way.near_scale : path->way.far_scale, numbers.draw,
+                  found);
+    return path->hit.t >= 0.0f;
+}
+
+/// Whether a ray may bring anything over surfaces besides what VPLs bring.
+inline bool brings_more(const SceneView* scene, const RayShare* share) {
+    return share->of_vpls != 1.0f || scene->info->has_specular || scene->info->has_maps ||
+           share->vpl_edges > share->max_edges;
+}
+
+/// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
+/// the bundle is left out.
+inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
+                                     const RayShare* share, uint4 keys, Continuation* first_way,
+                                     FoundReflection* found) {
+    ContinuedPath path;
+    path.ray = ray;
+    path.hit = hit;
+    path.first_weight = max_component(ray.throughput);
+    path.light = nothing_received();
+    path.of_bundle.is_one = 0;
+    path.way.max_edges = share->vpl_edges;
+    path.way.is_found = 0;
+    for (uint surfaces = 1; surfaces < path.way.max_edges; ++surfaces) {
+        if (!pass_surface(scene, &path, share, surfaces, keys, found)) {
+            break;
+        }
+    }
+    if (path.of_bundle.is_one && !is_black(path.light.indirect)) {
+        find_reflection(found, &path.of_bundle.place, &path.of_bundle.ray, path.light.indirect, 0.0f,
+                        to_unit_float(random_uint4(keys ^ 0xb0bd1eu).x));
+        path.light.indirect = (float3)(0.0f);
+    }
+    *first_way = path.way;
+    return path.light;
+}
+
+#endif

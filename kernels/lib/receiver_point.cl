@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// A place that receives light by its Lambertian part, and the direct light that light samples bring to it.
+#ifndef NEARLIGHT_LIB_RECEIVER_POINT
+#define NEARLIGHT_LIB_RECEIVER_POINT
+
+#include "lib/path_ray.cl"
+
+/// A place that receives light by its Lambertian part.
+typedef struct ReceiverPoint {
+    float3 x;       // off its surface
+    float3 n;       // shading normal
+    float3 mesh_n;  // the mesh's own, where a map has tilted n; zero without a map
+    uint curve;     // row of the transmission curve that weighs arriving light
+} ReceiverPoint;
+
+/// The Lambertian part of a surface as a receiver at x, which stands off it.
+inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
+    ReceiverPoint at;
+    at.x = x;
+    at.n = surface->frame.n;
+    at.mesh_n = surface->mapped ? surface->unmapped : (float3)(0.0f);
+    at.curve = surface->bsdf.curve;
+    return at;
+}
+
+inline bool is_mapped(const ReceiverPoint* at) {
+    return dot(at->mesh_n, at->mesh_n) > 0.0f;
+}
+
+/// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
+/// lets through.
+inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
+    if (!is_mapped(at)) {
+        return 1.0f;
+    }
+    const float cosine = dot(direction, at->mesh_n);
+    return cosine > 0.0f ? map_shadowing(map_tilt(dot(at->n, at->mesh_n)), cosine) : 0.0f;
+}
+
+/// Irradiance (W/m²) from two kinds of paths.
+typedef struct ReceivedLight {
+    float3 direct;    // from a light straight to the receiver
+    float3 indirect;  // over at least one more surface
+} ReceivedLight;
+
+inline ReceivedLight nothing_received(void) {
+    ReceivedLight none;
+    none.direct = none.indirect = (float3)(0.0f);
+    return none;
+}
+
+/// What a light sample brings to the irradiance of a receiver through at most `max_veils` veils, weighted for
+/// `path_ratio` cosine-distributed rays for each light sample, and for `bundle_ratio` more of its bundle that
+/// look for the sky.
+inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
+                                 float path_ratio, float bundle_ratio, uint max_veils) {
+    const float cosine = dot(at->n, light->direction);
+    if (!(cosine > 0.0f) || !may_shine(light)) {
+        return (float3)(0.0f);
+    }
+    const float response =
+        cosine * diffuse_transmission(scene, at->curve, cosine) * receiver_map_factor(at, light->direction);
+    if (!(response > 0.0f)) {
+        return (float3)(0.0f);
+    }
+    const ArrivingLight arriving = arriving_light(scene, at->x, light, max_veils);
+    if (is_black(arriving.part)) {
+        return arriving.part;
+    }
+    float density = light->pdf;
+    if (!light->is_delta) {
+        const float rays = path_ratio + (arriving_from_sky(light, &arriving) ? bundle_ratio : 0.0f);
+        density += rays * cosine * M_1_PI_F;
+    }
+    return density > 0.0f ? response / density * arriving.part * light_radiance(scene, light)
+                          : (float3)(0.0f);
+}
+
+/// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
+/// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
+/// bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays of the
+/// bundle as `bundle_count` look for the sky too.
+inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
+                                   uint path_count, uint bundle_count, uint max_veils, uint first,
+                                   uint seed) {
+    float3 exact = (float3)(0.0f);
+    for (uint i = 0; i < exact_light_count(scene); ++i) {
+        const LightSample light = exact_light(scene, i, at->x);
+        exact += sampled_irradiance(scene, at, &light, 0.0f, 0.0f, max_veils);
+    }
+    if (!has_sampled_lights(scene)) {
+        return exact;
+    }
+    const float path_ratio = (float)path_count / (float)sample_count;
+    const float bundle_ratio = (float)bundle_count / (float)sample_count;
+    float3 sum = (float3)(0.0f);
+    for (uint s = 0; s < sample_count; ++s) {
+        const float2 choice = sample_2d(first + s, 0, seed);
+        const float2 u = sample_2d(first + s, 1, seed);
+        const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
+                                                 : sample_light_or_cosine(scene, at->x, at->n, choice, u);
+        sum += sampled_irradiance(scene, at, &light, path_ratio, bundle_ratio, max_veils);
+    }
+    return exact + sum / (float)sample_count;
+}
+
+#endif
