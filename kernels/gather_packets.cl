@@ -137,6 +137,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
                 const uint i = GATHER_VPL(index, &params, &stratum, k);
                 const float3 scale = gather_scale(vpls + i) * GATHER_WEIGHT(index, &params, &stratum, k);
                 connect(&segments, vpls + i, &receivers, params.clamp_radius_squared);
+                if (is_tilted(vpls + i)) {
+                    leave_out_unseen(&segments, seen_normal(vpls + i));
+                }
                 if (params.has_thresholds) {
                     leave_out_small(&segments, &receivers, gather_square_scale(vpls + i, scale));
                 }

@@ -24,7 +24,7 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
 inline float segment_transmission(const global float* curves, const global Vpl* vpl, float3 normal,
                                   uint curve, float3 segment) {
     const float3 direction = normalize(segment);
-    return curve_value(curves, vpl_curve(vpl), dot(load3(vpl->normal), direction)) *
+    return curve_value(curves, vpl_curve(vpl), dot(seen_normal(vpl), direction)) *
            curve_value(curves, curve, -dot(normal, direction));
 }
 
@@ -72,7 +72,9 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const float term =
                 geometry_term(segment, load3(vpl->normal), normal, params.clamp_radius_squared);
             const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, &params, &stratum, k);
-            const bool open = term > 0.0f && !(term * term * gather_square_scale(vpl, scale) < threshold);
+            const bool seen = !is_tilted(vpl) || dot(seen_normal(vpl), segment) > 0.0f;
+            const bool open =
+                term > 0.0f && seen && !(term * term * gather_square_scale(vpl, scale) < threshold);
             const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
                                                    NEARLIGHT_SEGMENT_T_MAX);
             const float weight = !visible ? 0.0f

@@ -157,13 +157,16 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
     const global ReceiverPacket* packet =
         receivers + first_packet + slot / (rays_per_receiver * NEARLIGHT_PACKET_SIZE);
     const LocalPoint light = light_point(lights + slot);
+    const float3 seen = seen_normal(lights + slot);
     const float radius = light_radii[slot];
     float sum = 0.0f;
     ulong mask = 0;
     for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
         const LocalPoint receiver = receiver_point(packet, lane);
         const float geometry = local_geometry(&scene, &receiver, &light, radius);
-        if (geometry > 0.0f && is_visible(&scene, light.position, receiver.position)) {
+        // A ray that meets the surface behind its shading normal makes no light.
+        const bool is_seen = dot(seen, receiver.position - light.position) > 0.0f;
+        if (geometry > 0.0f && is_seen && is_visible(&scene, light.position, receiver.position)) {
             sum += geometry;
             mask |= (ulong)1 << lane;
         }
@@ -202,8 +205,9 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         const float bounded = clamp_radius * clamp_radius;
         const float part = (squared < bounded ? squared / bounded : 1.0f) - squared / (radius * radius);
         const float inverse = rsqrt(squared);
+        const float cos_seen = dot(seen_normal(lights + slot), between) * inverse;
         const float transmission =
-            diffuse_transmission(&scene, vpl_curve(lights + slot), dot(light.normal, between) * inverse) *
+            diffuse_transmission(&scene, vpl_curve(lights + slot), cos_seen) *
             diffuse_transmission(&scene, curve, -dot(receiver.normal, between) * inverse);
         sum += load3(lights[slot].power) *
                (M_1_PI_F * part * transmission * local_geometry(&scene, &receiver, &light, radius));

@@ -38,7 +38,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
         return;
     }
     const SurfaceBsdf surface =
-        surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(ray, 1, seed).x);
+        surface_bsdf(&scene, &hit, -hit.geometric, BSDF_RADIANCE, sample_2d(ray, 1, seed).x);
     const float3 albedo = surface.bsdf.diffuse;
     const float3 y = offset_point(&scene, hit.position, hit.geometric);
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane

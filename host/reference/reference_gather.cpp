@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "host/base/fork_join.h"
+#include "host/base/packed_direction.h"
 #include "host/base/receivers.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/light_sampler.h"
@@ -22,7 +23,8 @@ Vec3 vpl_irradiance(const EmbreeScene& embree, const Vpl& vpl, float clamp_radiu
     const float scale = 1.0f / distance2;  // the cosines below are multiplied by the length of the segment
     const float cosines =
         std::max(0.0f, -dot(normal, segment)) * std::max(0.0f, dot(vpl.normal, segment)) * scale;
-    if (!(cosines > 0.0f) || embree.blocked(vpl.position, position)) {
+    const bool is_seen = dot(seen_normal(vpl), segment) > 0.0f;
+    if (!(cosines > 0.0f) || !is_seen || embree.blocked(vpl.position, position)) {
         return {0, 0, 0};
     }
     return vpl.power * (cosines / (kPi * std::max(distance2, clamp_radius * clamp_radius)));

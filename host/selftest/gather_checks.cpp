@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/checks.h"
 
+#include "host/base/packed_direction.h"
 #include "host/base/receivers.h"
 #include "host/reference/edge_excuse.h"
 #include "host/reference/embree_scene.h"
@@ -14,13 +15,23 @@ namespace {
 
 constexpr float kGatherRadius = 0.05f;
 
+/// Every third VPL gets a shading normal of its own.
+void tilt_some(std::vector<Vpl>& vpls) {
+    for (std::size_t i = 0; i < vpls.size(); i += 3) {
+        const Vec3 aside = i % 2 == 0 ? Vec3{0.5f, 0.3f, 0.0f} : Vec3{0.0f, -0.4f, 0.6f};
+        vpls[i].flags |= NEARLIGHT_VPL_TILTED;
+        vpls[i].shading = pack_direction(normalize(vpls[i].normal + aside));
+    }
+}
+
 }  // namespace
 
 void check_gather(Device& device, GatherKernel kernel, CheckResult& result) {
     const Scene scene = make_sphere_room(3000);
     const Bvh bvh = build_scene_bvh(scene);
     const std::vector<ReceiverPacket> receivers = make_camera_receivers(scene, bvh, 64, 48);
-    const std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
+    std::vector<Vpl> vpls = make_traced_vpls(scene, bvh, 80);
+    tilt_some(vpls);
     EdgeExcuse edges(bvh.triangles, max_component(bounds(scene).size()));
 
     const DeviceTree tree = upload_tree(device, bvh, kernel);

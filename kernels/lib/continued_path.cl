@@ -37,7 +37,6 @@ typedef struct RayShare {
 typedef struct Continuation {
     uint parts;            // of the first surface that count
     float diffuse_weight;  // of its Lambertian part
-    uint as_vpl;           // 1: the first surface is seen along its normal, as VPLs have it
     uint max_edges;
     float near_scale;  // of light over up to RayShare.max_edges edges
     float far_scale;   // of light over more
@@ -47,16 +46,16 @@ typedef struct Continuation {
 } Continuation;
 
 /// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
-/// brings the rest. They bring too much where a map shadows the receiver, where it turns the normal of the
-/// first surface for this viewer, and on paths that are too long for a receiver behind mirrors or glass.
-/// There the ray takes light away, by chance `u`, or else brings what is left of the others.
+/// brings the rest: all of it where a map turns the normal of the first surface for this viewer. They bring
+/// too much where a map shadows the receiver, and on paths that are too long for a receiver behind mirrors or
+/// glass. There the ray takes light away, by chance `u`, or else brings what is left of the others.
 inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
                                         const RayShare* share, float u) {
     const bool has_specular = scene->info->has_specular;
-    const bool is_turned = first->mapped == MAPPED_TURNED && share->of_vpls > 0.0f;
-    const float kept = is_turned ? 1.0f : fmax(1.0f - share->of_vpls, 0.0f);
-    const float taken = is_turned ? share->of_vpls : fmax(share->of_vpls - 1.0f, 0.0f);
-    const bool is_short = share->vpl_edges > share->max_edges && share->of_vpls > 0.0f;
+    const float of_vpls = first->mapped == MAPPED_TURNED ? 0.0f : share->of_vpls;
+    const float kept = fmax(1.0f - of_vpls, 0.0f);
+    const float taken = fmax(of_vpls - 1.0f, 0.0f);
+    const bool is_short = share->vpl_edges > share->max_edges && of_vpls > 0.0f;
     const bool is_kept = kept > 0.0f || has_specular;
     float chance = is_kept ? fmin(0.5f, taken) : fmin(1.0f, 4.0f * taken);
     if (is_short) {
@@ -67,14 +66,12 @@ inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsd
     if (u < chance) {
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
-        way.as_vpl = is_turned;
         way.max_edges = share->vpl_edges;
         way.near_scale = -taken / chance;
-        way.far_scale = -share->of_vpls / chance;
+        way.far_scale = -of_vpls / chance;
     } else {
         way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
         way.diffuse_weight = kept;
-        way.as_vpl = 0;
         way.max_edges = share->max_edges;
         way.near_scale = 1.0f / (1.0f - chance);
         way.far_scale = 0.0f;
@@ -102,21 +99,11 @@ inline bool vpls_bring_diffuse(const RayShare* share) {
 /// The first surface that a ray met, and how the ray goes on from it.
 inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
                                  const RayShare* share, float2 u, Continuation* way) {
-    SurfaceBsdf surface;
-    float3 seen = direction;
-#pragma unroll 1
-    for (uint view = 0; view < 2; ++view) {
-        surface = surface_bsdf_of(scene, hit, seen, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
-        if (view == 0) {
-            *way = choose_continuation(scene, &surface, share, u.y);
-            if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
-                choose_found_light(&surface, u.y, way);
-            }
-        }
-        if (!way->as_vpl) {
-            break;
-        }
-        seen = -hit->geometric;
+    SurfaceBsdf surface =
+        surface_bsdf_of(scene, hit, direction, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
+    *way = choose_continuation(scene, &surface, share, u.y);
+    if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
+        choose_found_light(&surface, u.y, way);
     }
     surface.bsdf.diffuse *= way->diffuse_weight;
     return surface;

@@ -59,13 +59,14 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
         const float3 origin = load3(vpl->position);
         const float3 between = at->x - origin;
         const float squared = dot(between, between);
-        const float cos_vpl = dot(load3(vpl->normal), between);  // both cosines still carry a factor r
+        const float cos_vpl = dot(load3(vpl->normal), between);  // all cosines still carry a factor r
+        const float cos_seen = dot(seen_normal(vpl), between);
         const float cos_receiver = -dot(at->n, between);
-        if (vpl->depth <= max_depth && cos_vpl > 0.0f && cos_receiver > 0.0f &&
+        if (vpl->depth <= max_depth && cos_vpl > 0.0f && cos_seen > 0.0f && cos_receiver > 0.0f &&
             is_visible(scene, origin, at->x)) {
             const float inverse = rsqrt(squared);
             const float map = receiver_map_factor(at, -between * inverse);
-            const float transmission = diffuse_transmission(scene, vpl_curve(vpl), cos_vpl * inverse) *
+            const float transmission = diffuse_transmission(scene, vpl_curve(vpl), cos_seen * inverse) *
                                        diffuse_transmission(scene, at->curve, cos_receiver * inverse);
             sum += load3(vpl->power) * (cos_vpl * cos_receiver * transmission * map /
                                         (squared * fmax(squared, to->radii[index] * to->radii[index])));

@@ -83,6 +83,16 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
     }
 }
 
+/// Ends the segments that leave the VPL behind the normal by which it is seen.
+inline void leave_out_unseen(Segments* s, float3 seen_normal) {
+    for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
+        const uint row = first_row(open);
+        const float16 height =
+            seen_normal.x * s->dx[row] + seen_normal.y * s->dy[row] + seen_normal.z * s->dz[row];
+        end_lanes(s, row, lane_bits16(height <= 0.0f));
+    }
+}
+
 /// Ends the segments whose light, squared, is less than the receiver's threshold.
 inline void leave_out_small(Segments* s, const Receivers* receivers, float square_scale) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
@@ -95,7 +105,7 @@ inline void leave_out_small(Segments* s, const Receivers* receivers, float squar
 /// Multiplies the geometry terms of open segments by the transmission curves of both ends.
 inline void weigh_by_curves(Segments* s, const global Vpl* vpl, const Receivers* receivers,
                             const global float* curves) {
-    const float3 vpl_normal = load3(vpl->normal);
+    const float3 vpl_normal = seen_normal(vpl);
     const uint row_of_vpl = vpl_curve(vpl);
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);

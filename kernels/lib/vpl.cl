@@ -6,15 +6,16 @@
 #include "lib/math.cl"
 
 /// A VPL with the given members; shared/types.h explains `depth` and `flags`. `position` must stand off its
-/// surface, `shading` is the normal by which the surface receives light, and `curve` the row of its
-/// transmission curve.
+/// surface, `shading` is the normal by which the surface is shaded, and `curve` the row of its transmission
+/// curve.
 inline Vpl make_vpl(float3 position, float3 normal, float3 shading, uint curve, uint depth, uint flags,
                     float3 power) {
     Vpl vpl;
     vpl.position = store3(position);
     vpl.depth = depth;
     vpl.normal = store3(normal);
-    vpl.flags = flags | curve << NEARLIGHT_VPL_CURVE_SHIFT;
+    const bool is_tilted = dot(shading, normal) < 0.999999f;
+    vpl.flags = flags | (is_tilted ? NEARLIGHT_VPL_TILTED : 0u) | curve << NEARLIGHT_VPL_CURVE_SHIFT;
     vpl.power = store3(power);
     vpl.shading = pack_direction(shading);
     return vpl;
@@ -22,6 +23,15 @@ inline Vpl make_vpl(float3 position, float3 normal, float3 shading, uint curve, 
 
 inline uint vpl_curve(const global Vpl* vpl) {
     return vpl->flags >> NEARLIGHT_VPL_CURVE_SHIFT;
+}
+
+/// Whether the light that a VPL sends out depends on the shading normal.
+inline bool is_tilted(const global Vpl* vpl) {
+    return (vpl->flags & NEARLIGHT_VPL_TILTED) != 0;
+}
+/// The normal by whose side and angle a VPL is seen.
+inline float3 seen_normal(const global Vpl* vpl) {
+    return is_tilted(vpl) ? unpack_direction(vpl->shading) : load3(vpl->normal);
 }
 
 inline float3 receiver_position(const global ReceiverPacket* packet, uint lane) {

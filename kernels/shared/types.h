@@ -213,18 +213,20 @@ typedef struct Camera {
 
 /// A virtual point light, which stands for the Lambertian part of what its surface reflects. It sends the
 /// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
-/// cosθ · T(cosθ), where T is the surface's transmission curve. The position stands off its surface by the
-/// ray epsilon.
+/// cosθ · T(cosθs), where θ is the angle to `normal`, θs that to the shading normal, and T the surface's
+/// transmission curve. Where cosθs is not positive, the surface is seen from behind, and the VPL sends nothing.
+/// The position stands off its surface by the ray epsilon.
 typedef struct Vpl {
     Vec3 position;
     uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths
     Vec3 normal;
     uint flags;
     Vec3 power;
-    uint shading;  // shading normal, by which the surface receives light, as pack_direction() packs it
+    uint shading;  // shading normal as pack_direction() packs it; for sending, only where the flag says so
 } Vpl;
 #define NEARLIGHT_VPL_CLOSE 1u   // lies in the close range
 #define NEARLIGHT_VPL_MAPPED 4u  // a normal or bump map tilts the shading normal
+#define NEARLIGHT_VPL_TILTED 8u  // the shading normal is not the mesh's
 // Bits 8 to 31 of Vpl.flags hold the row of the transmission curve.
 #define NEARLIGHT_VPL_CURVE_SHIFT 8
 

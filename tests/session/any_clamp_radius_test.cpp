@@ -46,6 +46,18 @@ Scene corner_with_plastic_and_glass() {
     return scene;
 }
 
+/// The walls that were white are plastic under a map, which tilts their normals far enough for many viewers
+/// to see them from behind.
+Scene corner_of_mapped_plastic() {
+    Scene scene = test::corner();
+    Material plastic = plastic_material(scene, {.alpha = 0});
+    plastic.reflectance = parameter_of(Vec3{0.8f, 0.8f, 0.8f});
+    const Vec3 tilted = normalize({0.5f, 0.3f, 0.6f});
+    const Parameter map = parameter_of((tilted + Vec3{1, 1, 1}) * 0.5f);
+    scene.materials[0] = normal_map_material(map, add_material(scene, plastic));
+    return scene;
+}
+
 class AnyClampRadius : public test::DeviceTest {
   protected:
     void expect_no_influence(const Scene& scene) {
@@ -85,6 +97,9 @@ TEST_F(AnyClampRadius, InADiffuseCorner) {
 }
 TEST_F(AnyClampRadius, BesideMetal) {
     expect_no_influence(corner_with_metal());
+}
+TEST_F(AnyClampRadius, UnderMapsOnPlastic) {
+    expect_no_influence(corner_of_mapped_plastic());
 }
 TEST_F(AnyClampRadius, BesidePlasticAndBehindGlass) {
     expect_no_influence(corner_with_plastic_and_glass());

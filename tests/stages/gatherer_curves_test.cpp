@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/base/math.h"
+#include "host/base/packed_direction.h"
 #include "tests/stages/gatherer_variants.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"
@@ -39,8 +40,8 @@ double curve_at(const std::vector<float>& curves, uint row, double cosine) {
 /// Gives VPLs and receivers rows of curves. A whole packet has none.
 void choose_curves(GatherCase& data) {
     for (std::size_t i = 0; i < data.vpls.size(); ++i) {
-        data.vpls[i].flags = NEARLIGHT_VPL_CLOSE | static_cast<uint>(i) % kCurves
-                                                       << NEARLIGHT_VPL_CURVE_SHIFT;
+        data.vpls[i].flags |= NEARLIGHT_VPL_CLOSE | static_cast<uint>(i / 2) % kCurves
+                                                        << NEARLIGHT_VPL_CURVE_SHIFT;
     }
     for (std::size_t p = 1; p < data.receivers.size(); ++p) {
         for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
@@ -69,7 +70,7 @@ std::vector<IrradiancePacket> weighted_sums(const GatherCase& data, const std::v
             const Vec3 direction = normalize(receiver.position - vpl.position);
             const double term =
                 pair_term(vpl, receiver, data.clamp_radius).value / double{kPi} *
-                curve_at(curves, vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT, dot(vpl.normal, direction)) *
+                curve_at(curves, vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT, dot(seen_normal(vpl), direction)) *
                 curve_at(curves, row, -dot(receiver.normal, direction));
             sum[0] += term * vpl.power.x;
             sum[1] += term * vpl.power.y;

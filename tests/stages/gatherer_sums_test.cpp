@@ -22,7 +22,7 @@ class GathererSumsTest : public DeviceTest {};
 std::vector<IrradiancePacket> gather_squares(Device& device, Gatherer& gatherer, GatherCase data) {
     for (Vpl& vpl : data.vpls) {
         vpl.power = (1.0f / kPi) * vpl.power * vpl.power;
-        vpl.flags = NEARLIGHT_IMPORTON_SQUARED;
+        vpl.flags |= NEARLIGHT_IMPORTON_SQUARED;
     }
     return Uploaded(device, data).gather(gatherer);
 }

@@ -132,6 +132,7 @@ TEST_F(KernelLibraryTest, PackedDirectionsComeBackAndAreThoseOfTheHost) {
             const Vec3 d = directions[i];
             SCOPED_TRACE(testing::Message() << "direction " << d.x << " " << d.y << " " << d.z);
             EXPECT_LT(length(found[i] - d), 1e-4f);
+            EXPECT_LT(length(found[i] - unpack_direction(codes[i])), 1e-6f);
             // A number that lies between two codes may be rounded to either.
             const uint of_host = pack_direction(d);
             EXPECT_LE(std::abs(int(codes[i] & 0xffffu) - int(of_host & 0xffffu)), 1);

@@ -185,9 +185,13 @@ std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
     return means;
 }
 
-/// ∫ L_o (G_R − G_Rg) over the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2, from a point of the floor, by the midpoint
-/// rule. `irradiance` of a point of the wall is L_o·π, and R_g follows from it as the plan says.
-double wall_remainder(Vec3 x, const LocalLightPlan& plan, const std::function<double(Vec3)>& irradiance) {
+constexpr Vec3 kWallNormal{0, 0, -1};
+
+/// ∫ L_o (G_R − G_Rg) over the part of the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2 that a point of the floor does not
+/// see from behind its shading normal, by the midpoint rule. `irradiance` of a point of the wall is L_o·π, and
+/// R_g follows from it as the plan says.
+double wall_remainder(Vec3 x, Vec3 shading, const LocalLightPlan& plan,
+                      const std::function<double(Vec3)>& irradiance) {
     constexpr int kSteps = 1000;
     const double step = 2.0 / kSteps;
     const double depth = 1.0 - x.z;
@@ -197,7 +201,8 @@ double wall_remainder(Vec3 x, const LocalLightPlan& plan, const std::function<do
             const double dx = -1 + (i + 0.5) * step - x.x;
             const double dy = (j + 0.5) * step - x.y;
             const double squared = dx * dx + dy * dy + depth * depth;
-            if (squared > plan.widest_radius * plan.widest_radius || dy < 0) {
+            const bool is_seen = dx * shading.x + dy * shading.y + depth * shading.z < 0;
+            if (squared > plan.widest_radius * plan.widest_radius || dy < 0 || !is_seen) {
                 continue;
             }
             const double e = irradiance({float(dx) + x.x, float(dy) + x.y, 1});
@@ -224,28 +229,32 @@ std::vector<ReceiverPoint> points_before_wall() {
 }
 
 /// A white wall on a black floor, under a lamp.
-Scene wall_under(Vec3 lamp, float intensity) {
+Scene wall_under(Vec3 lamp, float intensity, Vec3 shading = kWallNormal) {
     Scene scene;
     add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, lambertian({0, 0, 0})));
     add_quad(scene, {-1, 0, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    for (Vertex& vertex : std::span(scene.vertices).subspan(4)) {
+        vertex.normal = shading;
+    }
     add_point_light(scene, lamp, {intensity, intensity, intensity});
     return scene;
 }
 
-void expect_remainder_of_wall(Device& device, Vec3 lamp, float intensity, LocalLightPlan plan) {
+void expect_remainder_of_wall(Device& device, Vec3 lamp, float intensity, LocalLightPlan plan,
+                              Vec3 shading = kWallNormal) {
     plan.clamp_radius = 0.1f;
     const auto irradiance = [&](Vec3 y) {
         const Vec3 to_lamp = lamp - y;
-        return -double(intensity) * to_lamp.z / std::pow(double(length(to_lamp)), 3);
+        return double(intensity) * dot(shading, to_lamp) / std::pow(double(length(to_lamp)), 3);
     };
     const std::vector<ReceiverPoint> points = points_before_wall();
-    const SceneOnDevice scene(device, wall_under(lamp, intensity));
+    const SceneOnDevice scene(device, wall_under(lamp, intensity, shading));
     const std::vector<Vec3> found =
         mean_addition(device, scene, test::pack_receivers(points), plan.clamp_radius, plan, 4000);
     double expected_sum = 0;
     double sum = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const double expected = wall_remainder(points[i].position, plan, irradiance);
+        const double expected = wall_remainder(points[i].position, shading, plan, irradiance);
         EXPECT_NEAR(found[i].y, expected, 0.1 * expected + 0.003) << "receiver " << i;
         expected_sum += expected;
         sum += found[i].y;
@@ -257,6 +266,14 @@ void expect_remainder_of_wall(Device& device, Vec3 lamp, float intensity, LocalL
 TEST_F(LocalLightsTest, AddTheRemainderOfAWall) {
     on_each_device([](Device& device) {
         expect_remainder_of_wall(device, {0, 1, -1000}, 1e6f * kPi, plan_of(1));
+    });
+}
+
+/// All receivers see a part of the wall from behind its shading normal, though not all the same part.
+TEST_F(LocalLightsTest, AddNothingOfAWallThatIsSeenFromBehind) {
+    on_each_device([](Device& device) {
+        expect_remainder_of_wall(device, {0, 1, -1000}, 1e6f * kPi, plan_of(1),
+                                 normalize({0.8f, 0.0f, -0.4f}));
     });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/base/packed_direction.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
 #include "tests/support/scene_on_device.h"
@@ -38,6 +39,9 @@ TEST_F(PathWalkTest, ConnectionsAreBoundedByTheRadiusOfTheVpl) {
     Vpl behind_roof = above;
     behind_roof.position = {9, 0, 2};
     behind_roof.normal = normalize({-9, 0, -2});
+    Vpl from_behind = above;
+    from_behind.flags = NEARLIGHT_VPL_TILTED;
+    from_behind.shading = pack_direction(normalize({1, 0, 0.1f}));
     on_each_ray_tree([&](Device& device) {
         KernelProbe probe(device, R"(
 #include "lib/path_walk.cl"
@@ -53,6 +57,7 @@ kernel void probe(SCENE_PARAMETERS, const global Vpl* vpls, const global float* 
         EXPECT_NEAR(connected_light(probe, scene, above, 4.0f, 2), 4 / 16.0f, 1e-5f) << "within the radius";
         EXPECT_EQ(connected_light(probe, scene, above, 1.0f, 1), 0.0f) << "of too deep a path";
         EXPECT_EQ(connected_light(probe, scene, behind_roof, 1.0f, 2), 0.0f) << "hidden";
+        EXPECT_EQ(connected_light(probe, scene, from_behind, 1.0f, 2), 0.0f) << "by its shading normal";
     });
 }
 

@@ -50,6 +50,7 @@ void expect_of_wall(const std::vector<Vpl>& vpls, const LeaningWall& wall, uint 
         EXPECT_EQ(vpl.depth, depth);
         EXPECT_EQ(vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT, wall.curve);
         EXPECT_EQ(vpl.flags & NEARLIGHT_VPL_MAPPED, 0u);
+        EXPECT_NE(vpl.flags & NEARLIGHT_VPL_TILTED, 0u);
         // The kernel interpolates three normals, and rounds the result to one of two codes.
         const uint expected = pack_direction(wall.shading);
         EXPECT_NEAR(vpl.shading & 0xffffu, expected & 0xffffu, 1.0);

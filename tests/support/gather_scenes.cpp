@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/gather_scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
+#include "host/base/packed_direction.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
 
@@ -65,6 +67,10 @@ void finish(GatherCase& data, std::size_t vpls, std::size_t packets, Pcg32& rand
         const ReceiverPoint point = make_point();
         const float power = random.uniform();
         data.vpls.push_back({point.position, 1, point.normal, 0, {power, 0.5f * power, 1.0f - power}, 0});
+        if (i % 3 == 0) {
+            data.vpls.back().flags = NEARLIGHT_VPL_TILTED;
+            data.vpls.back().shading = pack_direction(normalize(point.normal + 0.8f * any_direction(random)));
+        }
     }
     for (std::size_t p = 0; p < packets; ++p) {
         ReceiverPacket& packet = data.receivers.emplace_back();
@@ -184,10 +190,11 @@ PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_ra
         return {};
     }
     const double cos_vpl = dot64(vpl.normal, segment) / std::sqrt(r2);
+    const double cos_seen = dot64(seen_normal(vpl), segment) / std::sqrt(r2);
     const double cos_receiver = -dot64(receiver.normal, segment) / std::sqrt(r2);
     PairTerm term;
-    term.min_cosine = std::min(std::abs(cos_vpl), std::abs(cos_receiver));
-    if (cos_vpl > 0.0 && cos_receiver > 0.0) {
+    term.min_cosine = std::min({std::abs(cos_vpl), std::abs(cos_seen), std::abs(cos_receiver)});
+    if (cos_vpl > 0.0 && cos_seen > 0.0 && cos_receiver > 0.0) {
         term.value = cos_vpl * cos_receiver / std::max(r2, static_cast<double>(clamp_radius) * clamp_radius);
     }
     return term;

@@ -32,8 +32,8 @@ GatherCase points_on_grid(std::size_t vpls, std::size_t packets, std::uint64_t s
 GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets, std::uint64_t seed);
 
 struct PairTerm {
-    double value = 0.0;       ///< max0(cosθx)·max0(cosθy)/max(r², R²), 0 where not finite
-    double min_cosine = 0.0;  ///< the smaller magnitude of both cosines
+    double value = 0.0;  ///< max0(cosθx)·max0(cosθy)/max(r², R²), 0 where not finite or seen from behind
+    double min_cosine = 0.0;  ///< the least magnitude of the cosines, that to the shading normal included
 };
 PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_radius);
 
