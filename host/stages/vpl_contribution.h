@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates how much each VPL brings to the camera, from a sample of receivers.
+// Estimates how much each VPL brings to the camera, from a sample of receivers. Coats and shading normals do
+// not count, since the estimates only say which VPLs are worth being kept or asked.
 #pragma once
 
 #include "host/cl/kernel.h"
