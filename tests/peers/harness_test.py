@@ -17,6 +17,7 @@ if importlib.util.find_spec('numpy') is None:
 import numpy as np
 
 import agreement
+import peers
 import report
 import rooms
 import rows
@@ -128,6 +129,35 @@ class Rows(unittest.TestCase):
                 file.write('<scene/>')
             found = rooms.rows([folder], '128x96')
         self.assertEqual([(row.name, row.size) for row in found], [('rooms/hall', [128, 72])])
+
+
+class RoomsMadeByChance(unittest.TestCase):
+    ROWS = rows.chance.rows(range(300))
+
+    def within(self, outer):
+        """The types of all materials within one of the type `outer`, over all rooms."""
+        roots = [xml.etree.ElementTree.fromstring(row.text) for row in self.ROWS]
+        return {inner.get('type') for root in roots for b in root.iter('bsdf') if b.get('type') == outer
+                for inner in b.iter('bsdf') if inner is not b}
+
+    def test_a_seed_makes_one_room(self):
+        self.assertEqual(self.ROWS[7:9], rows.chance.rows([7, 8]))
+        self.assertEqual(len({row.text for row in self.ROWS}), len(self.ROWS))
+
+    def test_materials_stand_around_others_where_mitsuba_is_right(self):
+        self.assertNotIn('bumpmap', self.within('bumpmap'))
+        self.assertNotIn('plastic', self.within('blendbsdf'))
+        self.assertNotIn('mask', self.within('twosided'))
+        self.assertLessEqual({'bumpmap', 'plastic', 'mask', 'principled', 'blendbsdf'}, self.within('normalmap'))
+
+    def test_no_path_leaves_a_room_into_nothing(self):
+        for row in self.ROWS:
+            root = xml.etree.ElementTree.fromstring(row.text)
+            skies = [e for e in root.findall('emitter') if e.get('type') in ('constant', 'envmap')]
+            self.assertEqual(len(skies), 1, row.name)
+
+    def test_seeds_are_a_number_or_a_range(self):
+        self.assertEqual([list(peers.seeds_of(text)) for text in ('', '5', '8-10')], [[], [5], [8, 9, 10]])
 
 
 class Renderers(unittest.TestCase):

@@ -39,6 +39,8 @@ def parsed_arguments():
     parser.add_argument('--clamp-radius-factor', type=float, default=1, help="times the clamp radius of nearlight's own choice")
     parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[],
                         help='also compare all XML scenes under this folder, as rows rooms/...')
+    parser.add_argument('--chance', metavar='SEEDS', default='',
+                        help='also compare rooms made by chance, as rows chance/...: a seed, or a range such as 0-99')
     parser.add_argument('--size', default='128x96', help='greatest size of the pictures of --rooms')
     parser.add_argument('--options', default='', help='further options for nearlight, in one string')
     parser.add_argument('--resume', action='store_true', help='keep the results that this very program got before')
@@ -53,6 +55,12 @@ def chosen(rows, arguments):
     return [row for row in rows if any(fnmatch.fnmatch(row.name, p) for p in patterns)]
 
 
+def seeds_of(text):
+    """The seeds of --chance."""
+    first, _, last = text.partition('-')
+    return range(int(first), int(last or first) + 1) if first else []
+
+
 def main():
     arguments = parsed_arguments()
     missing = missing_packages()
@@ -62,7 +70,8 @@ def main():
     import rooms
     import rows
     tables = rows.fast_rows() if arguments.fast else rows.all_rows()
-    wanted = chosen(tables + rooms.rows(arguments.rooms, arguments.size), arguments)
+    made = rows.chance.rows(seeds_of(arguments.chance))
+    wanted = chosen(tables + rooms.rows(arguments.rooms, arguments.size) + made, arguments)
     if arguments.list:
         print('\n'.join(row.name for row in wanted))
         return 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """All scenes of the comparison, one row each."""
-from rows import bsdfs, corners, emitters, files, glass, integrators, planted, sensors, shapes, spectra, textures
+from rows import bsdfs, chance, corners, emitters, files, glass, integrators, planted, sensors, shapes, spectra, textures
 
 GROUPS = (emitters, sensors, bsdfs, textures, shapes, integrators, spectra, corners, glass, files, planted)
 
