@@ -306,6 +306,12 @@ TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
     load("bumpmap",
          "<texture type='checkerboard'/><boolean name='use_shadowing_function' value='false'/>" + plastic);
     EXPECT_EQ(notes_on_line_2("'use_shadowing_function' is always true"), 1u);
+    EXPECT_EQ(notes_on_line_2("another map within this 'bumpmap'"), 0u);
+    load("bumpmap",
+         "<texture type='checkerboard'/><bsdf type='twosided'><bsdf type='bumpmap'>"
+         "<texture type='checkerboard'/>" +
+             plastic + "</bsdf></bsdf>");
+    EXPECT_EQ(notes_on_line_2("another map within this 'bumpmap': both tilt the normal"), 1u);
     std::string deep = plastic;
     for (int i = 0; i < 9; ++i) {
         deep = "<bsdf type='mask'>" + deep + "</bsdf>";

@@ -187,9 +187,9 @@ std::vector<Vec3> mean_addition(Device& device, const SceneOnDevice& scene,
 
 constexpr Vec3 kWallNormal{0, 0, -1};
 
-/// ∫ L_o (G_R − G_Rg) over the part of the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2 that a point of the floor does not
-/// see from behind its shading normal, by the midpoint rule. `irradiance` of a point of the wall is L_o·π, and
-/// R_g follows from it as the plan says.
+/// ∫ L_o (G_R − G_Rg) over the part of the wall z = 1, −1 ≤ x ≤ 1, 0 ≤ y ≤ 2 that a point of the floor does
+/// not see from behind its shading normal, by the midpoint rule. `irradiance` of a point of the wall is
+/// L_o·π, and R_g follows from it as the plan says.
 double wall_remainder(Vec3 x, Vec3 shading, const LocalLightPlan& plan,
                       const std::function<double(Vec3)>& irradiance) {
     constexpr int kSteps = 1000;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/material_maker.h"
 
+#include <algorithm>
+
 #include "host/scene/mitsuba/optics_tables.h"
 #include "host/scene/number_pair.h"
 #include "host/scene/reflectance.h"
@@ -18,6 +20,12 @@ constexpr double kMinIndexStep = 1e-3;
 
 bool starts_with_rough(const Object& bsdf) {
     return bsdf.type.starts_with("rough");
+}
+
+/// Whether a BSDF, which does not contain itself, is a normal or bump map or holds one.
+bool holds_map(const Object& bsdf) {
+    return bsdf.type == "bumpmap" || bsdf.type == "normalmap" ||
+           std::ranges::any_of(bsdf.nested("bsdf"), [](const Object* nested) { return holds_map(*nested); });
 }
 
 }  // namespace
@@ -161,13 +169,25 @@ uint MaterialMaker::make_bump(const Object& bsdf, int depth) {
     const Parameter height =
         textures_.height(*textures.front(), static_cast<float>(bsdf.number("scale", 1.0)));
     warn_of_fixed_switches(bsdf);
-    return add(bump_map_material(height, make_nested(bsdf, depth)));
+    const uint child = make_nested(bsdf, depth);
+    warn_of_map_within(bsdf);
+    return add(bump_map_material(height, child));
 }
 
 uint MaterialMaker::make_normal_map(const Object& bsdf, int depth) {
     const Parameter normals = textures_.normals(bsdf);
     warn_of_fixed_switches(bsdf);
-    return add(normal_map_material(normals, make_nested(bsdf, depth)));
+    const uint child = make_nested(bsdf, depth);
+    warn_of_map_within(bsdf);
+    return add(normal_map_material(normals, child));
+}
+
+void MaterialMaker::warn_of_map_within(const Object& map) {
+    if (std::ranges::any_of(map.nested("bsdf"), [](const Object* nested) { return holds_map(*nested); })) {
+        note(notes_, map.where,
+             "there is another map within this '" + map.type +
+                 "': both tilt the normal, but only the inner one shadows light");
+    }
 }
 
 void MaterialMaker::warn_of_fixed_switches(const Object& bsdf) {

@@ -39,6 +39,7 @@ class MaterialMaker {
     Material make_glass(const Object& bsdf);
     Material make_principled(const Object& bsdf);
     void warn_of_fixed_switches(const Object& bsdf);
+    void warn_of_map_within(const Object& map);
     void read_metal(const Object& bsdf, Material& material);
     double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
     double index_ratio(const Object& bsdf, double interior);
