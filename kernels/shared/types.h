@@ -214,8 +214,8 @@ typedef struct Camera {
 /// A virtual point light, which stands for the Lambertian part of what its surface reflects. It sends the
 /// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
 /// cosθ · T(cosθs), where θ is the angle to `normal`, θs that to the shading normal, and T the surface's
-/// transmission curve. Where cosθs is not positive, the surface is seen from behind, and the VPL sends nothing.
-/// The position stands off its surface by the ray epsilon.
+/// transmission curve. Where cosθs is not positive, the surface is seen from behind, and the VPL sends
+/// nothing. The position stands off its surface by the ray epsilon.
 typedef struct Vpl {
     Vec3 position;
     uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths

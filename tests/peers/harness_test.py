@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the comparison itself, without either renderer: what it accepts, what it must reject, what it keeps."""
+import argparse
 import importlib.util
 import os
 import stat
@@ -158,7 +159,9 @@ class RoomsMadeByChance(unittest.TestCase):
             self.assertEqual(len(skies), 1, row.name)
 
     def test_seeds_are_a_number_or_a_range(self):
-        self.assertEqual([list(peers.seeds_of(text)) for text in ('', '5', '8-10')], [[], [5], [8, 9, 10]])
+        self.assertEqual([list(peers.seeds_of(text)) for text in ('5', '8-10')], [[5], [8, 9, 10]])
+        for wrong in ('', 'x', '3-', '-3', '3-x'):
+            self.assertRaises(argparse.ArgumentTypeError, peers.seeds_of, wrong)
 
 
 class Renderers(unittest.TestCase):

@@ -27,6 +27,14 @@ def missing_packages():
     return [name for name in ('numpy', 'mitsuba') if importlib.util.find_spec(name) is None]
 
 
+def seeds_of(text):
+    """The seeds of --chance."""
+    first, dash, last = text.partition('-')
+    if not first.isdecimal() or not (last if dash else first).isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}' is neither a seed nor a range such as 0-99")
+    return range(int(first), int(last or first) + 1)
+
+
 def parsed_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('patterns', nargs='*', help="rows to run, such as 'emitters/*' or 'glass'; all without")
@@ -39,7 +47,7 @@ def parsed_arguments():
     parser.add_argument('--clamp-radius-factor', type=float, default=1, help="times the clamp radius of nearlight's own choice")
     parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[],
                         help='also compare all XML scenes under this folder, as rows rooms/...')
-    parser.add_argument('--chance', metavar='SEEDS', default='',
+    parser.add_argument('--chance', metavar='SEEDS', type=seeds_of, default=(),
                         help='also compare rooms made by chance, as rows chance/...: a seed, or a range such as 0-99')
     parser.add_argument('--size', default='128x96', help='greatest size of the pictures of --rooms')
     parser.add_argument('--options', default='', help='further options for nearlight, in one string')
@@ -55,12 +63,6 @@ def chosen(rows, arguments):
     return [row for row in rows if any(fnmatch.fnmatch(row.name, p) for p in patterns)]
 
 
-def seeds_of(text):
-    """The seeds of --chance."""
-    first, _, last = text.partition('-')
-    return range(int(first), int(last or first) + 1) if first else []
-
-
 def main():
     arguments = parsed_arguments()
     missing = missing_packages()
@@ -70,8 +72,8 @@ def main():
     import rooms
     import rows
     tables = rows.fast_rows() if arguments.fast else rows.all_rows()
-    made = rows.chance.rows(seeds_of(arguments.chance))
-    wanted = chosen(tables + rooms.rows(arguments.rooms, arguments.size) + made, arguments)
+    made = rooms.rows(arguments.rooms, arguments.size) + rows.chance.rows(arguments.chance)
+    wanted = chosen(tables + made, arguments)
     if arguments.list:
         print('\n'.join(row.name for row in wanted))
         return 0
