@@ -33,9 +33,4 @@ inline Vec3 unpack_direction(uint packed) {
     return normalize(Vec3{x, y, z});
 }
 
-/// The normal by whose side and angle a VPL is seen.
-inline Vec3 seen_normal(const Vpl& vpl) {
-    return (vpl.flags & NEARLIGHT_VPL_TILTED) != 0 ? unpack_direction(vpl.shading) : vpl.normal;
-}
-
 }  // namespace nearlight::core

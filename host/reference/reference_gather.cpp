@@ -5,8 +5,8 @@
 #include <tbb/task_arena.h>
 
 #include "host/base/fork_join.h"
-#include "host/base/packed_direction.h"
 #include "host/base/receivers.h"
+#include "host/base/seen_normal.h"
 #include "host/reference/arena_size.h"
 #include "host/reference/light_sampler.h"
 

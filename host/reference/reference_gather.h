@@ -12,8 +12,8 @@ namespace nearlight::core {
 
 /// Computes E = Σ power/π · max0(cosθ_receiver)·max0(cosθ_vpl) / max(r², R²) · V for each receiver; V is the
 /// visibility of the segment from VPL to receiver, t in (1e-5, 1 − 1e-5), and 0 for VPLs that are seen from
-/// behind their shading normal. Terms are in single precision, sums
-/// in double precision. Absent receivers get 0.
+/// behind their shading normal. Terms are in single precision, sums in double precision. Absent receivers get
+/// 0.
 /// @param clamp_radius R, m; 0: unbounded
 /// @param threads 0: one per core; the result does not depend on it. Requires irradiance.size() ==
 /// receivers.size().

@@ -14,8 +14,9 @@ inline Vpl make_vpl(float3 position, float3 normal, float3 shading, uint curve, 
     vpl.position = store3(position);
     vpl.depth = depth;
     vpl.normal = store3(normal);
-    const bool is_tilted = dot(shading, normal) < 0.999999f;
-    vpl.flags = flags | (is_tilted ? NEARLIGHT_VPL_TILTED : 0u) | curve << NEARLIGHT_VPL_CURVE_SHIFT;
+    // Rounding alone leaves a cosine nearer to 1.
+    const uint tilted = dot(shading, normal) < 0.999999f ? NEARLIGHT_VPL_TILTED : 0u;
+    vpl.flags = flags | tilted | curve << NEARLIGHT_VPL_CURVE_SHIFT;
     vpl.power = store3(power);
     vpl.shading = pack_direction(shading);
     return vpl;

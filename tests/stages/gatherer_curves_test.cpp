@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/base/math.h"
-#include "host/base/packed_direction.h"
+#include "host/base/seen_normal.h"
 #include "tests/stages/gatherer_variants.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/gather_scenes.h"

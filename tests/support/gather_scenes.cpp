@@ -10,6 +10,7 @@
 #include "host/base/packed_direction.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
+#include "host/base/seen_normal.h"
 
 namespace nearlight::core::test {
 namespace {

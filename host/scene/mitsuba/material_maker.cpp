@@ -22,10 +22,11 @@ bool starts_with_rough(const Object& bsdf) {
     return bsdf.type.starts_with("rough");
 }
 
-/// Whether a BSDF, which does not contain itself, is a normal or bump map or holds one.
+/// Whether there is a normal or bump map within a BSDF, which must not contain itself.
 bool holds_map(const Object& bsdf) {
-    return bsdf.type == "bumpmap" || bsdf.type == "normalmap" ||
-           std::ranges::any_of(bsdf.nested("bsdf"), [](const Object* nested) { return holds_map(*nested); });
+    return std::ranges::any_of(bsdf.nested("bsdf"), [](const Object* nested) {
+        return nested->type == "bumpmap" || nested->type == "normalmap" || holds_map(*nested);
+    });
 }
 
 }  // namespace
@@ -168,34 +169,27 @@ uint MaterialMaker::make_bump(const Object& bsdf, int depth) {
     }
     const Parameter height =
         textures_.height(*textures.front(), static_cast<float>(bsdf.number("scale", 1.0)));
-    warn_of_fixed_switches(bsdf);
-    const uint child = make_nested(bsdf, depth);
-    warn_of_map_within(bsdf);
-    return add(bump_map_material(height, child));
+    return add(bump_map_material(height, make_under_map(bsdf, depth)));
 }
 
 uint MaterialMaker::make_normal_map(const Object& bsdf, int depth) {
     const Parameter normals = textures_.normals(bsdf);
-    warn_of_fixed_switches(bsdf);
-    const uint child = make_nested(bsdf, depth);
-    warn_of_map_within(bsdf);
-    return add(normal_map_material(normals, child));
+    return add(normal_map_material(normals, make_under_map(bsdf, depth)));
 }
 
-void MaterialMaker::warn_of_map_within(const Object& map) {
-    if (std::ranges::any_of(map.nested("bsdf"), [](const Object* nested) { return holds_map(*nested); })) {
+uint MaterialMaker::make_under_map(const Object& map, int depth) {
+    for (const char* name : {"flip_invalid_normals", "use_shadowing_function"}) {
+        if (!map.boolean(name, true)) {
+            note(notes_, map.find(name)->where, std::string("'") + name + "' is always true");
+        }
+    }
+    const uint child = make_nested(map, depth);
+    if (holds_map(map)) {
         note(notes_, map.where,
              "there is another map within this '" + map.type +
                  "': both tilt the normal, but only the inner one shadows light");
     }
-}
-
-void MaterialMaker::warn_of_fixed_switches(const Object& bsdf) {
-    for (const char* name : {"flip_invalid_normals", "use_shadowing_function"}) {
-        if (!bsdf.boolean(name, true)) {
-            note(notes_, bsdf.find(name)->where, std::string("'") + name + "' is always true");
-        }
-    }
+    return child;
 }
 
 Material MaterialMaker::make_diffuse(const Object& bsdf) {

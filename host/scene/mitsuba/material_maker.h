@@ -33,13 +33,13 @@ class MaterialMaker {
     uint make_blend(const Object& bsdf, int depth);
     uint make_bump(const Object& bsdf, int depth);
     uint make_normal_map(const Object& bsdf, int depth);
+    /// What lies under a normal or bump map, with notes of what of the map is left out.
+    uint make_under_map(const Object& map, int depth);
     Material make_diffuse(const Object& bsdf);
     Material make_plastic(const Object& bsdf);
     Material make_conductor(const Object& bsdf);
     Material make_glass(const Object& bsdf);
     Material make_principled(const Object& bsdf);
-    void warn_of_fixed_switches(const Object& bsdf);
-    void warn_of_map_within(const Object& map);
     void read_metal(const Object& bsdf, Material& material);
     double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
     double index_ratio(const Object& bsdf, double interior);

@@ -13,6 +13,7 @@ from scene_text import *
 
 WRAPPERS = ('twosided', 'mask', 'blendbsdf', 'normalmap', 'bumpmap')
 MAPS = ('normalmap', 'bumpmap')
+EXCLUDED = {'bumpmap': MAPS, 'normalmap': MAPS, 'blendbsdf': ('plastic',), 'twosided': ('mask',)}   # from what is within
 WALLS = ('diffuse', 'diffuse', 'plastic', 'roughplastic', 'roughconductor', 'principled')
 THINGS = WALLS + ('conductor', 'dielectric', 'roughdielectric', 'thindielectric', 'principled-glass')
 METALS = ('Au', 'Cu', 'Al', 'Cr')
@@ -73,7 +74,7 @@ def _material(random, kinds, nesting=2, wrappers=WRAPPERS):
     if nesting == 0 or random.random() < 0.55:
         return _leaf(random, kind)
     wrapper = random.choice(wrappers)
-    excluded = {'bumpmap': MAPS, 'normalmap': MAPS, 'blendbsdf': ('plastic',), 'twosided': ('mask',)}.get(wrapper, ())
+    excluded = EXCLUDED.get(wrapper, ())
     inner = _material(random, tuple(k for k in WALLS if k in kinds and k not in excluded), nesting - 1,
                       tuple(w for w in wrappers if w not in excluded))
     if wrapper == 'mask':
@@ -88,13 +89,13 @@ def _material(random, kinds, nesting=2, wrappers=WRAPPERS):
 
 
 def _light(random):
-    place_of = (_number(random, -1, 1), _number(random, 2.2, 2.7), _number(random, -1, 1.5))
+    at = (_number(random, -1, 1), _number(random, 2.2, 2.7), _number(random, -1, 1.5))
     return random.choice((
-        lambda: rectangle(area(_number(random, 4, 12)), diffuse(0), at=place_of, size=_number(random, 0.2, 0.6), turned=DOWN),
-        lambda: sphere(area(_number(random, 5, 15)), at=place_of, radius=_number(random, 0.1, 0.25)),
-        lambda: point_light(_number(random, 3, 8), at=place_of),
+        lambda: rectangle(area(_number(random, 4, 12)), diffuse(0), at=at, size=_number(random, 0.2, 0.6), turned=DOWN),
+        lambda: sphere(area(_number(random, 5, 15)), at=at, radius=_number(random, 0.1, 0.25)),
+        lambda: point_light(_number(random, 3, 8), at=at),
         lambda: emitter('spot', intensity=rgb(_number(random, 10, 30)), cutoff_angle=_number(random, 30, 60),
-                        to_world=transform(look(', '.join(map(str, place_of)), '0, 0.3, -0.5', up='0, 0, 1'))),
+                        to_world=transform(look(', '.join(map(str, at)), '0, 0.3, -0.5', up='0, 0, 1'))),
     ))()
 
 
