@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/emitters.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 #include "host/scene/distribution.h"
 #include "host/scene/environment_table.h"
@@ -145,6 +149,42 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     return emitters;
 }
 
+/// The kinds of lights that share out a part of the choice evenly: lamps without and with a surface,
+/// directional lights, the sun and the sky.
+constexpr std::size_t kKindCount = 5;
+/// The part of the choice that the kinds share out.
+constexpr double kPartOfKinds = 0.75;
+
+std::size_t kind_of(const Emitter& emitter) {
+    switch (emitter.type) {
+        case NEARLIGHT_EMITTER_DIRECTIONAL:
+            return 1;
+        case NEARLIGHT_EMITTER_SUN:
+            return 2;
+        case NEARLIGHT_EMITTER_ENVIRONMENT:
+            return 3;
+        default:
+            return is_area_light(emitter) ? 4 : 0;
+    }
+}
+
+/// The probability of each light. By power alone, a lamp in a room would hardly ever be chosen beside a sky
+/// that the room does not see, because the power of the sky grows with the size of the scene around it.
+std::vector<double> choice_probabilities(std::span<const Emitter> emitters, std::span<const double> powers) {
+    std::array<double, kKindCount> of_kind{};
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+        of_kind[kind_of(emitters[i])] += powers[i];
+    }
+    const double of_all = std::accumulate(of_kind.begin(), of_kind.end(), 0.0);
+    const auto kinds = static_cast<double>(kKindCount - std::ranges::count(of_kind, 0.0));
+    std::vector<double> probabilities(emitters.size());
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+        const double part_of_kind = powers[i] / of_kind[kind_of(emitters[i])];
+        probabilities[i] = (1.0 - kPartOfKinds) * powers[i] / of_all + kPartOfKinds * part_of_kind / kinds;
+    }
+    return probabilities;
+}
+
 }  // namespace
 
 bool is_area_light(const Emitter& emitter) {
@@ -172,7 +212,7 @@ EmitterTable build_emitter_table(const Scene& scene) {
         powers.push_back(power);
         total += power;
     }
-    const std::vector<float> cdf = cumulative_distribution(powers);
+    const std::vector<float> cdf = cumulative_distribution(choice_probabilities(table.emitters, powers));
     for (std::size_t i = 0; i < cdf.size(); ++i) {
         table.emitters[i].cdf = cdf[i];
         table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];

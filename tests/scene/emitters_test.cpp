@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/scene/distribution.h"
@@ -100,14 +101,51 @@ TEST(EmitterTable, OrderProbabilitiesAndContents) {
     EXPECT_FLOAT_EQ(table.emitters[2].area, 2.0f);
     EXPECT_EQ(table.emitters[3].type, NEARLIGHT_EMITTER_ENVIRONMENT);
     EXPECT_EQ(table.emitters[3].cdf, 1.0f);
-    EXPECT_NEAR(table.emitters[0].probability, 8 * kPiD / table.total_power, 1e-6);
-    EXPECT_NEAR(table.emitters[2].probability, 2 * kPiD / table.total_power, 1e-6);
+    Scene spot;
+    spot.delta_emitters = {spot_light(0.2f, 0.4f)};
+    const double lamps = 8 * kPiD + static_cast<double>(build_emitter_table(spot).total_power);
+    EXPECT_NEAR(table.emitters[0].probability,
+                0.25 * 8 * kPiD / table.total_power + 0.75 / 3 * 8 * kPiD / lamps, 1e-6);
+    EXPECT_NEAR(table.emitters[2].probability, 0.25 * 2 * kPiD / table.total_power + 0.75 / 3, 1e-6);
     float sum = 0;
     for (const Emitter& emitter : table.emitters) {
         EXPECT_GT(emitter.probability, 0.0f);
         sum += emitter.probability;
         EXPECT_EQ(emitter.cdf, sum);  // exact: all are multiples of 2^-24
     }
+}
+
+/// The sky's power grows with the grounds around a house, but the lamps in it are chosen as often as before.
+TEST(EmitterTable, EachKindOfLightHasItsPartOfTheChoice) {
+    Scene scene = area_light_scene({1, 1, 1});
+    scene.vertices.push_back({{10'000, 0, 0}, 0, {0, 0, 0}, 0});
+    scene.triangles.push_back({0, 2, 4, 0});
+    scene.delta_emitters = {point_light({1, 1, 1}), point_light({3, 3, 3}), point_light({1, 1, 1})};
+    scene.delta_emitters[2].type = NEARLIGHT_EMITTER_DIRECTIONAL;
+    scene.delta_emitters[2].direction = {0, -1, 0};
+    scene.environment = {.width = 1,
+                         .height = 1,
+                         .radiance = {{1, 1, 1}},
+                         .to_world = {},
+                         .sun_direction = {0, 1, 0},
+                         .sun_half_angle = 0.01f,
+                         .sun_radiance = {1000, 1000, 1000}};
+    const EmitterTable table = build_emitter_table(scene);
+    ASSERT_EQ(table.emitters.size(), 6u);
+    // The lamps' own power is nothing beside that of the sky.
+    EXPECT_NEAR(table.emitters[0].probability, 0.75 / 5 / 4, 1e-6);
+    EXPECT_NEAR(table.emitters[1].probability, 0.75 / 5 * 3 / 4, 1e-6);
+    const auto probability_of = [&](uint type) {
+        const auto found = std::ranges::find(table.emitters, type, &Emitter::type);
+        return found == table.emitters.end() ? 0.0 : static_cast<double>(found->probability);
+    };
+    const double sky = 4 * kPiD;
+    const double sun = 1000 * kPiD * 1e-4;
+    const double rest = sky + sun + 1;  // directional, in units of the irradiance
+    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_TRIANGLE), 0.75 / 5, 1e-6);
+    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_DIRECTIONAL), 0.75 / 5 + 0.25 / rest, 1e-4);
+    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_SUN), 0.75 / 5 + 0.25 * sun / rest, 1e-4);
+    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_ENVIRONMENT), 0.75 / 5 + 0.25 * sky / rest, 1e-4);
 }
 
 TEST(EmitterTable, SpotPowerIsTheIntegralOfItsFalloff) {
