@@ -28,8 +28,8 @@ inline bool is_close_surface(const global CloseRange* region, const global uint*
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
                          const global uint* restrict close_triangles, uint whole_triangles, uint keep,
                          uint first_walk, uint walk_count, uint bounce_count,
-                         const global float* restrict walks_at_depth, float absorption_shift, uint seed,
-                         global Vpl* restrict vpls, global uint* restrict flags) {
+                         const global float* restrict walks_at_depth, float absorption_shift, WalkAim aim,
+                         uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
     const uint index = (uint)get_global_id(0);
     if (index >= walk_count) {
         return;
@@ -39,8 +39,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         flags[index * bounce_count + bounce] = 0;
     }
     const uint walk = first_walk + index;
-    EmittedParticle particle =
-        emit_particle(&scene, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed), sample_2d(walk, 2, seed));
+    EmittedParticle particle = emit_particle(&scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
+                                             sample_2d(walk, 2, seed));
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         const float launched = walks_at_depth[bounce];
         const float2 choice = sample_2d(walk, 3 + WALK_PAIRS_PER_STEP * bounce, seed);

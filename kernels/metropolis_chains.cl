@@ -41,8 +41,9 @@ kernel void metropolis_seeds(const global uint* restrict indices, uint count, ui
     }
 }
 
-kernel void metropolis_walks(SCENE_PARAMETERS, const global float* restrict depth_cdf, uint bounce_count,
-                             const global float2* restrict numbers, uint count, global Vpl* restrict vpls) {
+kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* restrict depth_cdf,
+                             uint bounce_count, const global float2* restrict numbers, uint count,
+                             global Vpl* restrict vpls) {
     const uint index = (uint)get_global_id(0);
     if (index >= count) {
         return;
@@ -51,8 +52,8 @@ kernel void metropolis_walks(SCENE_PARAMETERS, const global float* restrict dept
     const float2 choice = numbers[index];
     const uint last = search_cdf(depth_cdf, bounce_count, choice.x);
     const float probability = depth_cdf[last] - (last == 0 ? 0.0f : depth_cdf[last - 1]);
-    EmittedParticle particle =
-        emit_particle(&scene, (float2)(choice.y, 0.0f), numbers[count + index], numbers[2 * count + index]);
+    EmittedParticle particle = emit_particle(&scene, aim, (float2)(choice.y, 0.0f), numbers[count + index],
+                                             numbers[2 * count + index]);
     Landing at;
     float3 reflected = (float3)(0.0f);
     for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {

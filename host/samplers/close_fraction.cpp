@@ -21,7 +21,8 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
     const LightWalks walks{.walk_count = kPilotWalks,
                            .bounce_count = task.bounce_count,
                            .mean_albedo = task.scene.mean_albedo,
-                           .seed = task.seed ^ kPilotSeed};
+                           .seed = task.seed ^ kPilotSeed,
+                           .aim = walk_aim(task)};
     const auto root_sum_of_squares = [&](KeepDeposits keep) {
         const std::vector<Vpl> vpls = stages.light_tracer.run(task.scene, region, keep, walks);
         const Buffer<Vpl> buffer(stages.device, std::span<const Vpl>(vpls));

@@ -24,6 +24,7 @@
 #include "host/base/random.h"
 #include "host/samplers/resampling.h"
 #include "host/samplers/sampler.h"
+#include "host/samplers/sparse_walks.h"
 
 namespace nearlight::core {
 namespace {
@@ -147,6 +148,7 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
                     .clamp_radius = task.clamp_radius,
                     .seed = task.seed ^ kMetropolisPilotSeed,
                     .bounce_count = task.bounce_count,
+                    .aim = walk_aim(task),
                     .depth_cdf = make_depth_cdf(stages.device, task.bounce_count, task.scene.mean_albedo)};
     space.blind_target = choose_blind_target(stages, space);
     space.seed = task.seed;

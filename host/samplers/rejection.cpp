@@ -72,7 +72,8 @@ LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
     return {.walk_count = walk_count,
             .bounce_count = task.bounce_count,
             .mean_albedo = task.scene.mean_albedo,
-            .seed = seed};
+            .seed = seed,
+            .aim = walk_aim(task)};
 }
 
 struct Pilot {

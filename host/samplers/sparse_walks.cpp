@@ -16,6 +16,10 @@ constexpr double kMaxWalks = 1 << 24;
 constexpr double kMaxWalksIfNoneLands = 1 << 18;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
+bool is_close(const Vpl& vpl) {
+    return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
+}
+
 }  // namespace
 
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
@@ -27,6 +31,10 @@ CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
     return region;
 }
 
+WalkAim walk_aim(const SamplingTask& task) {
+    return {.center = task.close_range.origin, .radius = task.close_range.range};
+}
+
 Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,
                      KeepDeposits keep, uint wanted) {
     if (wanted == 0) {
@@ -35,14 +43,18 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     LightWalks walks{.walk_count = kWalkCountPilotWalks,
                      .bounce_count = task.bounce_count,
                      .mean_albedo = task.scene.mean_albedo,
-                     .seed = task.seed ^ kWalkCountPilotSeed};
-    const std::size_t pilot_deposits = stages.light_tracer.run(task.scene, region, keep, walks).size();
-    const double deposits_per_walk = static_cast<double>(pilot_deposits) / kWalkCountPilotWalks;
+                     .seed = task.seed ^ kWalkCountPilotSeed,
+                     .aim = walk_aim(task)};
+    const std::vector<Vpl> pilot = stages.light_tracer.run(task.scene, region, keep, walks);
+    const double deposits_per_walk = static_cast<double>(pilot.size()) / kWalkCountPilotWalks;
     const double needed = wanted / std::max(deposits_per_walk, 1.0 / kMaxWalksPerVpl);
-    const double max_walks = pilot_deposits > 0 ? kMaxWalks : kMaxWalksIfNoneLands;
+    const double max_walks = !pilot.empty() ? kMaxWalks : kMaxWalksIfNoneLands;
     walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, max_walks));
     walks.seed = task.seed;
-    return {stages.light_tracer.run(task.scene, region, keep, walks), walks.walk_count};
+    const auto pilot_close = static_cast<double>(std::ranges::count_if(pilot, is_close));
+    return {.vpls = stages.light_tracer.run(task.scene, region, keep, walks),
+            .walk_count = walks.walk_count,
+            .expected_close = pilot_close * walks.walk_count / kWalkCountPilotWalks};
 }
 
 }  // namespace nearlight::core

@@ -11,9 +11,14 @@ namespace nearlight::core {
 /// Makes a close region without triangles, so that no deposit is close.
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
 
+/// The sphere at which walks aim: around the camera, as far as the close range reaches.
+WalkAim walk_aim(const SamplingTask& task);
+
 struct Deposits {
     std::vector<Vpl> vpls;
     uint walk_count = 0;  ///< number of walks that were launched
+    double expected_close =
+        0;  ///< number of close deposits to expect by the pilot, which `vpls` is not part of
 };
 
 /// Traces about `wanted` deposits. A small independent pilot measures how many deposits a walk leaves, so

@@ -60,8 +60,8 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
         const uint count = std::min(batch_size, walks.walk_count - first);
         light_tracer_.launch_items(count, scene, region.range, region.triangles,
                                    region.whole_triangles ? 1u : 0u, static_cast<uint>(keep), first, count,
-                                   walks.bounce_count, walks_at_depth, absorption_shift, walks.seed, slots,
-                                   flags);
+                                   walks.bounce_count, walks_at_depth, absorption_shift, walks.aim,
+                                   walks.seed, slots, flags);
         const std::size_t kept_count =
             compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
         compaction_.gather(slots, indices, kept_count, kept);

@@ -21,12 +21,13 @@ struct CloseRegion {
     bool whole_triangles = false;  ///< whether selected triangles lie in it as a whole (policy `paper`)
 };
 
-/// How walks are launched. The result is unbiased for any value of `mean_albedo`.
+/// How walks are launched. The result is unbiased for any value of `mean_albedo` and any aim.
 struct LightWalks {
     uint walk_count = 0;
     uint bounce_count = 1;     ///< maximum number of VPLs that a walk deposits
     float mean_albedo = 0.5f;  ///< sets how many walks go on to each depth
     uint seed = 0;
+    WalkAim aim{};  ///< of walks from infinitely far away
 };
 
 /// Takes deposits while they are on the device: the first `count` ≥ 1 elements of `vpls`, which the next

@@ -55,8 +55,8 @@ void MetropolisChains::evaluate(const PathSpace& space, PathStates& states) {
     Buffer<uint> order(*device_, states.count);
     Buffer<Vpl> sorted(*device_, states.count);
     Buffer<float> contribution(*device_, states.count);
-    walks_.launch_items(states.count, space.scene, space.depth_cdf, space.bounce_count, states.numbers,
-                        states.count, states.vpls);
+    walks_.launch_items(states.count, space.scene, space.aim, space.depth_cdf, space.bounce_count,
+                        states.numbers, states.count, states.vpls);
     morton_sort_.order(states.vpls, states.count, order);
     compaction_.gather(states.vpls, order, states.count, sorted);
     vpl_contribution_->run(space.scene, sorted, states.count, space.view, space.clamp_radius, contribution);

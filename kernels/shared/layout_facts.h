@@ -94,6 +94,8 @@
     OFFSET(CameraVertex, traced)                    \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
+    SIZE(WalkAim)                                   \
+    OFFSET(WalkAim, radius)                         \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
     OFFSET(SceneInfo, has_sky)                      \

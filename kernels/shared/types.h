@@ -343,6 +343,14 @@ typedef struct CloseRange {
     float range;  // m
 } CloseRange;
 
+/// A sphere at which walks from infinitely far away aim: what the camera sees lies in it. Without this,
+/// nearly all walks from the sky would land on the grounds around a house (lib/light/emission.cl). 0 as
+/// radius, or a sphere that is about as large as the scene: no walk aims.
+typedef struct WalkAim {
+    Vec3 center;
+    float radius;  // m
+} WalkAim;
+
 /// Numbers that every ray kernel needs.
 typedef struct SceneInfo {
     uint triangle_count;
@@ -383,6 +391,7 @@ NEARLIGHT_CHECK_SHARED(Emitter, 112);
 NEARLIGHT_CHECK_SHARED(LightNode, 64);
 NEARLIGHT_CHECK_SHARED(Environment, 108);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
+NEARLIGHT_CHECK_SHARED(WalkAim, 16);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);
 static_assert(offsetof(Importon, normal) == offsetof(Vpl, normal) &&

@@ -150,6 +150,60 @@ TEST_F(LightTracerTest, SpotAndAreaLightsEmitTheirPower) {
     });
 }
 
+/// A square lamp with a bitmap, which lies so close to a white square that its picture is printed there.
+TEST_F(LightTracerTest, ATexturedLampEmitsEachTexelAtItsPlace) {
+    Scene scene;
+    add_quad(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, add_material(scene, lambertian({1, 1, 1})));
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = {Vec3{1, 1, 1}, add_small_bitmap(scene)};
+    add_quad(scene, {0, 0, 1e-3f}, {0, 1, 0}, {1, 0, 0}, add_material(scene, lamp));
+    for (std::size_t i = 4; i < 8; ++i) {
+        scene.vertices[i].u = scene.vertices[i].position.x;
+        scene.vertices[i].v = scene.vertices[i].position.y;
+    }
+    // Between the texels' centres the bitmap is interpolated, and it repeats, so that three quarters of what
+    // half a side shows are its own texel's.
+    const double green[2][2] = {{0, 1}, {0.0512695, 0.2158605}};  // rows from the top
+    on_each_ray_tree([&](Device& device) {
+        double power[2][2] = {};
+        for (const Vpl& vpl : trace_all(
+                 device, scene, {.walk_count = 100'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7})) {
+            power[vpl.position.y < 0.5f ? 1 : 0][vpl.position.x < 0.5f ? 0 : 1] += vpl.power.y;
+        }
+        for (int row = 0; row < 2; ++row) {
+            for (int column = 0; column < 2; ++column) {
+                const double mean =
+                    0.75 * (0.75 * green[row][column] + 0.25 * green[row][1 - column]) +
+                    0.25 * (0.75 * green[1 - row][column] + 0.25 * green[1 - row][1 - column]);
+                EXPECT_NEAR(power[row][column], kPi / 4 * mean, 0.01) << row << ", " << column;
+            }
+        }
+    });
+}
+
+TEST_F(LightTracerTest, AProjectorFillsItsImagePlaneEvenly) {
+    Scene scene;
+    add_quad(scene, {-3, -3, 1}, {0, 6, 0}, {6, 0, 0}, add_material(scene, lambertian({1, 1, 1})));
+    add_projector(scene, {0, 0, 0}, {0, 0, 1}, 0.6f, 0.3f, {1, 1, 1}, -1);
+    const auto [x_axis, y_axis] = orthonormal_basis(Vec3{0, 0, 1});
+    on_each_ray_tree([&](Device& device) {
+        const auto vpls = trace_all(
+            device, scene, {.walk_count = 20'000, .bounce_count = 1, .mean_albedo = 0.5f, .seed = 7});
+        ASSERT_EQ(vpls.size(), 20'000u);
+        double x_squared = 0;
+        double y_squared = 0;
+        for (const Vpl& vpl : vpls) {
+            const float x = dot(vpl.position, x_axis) / 0.6f;
+            const float y = dot(vpl.position, y_axis) / 0.3f;
+            ASSERT_LT(std::max(std::abs(x), std::abs(y)), 1.001f);
+            x_squared += x * x / 20'000;
+            y_squared += y * y / 20'000;
+        }
+        EXPECT_NEAR(x_squared, 1.0 / 3, 0.005);
+        EXPECT_NEAR(y_squared, 1.0 / 3, 0.005);
+    });
+}
+
 /// A white square of area A under a sky of radiance L on both sides: each side reflects π·L·A.
 TEST_F(LightTracerTest, SkyLightsBothSidesOfASquare) {
     Scene scene;
@@ -203,6 +257,76 @@ TEST_F(LightTracerTest, SunIsWhatMeetsASquare) {
     });
 }
 
+bool same_deposit(const Vpl& a, const Vpl& b) {
+    return std::memcmp(&a.position, &b.position, sizeof(Vec3)) == 0 && a.depth == b.depth &&
+           std::memcmp(&a.power, &b.power, sizeof(Vec3)) == 0;
+}
+
+/// A plain of 200 × 200 under a sky, a sun and a directional light. What each square metre receives is known.
+Scene wide_plain() {
+    Scene scene;
+    add_quad(scene, {-100, 0, -100}, {0, 0, 200}, {200, 0, 0},
+             add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    scene.environment = {.width = 1,
+                         .height = 1,
+                         .radiance = {{1, 1, 1}},
+                         .to_world = {},
+                         .sun_direction = normalize(Vec3{3, 4, 0}),
+                         .sun_half_angle = 0.02f,
+                         .sun_radiance = {3000, 3000, 3000}};
+    add_directional_light(scene, {0, -3, 4}, {4, 4, 4});
+    return scene;
+}
+const double kPlainIrradiance = kPi + 0.8 * 3000 * kPi * 4e-4 + 0.6 * 4;
+
+double power_within(const std::vector<Vpl>& vpls, Vec3 center, float inner, float outer) {
+    double sum = 0;
+    for (const Vpl& vpl : vpls) {
+        const float distance = length(vpl.position - center);
+        sum += distance >= inner && distance < outer ? vpl.power.y : 0.0f;
+    }
+    return sum;
+}
+
+/// Walks that aim bring the same light to every place, and more walks to the place at which they aim.
+TEST_F(LightTracerTest, AimedWalksBringTheSameLightEverywhere) {
+    const Vec3 center{20, 0, -30};
+    const LightWalks walks{
+        .walk_count = 200'000, .bounce_count = 1, .seed = 10, .aim = {.center = center, .radius = 30.0f}};
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<Vpl> vpls = trace_all(device, wide_plain(), walks);
+        const auto expect_all = [&](float inner, float outer, double tolerance) {
+            const double expected = 0.5 * kPlainIrradiance * kPi * (outer * outer - inner * inner);
+            EXPECT_NEAR(power_within(vpls, center, inner, outer), expected, tolerance * expected)
+                << "from " << inner << " to " << outer;
+        };
+        expect_all(0, 10, 0.02);
+        expect_all(10, 25, 0.01);
+        expect_all(25, 35, 0.02);  // aimed walks from the horizon land here too
+        expect_all(35, 70, 0.02);
+        const LightWalks spread{.walk_count = walks.walk_count, .bounce_count = 1, .seed = 10};
+        const auto hits = [&](const std::vector<Vpl>& deposits) {
+            return std::ranges::count_if(
+                deposits, [&](const Vpl& vpl) { return length(vpl.position - center) < 30.0f; });
+        };
+        EXPECT_GT(hits(vpls), 6 * hits(trace_all(device, wide_plain(), spread)));
+    });
+}
+
+/// Where the sphere is about as large as the scene, or there is none, all walks are spread over the scene.
+TEST_F(LightTracerTest, NoWalkAimsAtMostOfTheScene) {
+    on_each_ray_tree([&](Device& device) {
+        LightWalks walks{.walk_count = 20'000, .bounce_count = 1, .seed = 10};
+        const std::vector<Vpl> spread = trace_all(device, wide_plain(), walks);
+        walks.aim = {.center = {20, 0, -30}, .radius = 0.51f * 100.0f * std::sqrt(2.0f)};
+        const std::vector<Vpl> wide = trace_all(device, wide_plain(), walks);
+        ASSERT_EQ(wide.size(), spread.size());
+        for (std::size_t i = 0; i < wide.size(); ++i) {
+            ASSERT_TRUE(same_deposit(wide[i], spread[i])) << i;
+        }
+    });
+}
+
 TEST_F(LightTracerTest, BacksOfOneSidedSurfacesSwallowLight) {
     Scene scene;
     add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, add_material(scene, lambertian({1, 1, 1})));
@@ -212,10 +336,6 @@ TEST_F(LightTracerTest, BacksOfOneSidedSurfacesSwallowLight) {
     });
 }
 
-bool same_deposit(const Vpl& a, const Vpl& b) {
-    return std::memcmp(&a.position, &b.position, sizeof(Vec3)) == 0 && a.depth == b.depth &&
-           std::memcmp(&a.power, &b.power, sizeof(Vec3)) == 0;
-}
 /// The VPLs of `all` that are not in `kept`. The test fails unless `kept` is a subsequence of `all`.
 std::vector<Vpl> dropped_from(const std::vector<Vpl>& all, const std::vector<Vpl>& kept) {
     std::vector<Vpl> dropped;
@@ -300,7 +420,7 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
             vpls.fill_zero();
             kernel.launch_items(count, on_device.buffers, region.range, region.triangles, 0u,
                                 static_cast<uint>(KeepDeposits::all), first, count, kBounces, walks_at_depth,
-                                0.25f, 11u, vpls, flags);
+                                0.25f, WalkAim{}, 11u, vpls, flags);
             return std::pair{vpls.download(), flags.download()};
         };
         const auto [vpls, flags] = run(0, kWalks);

@@ -315,8 +315,8 @@ TEST_F(RoundLightTest, LightThatArrivesIsThatOfTheShape) {
 }
 
 /// What leaves a light: for each particle the squared distance of its line from the centre or the axis, in
-/// squared radii, the flux, the component of its direction along `axis`, and whether it meets a triangle of
-/// its own light (t ≥ 0).
+/// squared radii, the flux, the component of its direction along `axis`, and how far along a cylinder it
+/// starts, in lengths of it (0 for a sphere); −10 instead if it meets a triangle of its own light.
 std::vector<Float4> particles(Device& device, const Scene& scene, Vec3 axis) {
     KernelProbe probe(device, R"(
 #include "lib/light/emission.cl"
@@ -325,15 +325,18 @@ kernel void probe(SCENE_PARAMETERS, float4 axis, global float4* out) {
     const uint i = (uint)get_global_id(0);
     const SceneView scene = SCENE_VIEW;
     const global Emitter* light = scene.emitters;
+    const WalkAim aim = {{0.0f, 0.0f, 0.0f}, 0.0f};
     const EmittedParticle particle =
-        emit_particle(&scene, (float2)(0.5f), sample_2d(i, 0, 3), sample_2d(i, 1, 3));
+        emit_particle(&scene, aim, (float2)(0.5f), sample_2d(i, 0, 3), sample_2d(i, 1, 3));
     const float3 from = particle.origin - load3(light->position);
     const float3 across = cross(particle.direction, load3(light->direction));
     const float3 past = light->type == NEARLIGHT_EMITTER_SPHERE ? cross(from, particle.direction)
                                                                  : (float3)(dot(from, normalize(across)), 0.0f, 0.0f);
     const SurfaceHit hit = trace_surface(&scene, particle.origin, particle.direction, INFINITY);
+    const float along = light->type == NEARLIGHT_EMITTER_SPHERE
+                            ? 0.0f : dot(from, load3(light->direction)) / light->length;
     out[i] = (float4)(dot(past, past) / (light->radius * light->radius), particle.flux.y,
-                      dot(particle.direction, axis.xyz), hit.t);
+                      dot(particle.direction, axis.xyz), hit.t >= 0.0f ? -10.0f : along);
 }
 )");
     const SceneOnDevice lamp(probe.device(), scene);
@@ -347,28 +350,33 @@ kernel void probe(SCENE_PARAMETERS, float4 axis, global float4* out) {
 TEST_F(RoundLightTest, ParticlesLeaveLikeTheLightOfTheShape) {
     struct Case {
         Scene scene;
-        double flux, mean, mean_of_square, mean_of_elevation;
+        double flux, mean, mean_of_square, mean_of_elevation, mean_of_start, mean_of_squared_start;
     };
     constexpr float kRadius = 0.5f;
     const Case cases[] = {
-        {one_lamp({3, -1, 2}, kRadius), 2 * kPiD * 4 * kPiD * 0.25, 0.5, 1.0 / 3, 1.0 / 3},
-        {one_tube({3, -1, 2}, 0, kRadius, 4), 2 * kPiD * 2 * kPiD * 0.5 * 4, 1.0 / 3, 0.2, 0.25}};
+        {one_lamp({3, -1, 2}, kRadius), 2 * kPiD * 4 * kPiD * 0.25, 0.5, 1.0 / 3, 1.0 / 3, 0, 0},
+        {one_tube({3, -1, 2}, 0, kRadius, 4), 2 * kPiD * 2 * kPiD * 0.5 * 4, 1.0 / 3, 0.2, 0.25, 0.5,
+         1.0 / 3}};
     on_each_device([&](Device& device) {
         for (const Case& shape : cases) {
             double mean = 0;
             double square = 0;
             double upwards = 0;
             double elevation = 0;
-            uint met = 0;
-            for (const auto& [share, flux, z, t] : particles(device, shape.scene, {0, 0, 1})) {
+            double start = 0;
+            double squared_start = 0;
+            for (const auto& [share, flux, z, along] : particles(device, shape.scene, {0, 0, 1})) {
                 mean += static_cast<double>(share) / kRoundSamples;
                 square += static_cast<double>(share) * share / kRoundSamples;
                 upwards += static_cast<double>(z) / kRoundSamples;
                 elevation += static_cast<double>(z) * z / kRoundSamples;
-                met += t >= 0 ? 1 : 0;
+                start += static_cast<double>(along) / kRoundSamples;
+                squared_start += static_cast<double>(along) * along / kRoundSamples;
+                ASSERT_GT(along, -1.0f) << "it meets its own light";
                 ASSERT_NEAR(flux, shape.flux, 1e-5 * shape.flux);
             }
-            EXPECT_EQ(met, 0u);
+            EXPECT_NEAR(start, shape.mean_of_start, 0.006);
+            EXPECT_NEAR(squared_start, shape.mean_of_squared_start, 0.006);
             EXPECT_NEAR(mean, shape.mean, 0.006);
             EXPECT_NEAR(square, shape.mean_of_square, 0.006);
             EXPECT_NEAR(upwards, 0.0, 0.01);

@@ -55,20 +55,67 @@ inline EmittedParticle emit_from_round_light(const SceneView* scene, const globa
     return particle;
 }
 
-/// Where light that travels along −`from` enters the scene: a point on a disk of the scene's size that faces
-/// the light.
-inline float3 entry_point(const SceneView* scene, float3 from, float2 u) {
+/// A third each of the walks from infinitely far away enter across the shadow of the sphere at which they
+/// aim, around this shadow, and across the whole scene.
+#define PART_AIMED (1.0f / 3.0f)
+#define PART_AROUND (1.0f / 3.0f)
+#define PART_SPREAD (1.0f - PART_AIMED - PART_AROUND)
+
+/// Where light from infinitely far away enters the scene.
+typedef struct EntryPoint {
+    float3 position;
+    float area;  // 1 over the density across the light, m²
+} EntryPoint;
+
+/// An entry point on the disk of the scene's size that faces the light.
+inline EntryPoint spread_entry(float3 center, float radius, float3 from, float2 u) {
+    EntryPoint entry;
+    entry.position =
+        center + radius * from + to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
+    entry.area = M_PI_F * radius * radius;
+    return entry;
+}
+
+/// The place across light that travels along −`from`, from the middle of the sphere's shadow, of a walk that
+/// aims (u.x < PART_AIMED) or lands around (u.x < PART_AIMED + PART_AROUND). Around the shadow, each doubling
+/// of the distance up to radius · e^`log_reach` gets as many walks.
+inline float3 place_about(float radius, float log_reach, float3 from, float2 u) {
+    const float distance = u.x < PART_AIMED ? radius * sqrt(u.x / PART_AIMED)
+                                            : radius * exp(log_reach * (u.x - PART_AIMED) / PART_AROUND);
+    return to_world_frame((float3)(distance * circle_point(u.y), 0.0f), from);
+}
+
+/// An entry point of light that travels along −`from`. The density is that of all three ways together, so
+/// that no walk counts for much only because it came by an unlikely way. Where the sphere at which walks aim
+/// is about as large as the scene, there is nothing to win, and all are spread.
+inline EntryPoint entry_point(const SceneView* scene, WalkAim aim, float3 from, float2 u) {
+    const float3 center = load3(scene->environment->scene_center);
     const float radius = scene->environment->scene_radius;
-    return load3(scene->environment->scene_center) + radius * from +
-           to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
+    if (!(aim.radius > 0.0f && aim.radius < 0.5f * radius)) {
+        return spread_entry(center, radius, from, u);
+    }
+    const float3 to_aim = load3(aim.center) - center;
+    const float3 shadow = to_aim - dot(to_aim, from) * from;
+    const float log_reach = log((radius + length(shadow)) / aim.radius);
+    EntryPoint entry;
+    if (u.x < PART_AIMED + PART_AROUND) {
+        entry.position = center + radius * from + shadow + place_about(aim.radius, log_reach, from, u);
+    } else {
+        const float2 v = (float2)((u.x - PART_AIMED - PART_AROUND) / PART_SPREAD, u.y);
+        entry.position = spread_entry(center, radius, from, v).position;
+    }
+    const float3 place = entry.position - center - radius * from;
+    const float3 off = place - shadow;
+    const float squared = dot(off, off);
+    const float spread = dot(place, place) < radius * radius ? PART_SPREAD / (radius * radius) : 0.0f;
+    const float about = squared < aim.radius * aim.radius ? PART_AIMED / (aim.radius * aim.radius)
+                                                          : PART_AROUND / (2.0f * squared * log_reach);
+    entry.area = M_PI_F / (spread + about);
+    return entry;
 }
 
-inline float entry_area(const SceneView* scene) {
-    return M_PI_F * scene->environment->scene_radius * scene->environment->scene_radius;
-}
-
-inline EmittedParticle emit_from_environment(const SceneView* scene, bool is_sun, float2 u_position,
-                                             float2 u_direction) {
+inline EmittedParticle emit_from_environment(const SceneView* scene, WalkAim aim, bool is_sun,
+                                             float2 u_position, float2 u_direction) {
     float3 from;
     float3 radiance;
     float pdf;
@@ -82,10 +129,11 @@ inline EmittedParticle emit_from_environment(const SceneView* scene, bool is_sun
         radiance = map_radiance(scene, map.place);
         pdf = map.pdf;
     }
+    const EntryPoint entry = entry_point(scene, aim, from, u_position);
     EmittedParticle particle;
-    particle.origin = entry_point(scene, from, u_position);
+    particle.origin = entry.position;
     particle.direction = -from;
-    particle.flux = pdf > 0.0f ? radiance * (entry_area(scene) / pdf) : (float3)(0.0f);
+    particle.flux = pdf > 0.0f ? radiance * (entry.area / pdf) : (float3)(0.0f);
     particle.from_delta = 0;
     return particle;
 }
@@ -117,17 +165,18 @@ inline EmittedParticle emit_from_projector(const SceneView* scene, const global 
     return particle;
 }
 
-inline EmittedParticle emit_from_direction(const SceneView* scene, const global Emitter* emitter,
+inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAim aim, const global Emitter* emitter,
                                            float2 u_position) {
     EmittedParticle particle;
     particle.direction = load3(emitter->direction);
-    particle.origin = entry_point(scene, -particle.direction, u_position);
-    particle.flux = load3(emitter->radiance) * entry_area(scene);
+    const EntryPoint entry = entry_point(scene, aim, -particle.direction, u_position);
+    particle.origin = entry.position;
+    particle.flux = load3(emitter->radiance) * entry.area;
     particle.from_delta = 1;
     return particle;
 }
 
-inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, float2 u_position,
+inline EmittedParticle emit_particle(const SceneView* scene, WalkAim aim, float2 choice, float2 u_position,
                                      float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
     EmittedParticle particle;
@@ -136,10 +185,10 @@ inline EmittedParticle emit_particle(const SceneView* scene, float2 choice, floa
     } else if (is_area_light(emitter)) {
         particle = emit_from_round_light(scene, emitter, u_position, u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
-        particle =
-            emit_from_environment(scene, emitter->type == NEARLIGHT_EMITTER_SUN, u_position, u_direction);
+        particle = emit_from_environment(scene, aim, emitter->type == NEARLIGHT_EMITTER_SUN, u_position,
+                                         u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {
-        particle = emit_from_direction(scene, emitter, u_position);
+        particle = emit_from_direction(scene, aim, emitter, u_position);
     } else if (emitter->type == NEARLIGHT_EMITTER_PROJECTOR) {
         particle = emit_from_projector(scene, emitter, u_direction);
     } else {
