@@ -8,14 +8,12 @@
 // point that passes that test lies on a triangle that was left out. Triangles without a Lambertian part carry
 // no VPLs and are left out, and so are triangles without area.
 //
-// Memory: arrays of the scene as in lib/scene.cl; one flag and one area (of the whole triangle, m²) for each
-// triangle. One work-item for each triangle; work-group size: any.
+// Memory: arrays of the scene as in lib/scene.cl; one flag and one area (m²) for each triangle: that of the
+// whole triangle, or of its part in the close range (lib/close_part.cl) where the policy decides point by
+// point. One work-item for each triangle; work-group size: any.
 
+#include "lib/close_part.cl"
 #include "lib/math.cl"
-#include "lib/polygon.cl"
-
-/// A margin relative to the size of coordinates. It is more than rounding can move a point by.
-#define ROUNDING_MARGIN 4e-6f
 
 inline bool carries_vpls(const global Material* material) {
     return (material->flags & (NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK)) != 0;
@@ -23,8 +21,7 @@ inline bool carries_vpls(const global Material* material) {
 
 inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c, float3 normal) {
     const float3 origin = load3(region->origin);
-    const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
-    const float margin = ROUNDING_MARGIN * max_component(reach);
+    const float margin = close_margin(region, a, b, c);
     // Positions and planes are relative to the camera, so that numbers are small where accuracy matters.
     Polygon polygon;
     polygon.vertices[0] = a - origin;
@@ -42,8 +39,9 @@ inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, fl
 kernel void classify_triangles(const global Vertex* restrict vertices,
                                const global Triangle* restrict triangles,
                                const global Material* restrict materials,
-                               const global CloseRange* restrict region, global uint* restrict flags,
-                               global float* restrict areas, uint triangle_count) {
+                               const global CloseRange* restrict region, uint whole_triangles,
+                               global uint* restrict flags, global float* restrict areas,
+                               uint triangle_count) {
     const uint i = (uint)get_global_id(0);
     if (i >= triangle_count) {
         return;
@@ -54,9 +52,15 @@ kernel void classify_triangles(const global Vertex* restrict vertices,
     const float3 c = load3(vertices[triangle.v2].position);
     const float3 normal = cross(b - a, c - a);
     const float area = 0.5f * sqrt(dot(normal, normal));
-    areas[i] = area;
-    flags[i] =
+    const bool is_close =
         area > 0.0f && carries_vpls(materials + triangle.material) && reaches_into(region, a, b, c, normal);
+    float part = 1.0f;
+    if (is_close && !whole_triangles) {
+        const Polygon close = close_part(region, a, b, c);
+        part = part_of_area(&close);
+    }
+    areas[i] = area * part;
+    flags[i] = is_close;
 }
 
 /// Sets centroids[i] to the centroid of triangle ids[i].

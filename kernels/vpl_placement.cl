@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Even placement: K points over the area of the selected triangles, one in each of K equal parts of it. Large
-// triangles get many points, and runs of small ones share one. [paper section 3: placement by the area prefix
-// sum]
+// triangles get many points, and runs of small ones share one. Where the policy decides point by point, only
+// the part of a triangle in the close range counts and gets points. [paper section 3: placement by the area
+// prefix sum]
 //
 // Areas are fixed-point numbers (ulong), so that their sums are exact and a point falls on the same triangle
 // on every device. Part k of K is [floor(k·A/K), floor((k + 1)·A/K)) of the summed area A, in integers. A
@@ -10,6 +11,7 @@
 // Memory: `ids` lists the selected triangles, `area_sums` (inclusive) their areas up to and including each.
 // One work-item for each element; work-group size: any.
 
+#include "lib/close_part.cl"
 #include "lib/math.cl"
 #include "lib/random.cl"
 #include "lib/sampling.cl"
@@ -69,6 +71,7 @@ inline SurfaceSample sample_on_triangle(const global Vertex* restrict vertices, 
 /// Places point k of `sample_count`, one in each work-item.
 kernel void place_samples(const global Vertex* restrict vertices, const global Triangle* restrict triangles,
                           const global uint* restrict ids, const global ulong* restrict area_sums,
+                          const global CloseRange* restrict region, uint whole_triangles,
                           global SurfaceSample* restrict samples, uint triangle_count, uint sample_count,
                           uint seed) {
     const uint k = (uint)get_global_id(0);
@@ -82,6 +85,14 @@ kernel void place_samples(const global Vertex* restrict vertices, const global T
     const ulong at = begin + mul_hi((ulong)random.x << 32 | random.y, size);
     const uint id = ids[find_triangle(area_sums, triangle_count, at)];
     // Neighbours in k share large triangles; a (0, 2)-sequence spreads them evenly there too.
-    const float2 weights = square_to_triangle(sample_2d(k, PLACEMENT_DIMENSION, seed));
-    samples[k] = sample_on_triangle(vertices, triangles[id], id, weights);
+    const float2 u = sample_2d(k, PLACEMENT_DIMENSION, seed);
+    const Triangle triangle = triangles[id];
+    float2 weights = square_to_triangle(u);
+    if (!whole_triangles) {
+        const Polygon part =
+            close_part(region, load3(vertices[triangle.v0].position), load3(vertices[triangle.v1].position),
+                       load3(vertices[triangle.v2].position));
+        weights = square_to_part(&part, u);
+    }
+    samples[k] = sample_on_triangle(vertices, triangle, id, weights);
 }

@@ -16,8 +16,8 @@ CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, cons
     Buffer<uint> flags(stages.device, all);
     Buffer<float> areas(stages.device, all);
     Buffer<uint> close_ids(stages.device, all);
-    stages.triangle_classifier.classify(scene.vertices, scene.triangles, scene.materials, region_.range, all,
-                                        flags, areas);
+    stages.triangle_classifier.classify(scene.vertices, scene.triangles, scene.materials, region_.range,
+                                        region_.whole_triangles, all, flags, areas);
     const std::size_t close_count = stages.compaction.list_set(flags, all, close_ids);
     if (selection.only_lit) {
         stages.light_visibility().run(scene, close_ids, close_count, task.seed, region_.triangles);
@@ -50,7 +50,8 @@ std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
     Buffer<uint> flags(stages_.device, slot_count);
     Buffer<uint> indices(stages_.device, slot_count);
     const auto area_per_point = static_cast<float>(area_ / static_cast<double>(point_count));
-    stages_.vpl_placement.place(scene.vertices, scene.triangles, ids_, point_count, seed, samples);
+    stages_.vpl_placement.place(scene.vertices, scene.triangles, ids_, region_.range, region_.whole_triangles,
+                                point_count, seed, samples);
     stages_.patch_vpls.run(scene, samples, point_count, region_, area_per_point, slots, flags);
     const std::size_t kept_count = stages_.compaction.list_set(flags, slot_count, indices);
     stages_.compaction.gather(slots, indices, kept_count, kept);

@@ -21,7 +21,7 @@ class CloseSurface {
 
     [[nodiscard]] const CloseRegion& region() const { return region_; }
     [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
-    [[nodiscard]] double area() const { return area_; }  ///< area of the selected triangles, m²
+    [[nodiscard]] double area() const { return area_; }  ///< area on which points are placed, m²
     /// Whether no triangle was selected, or the selected triangles have no area.
     [[nodiscard]] bool empty() const { return triangle_count_ == 0 || !(area_ > 0.0); }
 

@@ -8,8 +8,9 @@
 // them first: they pass with a probability that follows the error they would leave, and are divided by it.
 //
 // Shares. Patches and deposits must not both carry the whole light of the close range. At a point y there,
-// patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · walks / Φ, as
-// each walk carries about the same flux. The balance heuristic [Veach & Guibas 1995] shares the light between
+// patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · n / Φ, where n
+// deposits are expected in the close range, at which Φ watts arrive by the patches' rough light. The balance
+// heuristic [Veach & Guibas 1995] shares the light between
 // them: w_patch = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light
 // falls on much surface, which removes the strong deposits beside the camera. Deposits remain where much
 // light falls on little surface (a lamp's shade), which patches would miss or turn into outliers. Outside the
@@ -36,6 +37,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "host/base/math.h"
 #include "host/base/message.h"
@@ -64,6 +66,10 @@ constexpr float kAmbientShare = 0.3f;
 /// The weight of the error that a VPL leaves in its own neighbourhood if that is in view and faces the VPL.
 /// Importons are too few to lie in every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
+/// The most that these errors may be together, as a part of the errors that all VPLs leave in view. They do
+/// not know what hides a VPL, so that without a bound a sunlit plain behind the walls of a room would take
+/// nearly all draws.
+constexpr double kMaxNeighbourhoodPart = 0.2;
 constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kChoiceStream = 0x5e1ec7u;
 constexpr uint kDistantChoiceStream = 0x5e1ec8u;
@@ -76,8 +82,8 @@ bool is_close(const Vpl& vpl) {
 struct Candidates {
     std::vector<Vpl> vpls;  ///< patches, which have no light yet, then screened deposits
     std::size_t patch_count = 0;
-    double patch_density = 0;   ///< points / m²
-    double walks_per_watt = 0;  ///< walks before the screening, per watt of the lights
+    double patch_density = 0;      ///< points / m²
+    double expected_deposits = 0;  ///< number of close deposits to expect before the screening
 };
 
 /// The error that a VPL of 1 W leaves around it, in the measure of GroupContribution::errors. It counts those
@@ -93,12 +99,20 @@ double neighbourhood_error(const SamplingTask& task, Vec3 position, std::size_t 
 /// Adds to the weights of VPLs the error that each would leave around it.
 void add_neighbourhood_errors(const SamplingTask& task, std::span<const Vpl> lit, std::size_t importon_count,
                               std::span<float> weights) {
+    std::vector<double> errors(lit.size(), 0.0);
     for (std::size_t i = 0; i < lit.size(); ++i) {
         // VPLs beyond the range count too, even if only their neighbourhood is in view.
         if (in_frustum(task.close_range, lit[i].position, task.clamp_radius)) {
             const double error = neighbourhood_error(task, lit[i].position, importon_count);
-            weights[i] += static_cast<float>(kNeighbourhoodFloor * error * luminance(lit[i].power));
+            errors[i] = kNeighbourhoodFloor * error * luminance(lit[i].power);
         }
+    }
+    const double in_view = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double around = std::accumulate(errors.begin(), errors.end(), 0.0);
+    const bool is_bounded = in_view > 0.0 && around > kMaxNeighbourhoodPart * in_view;
+    const double scale = is_bounded ? kMaxNeighbourhoodPart * in_view / around : 1.0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        weights[i] += static_cast<float>(scale * errors[i]);
     }
 }
 
@@ -129,18 +143,30 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     candidates.patch_count = candidates.vpls.size();
     const Deposits deposits =
         trace_about(stages, task, surface.region(), KeepDeposits::all, deposit_count(task));
-    candidates.walks_per_watt = deposits.walk_count / static_cast<double>(task.scene.total_power);
+    candidates.expected_deposits = deposits.expected_close;
     const std::vector<Vpl> screened =
         screened_deposits(stages, task, deposits.vpls, std::size_t{task.vpl_count} * kScreenedPerVpl);
     candidates.vpls.insert(candidates.vpls.end(), screened.begin(), screened.end());
     return candidates;
 }
 
+/// The number of close deposits to expect for each watt that arrives in the close range. The patches' rough
+/// light tells how much arrives. It does not follow from the power of the lights, since most of the sky's may
+/// arrive elsewhere.
+double deposits_per_watt(const Candidates& candidates, std::span<const Vec3> rough_light) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < candidates.patch_count; ++i) {
+        sum += luminance(rough_light[i]);
+    }
+    return sum > 0.0 ? candidates.expected_deposits * candidates.patch_density / sum : 0.0;
+}
+
 /// The share of the light that each candidate carries: w_patch or w_walk, and 1 outside the close range.
 std::vector<float> shares(const Candidates& candidates, std::span<const Vec3> rough_light) {
+    const double per_watt = deposits_per_watt(candidates, rough_light);
     std::vector<float> result(candidates.vpls.size(), 1.0f);
     for (std::size_t i = 0; i < result.size(); ++i) {
-        const double walk_density = candidates.walks_per_watt * luminance(rough_light[i]);
+        const double walk_density = per_watt * luminance(rough_light[i]);
         const auto of_patch =
             static_cast<float>(candidates.patch_density / (candidates.patch_density + walk_density));
         if (i < candidates.patch_count) {

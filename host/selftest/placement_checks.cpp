@@ -95,7 +95,7 @@ void check_classifier(Device& device, CheckResult& result) {
     TriangleClassifier(device).classify(
         Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
         upload_scene(device, scene, build_scene_bvh(scene)).materials,
-        Buffer<CloseRange>(device, std::span(&region, 1)), kPlacementTriangles, flags, areas);
+        Buffer<CloseRange>(device, std::span(&region, 1)), false, kPlacementTriangles, flags, areas);
     const std::vector<uint> found = flags.download();
     for (uint i = 0; i < kPlacementTriangles; ++i) {
         if (triangle_area(scene, scene.triangles[i]) < 1e-6f) {
@@ -153,6 +153,8 @@ void check_placement(Device& device, CheckResult& result) {
         place_of[ids[i]] = i;
     }
     const Buffer<uint> id_buffer(device, ids);
+    const CloseRange everything{};
+    const Buffer<CloseRange> range(device, std::span(&everything, 1));
     VplPlacement placement(device);
     placement.set_surface(Buffer<float>(device, areas), id_buffer, ids.size(),
                           area_units_per_square_metre(sum));
@@ -161,7 +163,7 @@ void check_placement(Device& device, CheckResult& result) {
         Buffer<SurfaceSample> samples(device, count);
         const std::size_t placed =
             placement.place(Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
-                            id_buffer, count, 7, samples);
+                            id_buffer, range, true, count, 7, samples);
         result.expect(placed == count);
         const std::vector<SurfaceSample> found = samples.download();
         const double part = sum / static_cast<double>(count);

@@ -13,9 +13,10 @@ TriangleClassifier::TriangleClassifier(Device& device)
 
 void TriangleClassifier::classify(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
                                   const Buffer<Material>& materials, const Buffer<CloseRange>& range,
-                                  std::size_t triangle_count, Buffer<uint>& flags, Buffer<float>& areas) {
-    classify_.launch_items(triangle_count, vertices, triangles, materials, range, flags, areas,
-                           to_kernel_count(triangle_count, "triangles"));
+                                  bool whole_triangles, std::size_t triangle_count, Buffer<uint>& flags,
+                                  Buffer<float>& areas) {
+    classify_.launch_items(triangle_count, vertices, triangles, materials, range, whole_triangles ? 1u : 0u,
+                           flags, areas, to_kernel_count(triangle_count, "triangles"));
 }
 
 void TriangleClassifier::centroids(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,

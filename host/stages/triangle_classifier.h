@@ -12,11 +12,13 @@ class TriangleClassifier {
   public:
     explicit TriangleClassifier(Device& device);
 
-    /// Writes a flag and the whole area (m²) of each triangle. The flag is 1 if some point of the triangle is
-    /// in the close range; it is 0 for triangles without a Lambertian part and for those without area.
-    /// `range` holds one element, and the outputs hold one element per triangle.
+    /// Writes a flag and an area (m²) for each triangle. The flag is 1 if some point of the triangle is in
+    /// the close range; it is 0 for triangles without a Lambertian part and for those without area. The area
+    /// is that of the whole triangle or, unless `whole_triangles`, of what the planes of the close range
+    /// leave of a triangle whose flag is 1. `range` holds one element, and the outputs hold one element per
+    /// triangle.
     void classify(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
-                  const Buffer<Material>& materials, const Buffer<CloseRange>& range,
+                  const Buffer<Material>& materials, const Buffer<CloseRange>& range, bool whole_triangles,
                   std::size_t triangle_count, Buffer<uint>& flags, Buffer<float>& areas);
 
     /// Sets centroids[i] to the centroid of triangle ids[i] for all i < count. Triangles are put in Morton

@@ -35,13 +35,15 @@ void VplPlacement::set_surface(const Buffer<float>& areas, const Buffer<uint>& i
 }
 
 std::size_t VplPlacement::place(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
-                                const Buffer<uint>& ids, std::size_t sample_count, uint seed,
+                                const Buffer<uint>& ids, const Buffer<CloseRange>& range,
+                                bool whole_triangles, std::size_t sample_count, uint seed,
                                 Buffer<SurfaceSample>& samples) {
     if (sample_count == 0 || !(total_area_ > 0.0)) {
         return 0;
     }
-    place_.launch_items(sample_count, vertices, triangles, ids, area_sums_, samples,
-                        static_cast<uint>(triangle_count_), to_kernel_count(sample_count, "samples"), seed);
+    place_.launch_items(sample_count, vertices, triangles, ids, area_sums_, range, whole_triangles ? 1u : 0u,
+                        samples, static_cast<uint>(triangle_count_), to_kernel_count(sample_count, "samples"),
+                        seed);
     return sample_count;
 }
 

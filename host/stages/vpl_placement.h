@@ -30,11 +30,12 @@ class VplPlacement {
     [[nodiscard]] double total_area() const { return total_area_; }
 
     /// Places `sample_count` points on the surface, one in each of as many equal parts of its area. `ids`
-    /// must be those of set_surface(). Returns the number of points: sample_count, or 0 if the surface has no
-    /// area.
+    /// must be those of set_surface(), and `range` (one element) and `whole_triangles` must be those that
+    /// TriangleClassifier::classify() found the areas with. Returns the number of points: sample_count, or 0
+    /// if the surface has no area.
     std::size_t place(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
-                      const Buffer<uint>& ids, std::size_t sample_count, uint seed,
-                      Buffer<SurfaceSample>& samples);
+                      const Buffer<uint>& ids, const Buffer<CloseRange>& range, bool whole_triangles,
+                      std::size_t sample_count, uint seed, Buffer<SurfaceSample>& samples);
 
   private:
     Device* device_;

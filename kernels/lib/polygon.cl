@@ -3,7 +3,7 @@
 #ifndef NEARLIGHT_LIB_POLYGON
 #define NEARLIGHT_LIB_POLYGON
 
-#define NEARLIGHT_POLYGON_MAX 8  // a triangle clipped five times
+#define NEARLIGHT_POLYGON_MAX 9  // a triangle clipped six times
 
 typedef struct Polygon {
     float3 vertices[NEARLIGHT_POLYGON_MAX];

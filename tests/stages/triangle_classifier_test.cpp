@@ -21,7 +21,7 @@ struct Result {
 };
 
 Result classify(Device& device, const std::vector<Corners>& corners, const CloseRange& region,
-                uint material_flags = NEARLIGHT_MATERIAL_DIFFUSE_FRONT) {
+                uint material_flags = NEARLIGHT_MATERIAL_DIFFUSE_FRONT, bool whole_triangles = true) {
     Material material{};
     material.flags = material_flags;
     std::vector<Vertex> vertices;
@@ -38,7 +38,7 @@ Result classify(Device& device, const std::vector<Corners>& corners, const Close
     TriangleClassifier(device).classify(Buffer<Vertex>(device, vertices), Buffer<Triangle>(device, triangles),
                                         Buffer<Material>(device, std::vector<Material>{material}),
                                         Buffer<CloseRange>(device, std::vector<CloseRange>{region}),
-                                        corners.size(), flags.buffer(), areas.buffer());
+                                        whole_triangles, corners.size(), flags.buffer(), areas.buffer());
     return {flags.download(), areas.download()};
 }
 
@@ -47,6 +47,26 @@ CloseRange square_region(float range) {
     SceneCamera camera;
     camera.fov_x_degrees = 90;
     return make_close_range(make_camera(camera, 100, 100), range);
+}
+
+/// Of triangles that reach out of the close range, only the part between its planes counts.
+TEST_F(TriangleClassifierTest, AreasOfPartsEndAtThePlanes) {
+    on_each_device([](Device& device) {
+        const std::vector<Corners> corners{
+            {{-0.5f, 0, 2}, {0.5f, 0, 2}, {0, 0.5f, 2}},              // wholly inside
+            {{-100, -100, 1}, {100, -100, 1}, {0, 200, 1}},           // all of |x| ≤ 1, |y| ≤ 1
+            {{-900, -1, -900}, {900, -1, -900}, {0, -1, 1800}},       // a trapezium from z = 1 to z = 3
+            {{-9000, -1, -9000}, {9000, -1, -9000}, {0, -1, 18000}},  // the same
+        };
+        const Result parts =
+            classify(device, corners, square_region(3.0f), NEARLIGHT_MATERIAL_DIFFUSE_FRONT, false);
+        EXPECT_EQ(parts.areas[0], 0.25f);
+        EXPECT_NEAR(parts.areas[1], 4.0f, 0.01f);
+        // The margin for rounding is 7 mm beside coordinates of 1800 m, and 7 cm beside those of 18 km.
+        EXPECT_NEAR(parts.areas[2], 8.05f, 0.1f);
+        EXPECT_NEAR(parts.areas[3], 8.5f, 1.0f);
+        EXPECT_EQ(classify(device, corners, square_region(3.0f)).areas[1], 30'000.0f);
+    });
 }
 
 TEST_F(TriangleClassifierTest, NearestPointInsideTheFrustumDecides) {

@@ -6,6 +6,8 @@
 
 #include "host/base/math.h"
 #include "host/base/random.h"
+#include "host/scene/camera.h"
+#include "host/stages/close_range.h"
 #include "tests/support/device_fixture.h"
 
 namespace nearlight::core {
@@ -45,13 +47,14 @@ class Placer {
           placement_(device),
           vertices_(device, surface.vertices),
           triangles_(device, surface.triangles),
-          ids_(device, surface.ids) {
+          ids_(device, surface.ids),
+          range_(device, std::vector<CloseRange>(1)) {
         placement_.set_surface(Buffer<float>(device, surface.areas), ids_, surface.ids.size(), units);
     }
     std::vector<SurfaceSample> place(std::size_t count, uint seed) {
         Buffer<SurfaceSample> samples(*device_, count);
         std::vector<SurfaceSample> result(
-            placement_.place(vertices_, triangles_, ids_, count, seed, samples));
+            placement_.place(vertices_, triangles_, ids_, range_, true, count, seed, samples));
         samples.download(result);
         return result;
     }
@@ -63,6 +66,7 @@ class Placer {
     Buffer<Vertex> vertices_;
     Buffer<Triangle> triangles_;
     Buffer<uint> ids_;
+    Buffer<CloseRange> range_;
 };
 
 std::vector<float> random_areas(std::size_t count, uint seed) {
@@ -295,7 +299,8 @@ TEST_F(VplPlacementTest, NoSampleIsWrittenBeyondTheLast) {
         for (const std::size_t count : {1u, 7u, 8u, 9u, 63u, 65u, 1025u}) {
             Buffer<SurfaceSample> samples(device, std::vector<SurfaceSample>(count + 64, guard));
             placement.place(Buffer<Vertex>(device, surface.vertices),
-                            Buffer<Triangle>(device, surface.triangles), ids, count, 1, samples);
+                            Buffer<Triangle>(device, surface.triangles), ids,
+                            Buffer<CloseRange>(device, std::vector<CloseRange>(1)), true, count, 1, samples);
             const std::vector<SurfaceSample> result = samples.download();
             for (std::size_t i = 0; i < result.size(); ++i) {
                 EXPECT_EQ(result[i].triangle == guard.triangle, i >= count) << i << " of " << count;
@@ -315,6 +320,41 @@ TEST(AreaUnits, ArePowersOfTwoThatFit) {
         }
     }
     EXPECT_GT(area_units_per_square_metre(0.0), 0.0f);
+}
+
+/// Points on the parts of huge triangles lie between the planes of the close range, evenly.
+TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
+    SceneCamera camera;
+    camera.fov_x_degrees = 90;
+    const CloseRange region = make_close_range(make_camera(camera, 100, 100), 3.0f);
+    on_each_device([&](Device& device) {
+        std::vector<Vertex> corners;
+        for (const Vec3 p : {Vec3{-90, -1, -90}, Vec3{90, -1, -90}, Vec3{0, -1, 180}}) {
+            corners.push_back({.position = p, .u = 0, .normal = {}, .v = 0});
+        }
+        const Buffer<Vertex> vertices(device, corners);
+        const Buffer<Triangle> triangles(device, std::vector<Triangle>{{0, 1, 2, 0}});
+        const Buffer<uint> ids(device, std::vector<uint>{0});
+        const Buffer<CloseRange> range(device, std::span(&region, 1));
+        VplPlacement placement(device);
+        placement.set_surface(Buffer<float>(device, std::vector<float>{8.0f}), ids, 1, 1024.0f);
+        constexpr std::size_t kPoints = 10'000;
+        Buffer<SurfaceSample> samples(device, kPoints);
+        ASSERT_EQ(placement.place(vertices, triangles, ids, range, false, kPoints, 5, samples), kPoints);
+        // The trapezium |x| ≤ z, 1 ≤ z ≤ 3 has the area 8, of which 3 lies before z = 2.
+        std::size_t near = 0;
+        std::size_t left = 0;
+        for (const SurfaceSample& sample : samples.download()) {
+            ASSERT_NEAR(sample.position.y, -1, 1e-4);
+            ASSERT_GT(sample.position.z, 0.998f);
+            ASSERT_LT(sample.position.z, 3.002f);
+            ASSERT_LT(std::abs(sample.position.x), sample.position.z + 2e-3f);
+            near += sample.position.z < 2 ? 1 : 0;
+            left += sample.position.x < 0 ? 1 : 0;
+        }
+        EXPECT_NEAR(static_cast<double>(near), 3.0 / 8 * kPoints, 100);
+        EXPECT_NEAR(static_cast<double>(left), 0.5 * kPoints, 100);
+    });
 }
 
 }  // namespace
