@@ -16,6 +16,10 @@ struct TriangleCorners {
 /// part.
 double nearest_squared_distance(const TriangleCorners& corners, const CloseRange& region, double slack);
 
+/// The fraction of the triangle's area inside the five planes of the region and the plane that faces the
+/// camera at its range, each moved outwards by `slack` m.
+double part_between_planes(const TriangleCorners& corners, const CloseRange& region, double slack);
+
 /// Whether `flag` says correctly if the point lies in the close range. Within `slack` m of the border, where
 /// rounding decides, both answers are correct.
 bool close_flag_fits(const CloseRange& region, Vec3 p, bool flag, float slack);

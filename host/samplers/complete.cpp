@@ -8,17 +8,17 @@
 // them first: they pass with a probability that follows the error they would leave, and are divided by it.
 //
 // Shares. Patches and deposits must not both carry the whole light of the close range. At a point y there,
-// patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · n / Φ, where n
-// deposits are expected in the close range, at which Φ watts arrive by the patches' rough light. The balance
-// heuristic [Veach & Guibas 1995] shares the light between
-// them: w_patch = p_patch / (p_patch + p_walk), w_walk = 1 − w_patch. So patches take over where little light
-// falls on much surface, which removes the strong deposits beside the camera. Deposits remain where much
-// light falls on little surface (a lamp's shade), which patches would miss or turn into outliers. Outside the
-// close range, deposits carry all the light. The shares follow a rough estimate of E(y): a few samples of
-// direct light, a gather from a small sparse set, one short path, and a constant, so that no lit point is
-// taken for dark. The estimate need not be right for the shares to add up to 1 in expectation: at y it has
-// the same distribution for a patch and for a deposit, and it is independent of both and of the light that
-// the patch carries in the end.
+// patches have the density p_patch = points / area, and deposits the density p_walk ≈ E(y) · n / Φ, where
+// n deposits are expected in the close range, at which Φ watts arrive by the patches' rough light. The
+// balance heuristic [Veach & Guibas 1995] shares the light between them: w_patch = p_patch / (p_patch +
+// p_walk), w_walk = 1 − w_patch. So patches take over where little light falls on much surface, which
+// removes the strong deposits beside the camera. Deposits remain where much light falls on little surface
+// (a lamp's shade), which patches would miss or turn into outliers. Outside the close range, deposits
+// carry all the light. The shares follow a rough estimate of E(y): a few samples of direct light, a gather
+// from a small sparse set, one short path, and a constant, so that no lit point is taken for dark. The
+// estimate need not be right for the shares to add up to 1 in expectation: at y it has the same
+// distribution for a patch and for a deposit, and it is independent of both and of the light that the
+// patch carries in the end.
 //
 // Choice. VPLs are drawn from all candidates in proportion to the error that each would leave in the picture
 // (GroupContribution::errors), so that together they bring to each of several dozen parts of the picture what
@@ -74,10 +74,6 @@ constexpr uint kRoughSeed = 0x20060u;
 constexpr uint kChoiceStream = 0x5e1ec7u;
 constexpr uint kDistantChoiceStream = 0x5e1ec8u;
 constexpr uint kScreeningStream = 0x5c4ee7u;
-
-bool is_close(const Vpl& vpl) {
-    return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
-}
 
 struct Candidates {
     std::vector<Vpl> vpls;  ///< patches, which have no light yet, then screened deposits

@@ -48,6 +48,11 @@ struct RayBudget {
     friend bool operator==(const RayBudget&, const RayBudget&) = default;
 };
 
+/// Whether a VPL lies in the close range.
+inline bool is_close(const Vpl& vpl) {
+    return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
+}
+
 /// A set of VPLs that is ready to be gathered. The powers add up to the scene's reflected flux in
 /// expectation.
 struct VplSet {

@@ -16,10 +16,6 @@ constexpr double kMaxWalks = 1 << 24;
 constexpr double kMaxWalksIfNoneLands = 1 << 18;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
-bool is_close(const Vpl& vpl) {
-    return (vpl.flags & NEARLIGHT_VPL_CLOSE) != 0;
-}
-
 }  // namespace
 
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
@@ -51,7 +47,8 @@ Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const Clos
     const double max_walks = !pilot.empty() ? kMaxWalks : kMaxWalksIfNoneLands;
     walks.walk_count = static_cast<uint>(std::clamp(std::round(needed), 1.0, max_walks));
     walks.seed = task.seed;
-    const auto pilot_close = static_cast<double>(std::ranges::count_if(pilot, is_close));
+    // A pilot that met the close range nowhere was nearly large enough to meet it once.
+    const auto pilot_close = std::max(1.0, static_cast<double>(std::ranges::count_if(pilot, is_close)));
     return {.vpls = stages.light_tracer.run(task.scene, region, keep, walks),
             .walk_count = walks.walk_count,
             .expected_close = pilot_close * walks.walk_count / kWalkCountPilotWalks};

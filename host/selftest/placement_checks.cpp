@@ -21,6 +21,8 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::size_t kPlacementTriangles = 4000;
+constexpr float kRange = 1.0f;
+constexpr double kSlack = 5e-5;  ///< more than rounding can move a point of the soup by, m
 
 TriangleCorners corners_of(const Scene& scene, uint id) {
     const Triangle& triangle = scene.triangles[id];
@@ -36,6 +38,56 @@ float distance_outside(const TriangleCorners& t, Vec3 p) {
         outside = std::max(outside, dot(normalize(cross(to - from, n)), p - from));
     }
     return outside;
+}
+
+/// A view of a part of the triangle soup.
+CloseRange soup_region() {
+    SceneCamera camera;
+    camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
+    camera.fov_x_degrees = 55;
+    return make_close_range(make_camera(camera, 320, 200), kRange);
+}
+
+struct Classes {
+    std::vector<uint> flags;
+    std::vector<float> areas;  ///< of the parts between the planes, m²
+};
+Classes classify(Device& device, const Scene& scene, const CloseRange& region) {
+    Buffer<uint> flags(device, kPlacementTriangles);
+    Buffer<float> areas(device, kPlacementTriangles);
+    TriangleClassifier(device).classify(
+        Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
+        upload_scene(device, scene, build_scene_bvh(scene)).materials,
+        Buffer<CloseRange>(device, std::span(&region, 1)), false, kPlacementTriangles, flags, areas);
+    return {flags.download(), areas.download()};
+}
+
+/// Points on the parts of triangles in the close range lie on the triangles and between the planes.
+void check_points_on_parts(Device& device, CheckResult& result) {
+    const Scene scene = make_triangle_soup(kPlacementTriangles, 21);
+    const CloseRange region = soup_region();
+    const Classes classes = classify(device, scene, region);
+    std::vector<uint> ids;
+    double sum = 0;
+    for (uint i = 0; i < kPlacementTriangles; ++i) {
+        if (classes.flags[i] != 0 && classes.areas[i] > 1e-4f) {
+            ids.push_back(i);
+            sum += classes.areas[i];
+        }
+    }
+    const Buffer<uint> id_buffer(device, ids);
+    VplPlacement placement(device);
+    placement.set_surface(Buffer<float>(device, classes.areas), id_buffer, ids.size(),
+                          area_units_per_square_metre(sum));
+    constexpr std::size_t kPoints = 10'000;
+    Buffer<SurfaceSample> samples(device, kPoints);
+    placement.place(Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
+                    id_buffer, Buffer<CloseRange>(device, std::span(&region, 1)), false, kPoints, 7, samples);
+    for (const SurfaceSample& point : samples.download()) {
+        const bool known = point.triangle < kPlacementTriangles && classes.flags[point.triangle] != 0;
+        result.expect(known && in_frustum(region, point.position, static_cast<float>(kSlack)) &&
+                      distance_outside(corners_of(scene, point.triangle), point.position) < 1e-6f);
+    }
 }
 
 /// A room with two lights, so that every point asks both of them. The spheres reflect outwards only.
@@ -83,29 +135,24 @@ double lit_share(const Scene& scene, const EmbreeScene& embree, uint id, float e
 }  // namespace
 
 void check_classifier(Device& device, CheckResult& result) {
-    constexpr float kRange = 1.0f;
-    constexpr double kSlack = 5e-5;
     const Scene scene = make_triangle_soup(kPlacementTriangles, 21);
-    SceneCamera camera;
-    camera.to_world = look_at({0.3, -0.2, -0.5}, {-0.4, 0.4, 1.0}, {0.3, 1, 0.2});
-    camera.fov_x_degrees = 55;
-    const CloseRange region = make_close_range(make_camera(camera, 320, 200), kRange);
-    Buffer<uint> flags(device, kPlacementTriangles);
-    Buffer<float> areas(device, kPlacementTriangles);
-    TriangleClassifier(device).classify(
-        Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
-        upload_scene(device, scene, build_scene_bvh(scene)).materials,
-        Buffer<CloseRange>(device, std::span(&region, 1)), false, kPlacementTriangles, flags, areas);
-    const std::vector<uint> found = flags.download();
+    const CloseRange region = soup_region();
+    const Classes found = classify(device, scene, region);
     for (uint i = 0; i < kPlacementTriangles; ++i) {
-        if (triangle_area(scene, scene.triangles[i]) < 1e-6f) {
+        const double area = triangle_area(scene, scene.triangles[i]);
+        if (area < 1e-6) {
             continue;  // rounding decides whether it has any area
         }
         const TriangleCorners corners = corners_of(scene, i);
         const bool surely = nearest_squared_distance(corners, region, 0.0) < kRange * kRange;
         const bool perhaps =
             nearest_squared_distance(corners, region, kSlack) < (kRange + kSlack) * (kRange + kSlack);
-        result.expect(found[i] != 0 ? perhaps : !surely);
+        result.expect(found.flags[i] != 0 ? perhaps : !surely);
+        if (found.flags[i] != 0) {
+            const double part = found.areas[i] / area;
+            result.expect(part > part_between_planes(corners, region, 0.0) - 1e-4 &&
+                          part < part_between_planes(corners, region, kSlack) + 1e-4);
+        }
     }
 }
 
@@ -181,6 +228,7 @@ void check_placement(Device& device, CheckResult& result) {
                           distance_outside(corners_of(scene, found[k].triangle), found[k].position) < 1e-6f);
         }
     }
+    check_points_on_parts(device, result);
 }
 
 }  // namespace nearlight::core

@@ -19,7 +19,7 @@ using test::Brought;
 
 class SharedReflectionsTest : public test::DeviceTest {};
 
-constexpr std::size_t kReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
+constexpr std::size_t kGlossyReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 constexpr float kHeight = 1.0f;  // of the ceiling above the floor, m
 
 Material metal(float alpha) {
@@ -43,26 +43,26 @@ Scene floor_under_lamp(const Material& floor) {
 /// and the last three are far away, where none of it is shared.
 std::vector<ReceiverPacket> receivers_on_the_ceiling() {
     std::vector<ReceiverPoint> points;
-    for (std::size_t i = 0; i < kReceivers; ++i) {
-        const float x = 0.3f + 0.02f * static_cast<float>(i % 16) + (i + 3 >= kReceivers ? 1.2f : 0.0f);
+    for (std::size_t i = 0; i < kGlossyReceivers; ++i) {
+        const float x = 0.3f + 0.02f * static_cast<float>(i % 16) + (i + 3 >= kGlossyReceivers ? 1.2f : 0.0f);
         const float z = 0.1f + 0.02f * static_cast<float>(i / 16);
         points.push_back({{x, kHeight, z}, i % 5 == 4 ? Vec3{0, 0, 0} : Vec3{0, -1, 0}});
     }
     return test::pack_receivers(points);
 }
 
-constexpr ReceiverPathSettings kTwoRays{
+constexpr ReceiverPathSettings kTwoGlossyRays{
     .path_count = 2, .max_edges = 4, .clamp_radius = 0.5f, .shares_reflections = true};
-constexpr ReceiverPathSettings kManyRays{.path_count = 512, .max_edges = 4, .clamp_radius = 0.5f};
+constexpr ReceiverPathSettings kManyGlossyRays{.path_count = 512, .max_edges = 4, .clamp_radius = 0.5f};
 
 void expect_what_own_rays_bring(Device& device, const Scene& scene,
                                 GatherKernel kernel = GatherKernel::automatic) {
     const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
-    const Brought own = brought(device, scene, packets, false, kManyRays, 64, kernel);
-    const Brought shared = brought(device, scene, packets, true, kTwoRays, 8192, kernel);
+    const Brought own = brought(device, scene, packets, false, kManyGlossyRays, 64, kernel);
+    const Brought shared = brought(device, scene, packets, true, kTwoGlossyRays, 8192, kernel);
     ASSERT_GT(own.sum(), 0.1);
     EXPECT_NEAR(shared.sum(), own.sum(), 0.01 * own.sum());
-    const double tolerance = 0.2 * own.sum() / kReceivers;
+    const double tolerance = 0.2 * own.sum() / kGlossyReceivers;
     for (std::size_t i = 0; i < own.mean.size(); ++i) {
         EXPECT_NEAR(shared.mean[i], own.mean[i], 0.1 * own.mean[i] + tolerance) << i;
     }
@@ -148,9 +148,9 @@ TEST_F(SharedReflectionsTest, AreLessNoiseThanOwnRays) {
     on_each_device([](Device& device) {
         const Scene scene = floor_under_lamp(metal(0.2f));
         const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
-        ReceiverPathSettings own = kTwoRays;
+        ReceiverPathSettings own = kTwoGlossyRays;
         own.shares_reflections = false;
-        EXPECT_LT(brought(device, scene, packets, true, kTwoRays, 128).variance(),
+        EXPECT_LT(brought(device, scene, packets, true, kTwoGlossyRays, 128).variance(),
                   0.1 * brought(device, scene, packets, true, own, 128).variance());
     });
 }
@@ -161,8 +161,8 @@ FoundLights find_reflections(Device& device, const Scene& scene, const std::vect
     const Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
-    FoundLights found(device, packets.size(), kTwoRays);
-    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), kTwoRays, direct, indirect,
+    FoundLights found(device, packets.size(), kTwoGlossyRays);
+    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), kTwoGlossyRays, direct, indirect,
                                       found);
     return found;
 }
@@ -197,7 +197,7 @@ TEST_F(SharedReflectionsTest, ANeighbourhoodHoldsAQuarter) {
         const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
         const FoundLights found = find_reflections(device, floor_under_lamp(metal(0.2f)), packets);
         std::vector<Vec3> present;
-        for (std::size_t i = 0; i < kReceivers; ++i) {
+        for (std::size_t i = 0; i < kGlossyReceivers; ++i) {
             if (const ReceiverPoint x = receiver_at(packets, i); x.normal != Vec3{0, 0, 0}) {
                 present.push_back(x.position);
             }
@@ -206,7 +206,7 @@ TEST_F(SharedReflectionsTest, ANeighbourhoodHoldsAQuarter) {
             return 4 * std::ranges::count_if(present, [&](Vec3 y) { return length(y - x) < radius; });
         };
         const std::vector<float> spacing = found.spacing.download();
-        for (std::size_t i = 0; i < kReceivers; ++i) {
+        for (std::size_t i = 0; i < kGlossyReceivers; ++i) {
             const ReceiverPoint x = receiver_at(packets, i);
             if (x.normal == Vec3{0, 0, 0}) {
                 continue;

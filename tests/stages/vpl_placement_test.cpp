@@ -325,11 +325,12 @@ TEST(AreaUnits, ArePowersOfTwoThatFit) {
 /// Points on the parts of huge triangles lie between the planes of the close range, evenly.
 TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
     SceneCamera camera;
+    camera.to_world = look_at({5, 0, 0}, {5, 0, 1}, {0, 1, 0});
     camera.fov_x_degrees = 90;
     const CloseRange region = make_close_range(make_camera(camera, 100, 100), 3.0f);
     on_each_device([&](Device& device) {
         std::vector<Vertex> corners;
-        for (const Vec3 p : {Vec3{-90, -1, -90}, Vec3{90, -1, -90}, Vec3{0, -1, 180}}) {
+        for (const Vec3 p : {Vec3{-85, -1, -90}, Vec3{95, -1, -90}, Vec3{5, -1, 180}}) {
             corners.push_back({.position = p, .u = 0, .normal = {}, .v = 0});
         }
         const Buffer<Vertex> vertices(device, corners);
@@ -341,16 +342,16 @@ TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
         constexpr std::size_t kPoints = 10'000;
         Buffer<SurfaceSample> samples(device, kPoints);
         ASSERT_EQ(placement.place(vertices, triangles, ids, range, false, kPoints, 5, samples), kPoints);
-        // The trapezium |x| ≤ z, 1 ≤ z ≤ 3 has the area 8, of which 3 lies before z = 2.
+        // The trapezium |x − 5| ≤ z, 1 ≤ z ≤ 3 has the area 8, of which 3 lies before z = 2.
         std::size_t near = 0;
         std::size_t left = 0;
         for (const SurfaceSample& sample : samples.download()) {
             ASSERT_NEAR(sample.position.y, -1, 1e-4);
             ASSERT_GT(sample.position.z, 0.998f);
             ASSERT_LT(sample.position.z, 3.002f);
-            ASSERT_LT(std::abs(sample.position.x), sample.position.z + 2e-3f);
+            ASSERT_LT(std::abs(sample.position.x - 5), sample.position.z + 2e-3f);
             near += sample.position.z < 2 ? 1 : 0;
-            left += sample.position.x < 0 ? 1 : 0;
+            left += sample.position.x < 5 ? 1 : 0;
         }
         EXPECT_NEAR(static_cast<double>(near), 3.0 / 8 * kPoints, 100);
         EXPECT_NEAR(static_cast<double>(left), 0.5 * kPoints, 100);
