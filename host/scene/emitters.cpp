@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <numeric>
 #include <span>
 
 #include "host/scene/distribution.h"
@@ -149,11 +148,9 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
     return emitters;
 }
 
-/// The kinds of lights that share out a part of the choice evenly: lamps without and with a surface,
-/// directional lights, the sun and the sky.
+/// The kinds of lights that share out the choice evenly: lamps without and with a surface, directional
+/// lights, the sun and the sky.
 constexpr std::size_t kKindCount = 5;
-/// The part of the choice that the kinds share out.
-constexpr double kPartOfKinds = 0.75;
 
 std::size_t kind_of(const Emitter& emitter) {
     switch (emitter.type) {
@@ -175,12 +172,10 @@ std::vector<double> choice_probabilities(std::span<const Emitter> emitters, std:
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         of_kind[kind_of(emitters[i])] += powers[i];
     }
-    const double of_all = std::accumulate(of_kind.begin(), of_kind.end(), 0.0);
     const auto kinds = static_cast<double>(kKindCount - std::ranges::count(of_kind, 0.0));
     std::vector<double> probabilities(emitters.size());
     for (std::size_t i = 0; i < emitters.size(); ++i) {
-        const double part_of_kind = powers[i] / of_kind[kind_of(emitters[i])];
-        probabilities[i] = (1.0 - kPartOfKinds) * powers[i] / of_all + kPartOfKinds * part_of_kind / kinds;
+        probabilities[i] = powers[i] / (kinds * of_kind[kind_of(emitters[i])]);
     }
     return probabilities;
 }

@@ -20,14 +20,13 @@ struct EmitterTable {
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };
-/// Makes the table of all lights. One quarter of the probability is in proportion to the luminance of emitted
-/// power. Each kind of light that there is (lamps without and with a surface, directional lights, the sun,
-/// the sky) gets the same part of the other three quarters, in proportion to power within the kind. Power is
-/// π·area·radiance of an area light, 4π·intensity of a point, the intensity of a spot integrated over
-/// its falloff, that of a projector over its image, and all light of the environment or of a directional
-/// light that enters the sphere around the scene, πR²·∫ L dω and πR²·E. Images count by their mean. Lights
-/// without power are left out; the table is empty if nothing emits. `probability` is exactly the step of
-/// `cdf` (distribution.h).
+/// Makes the table of all lights. Each kind of light that there is (lamps without and with a surface,
+/// directional lights, the sun, the sky) gets the same part of the probability, in proportion to the
+/// luminance of emitted power within the kind. Power is π·area·radiance of an area light, 4π·intensity of a
+/// point, the intensity of a spot integrated over its falloff, that of a projector over its image, and all
+/// light of the environment or of a directional light that enters the sphere around the scene, πR²·∫ L dω and
+/// πR²·E. Images count by their mean. Lights without power are left out; the table is empty if nothing emits.
+/// `probability` is exactly the step of `cdf` (distribution.h).
 EmitterTable build_emitter_table(const Scene& scene);
 
 }  // namespace nearlight::core

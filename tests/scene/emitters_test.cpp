@@ -104,9 +104,8 @@ TEST(EmitterTable, OrderProbabilitiesAndContents) {
     Scene spot;
     spot.delta_emitters = {spot_light(0.2f, 0.4f)};
     const double lamps = 8 * kPiD + static_cast<double>(build_emitter_table(spot).total_power);
-    EXPECT_NEAR(table.emitters[0].probability,
-                0.25 * 8 * kPiD / table.total_power + 0.75 / 3 * 8 * kPiD / lamps, 1e-6);
-    EXPECT_NEAR(table.emitters[2].probability, 0.25 * 2 * kPiD / table.total_power + 0.75 / 3, 1e-6);
+    EXPECT_NEAR(table.emitters[0].probability, 8 * kPiD / lamps / 3, 1e-6);
+    EXPECT_NEAR(table.emitters[2].probability, 1.0 / 3, 1e-6);
     float sum = 0;
     for (const Emitter& emitter : table.emitters) {
         EXPECT_GT(emitter.probability, 0.0f);
@@ -132,20 +131,14 @@ TEST(EmitterTable, EachKindOfLightHasItsPartOfTheChoice) {
                          .sun_radiance = {1000, 1000, 1000}};
     const EmitterTable table = build_emitter_table(scene);
     ASSERT_EQ(table.emitters.size(), 6u);
-    // The lamps' own power is nothing beside that of the sky.
-    EXPECT_NEAR(table.emitters[0].probability, 0.75 / 5 / 4, 1e-6);
-    EXPECT_NEAR(table.emitters[1].probability, 0.75 / 5 * 3 / 4, 1e-6);
-    const auto probability_of = [&](uint type) {
+    EXPECT_NEAR(table.emitters[0].probability, 1.0 / 5 / 4, 1e-6);
+    EXPECT_NEAR(table.emitters[1].probability, 1.0 / 5 * 3 / 4, 1e-6);
+    for (const uint type : {NEARLIGHT_EMITTER_DIRECTIONAL, NEARLIGHT_EMITTER_TRIANGLE, NEARLIGHT_EMITTER_SUN,
+                            NEARLIGHT_EMITTER_ENVIRONMENT}) {
         const auto found = std::ranges::find(table.emitters, type, &Emitter::type);
-        return found == table.emitters.end() ? 0.0 : static_cast<double>(found->probability);
-    };
-    const double sky = 4 * kPiD;
-    const double sun = 1000 * kPiD * 1e-4;
-    const double rest = sky + sun + 1;  // directional, in units of the irradiance
-    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_TRIANGLE), 0.75 / 5, 1e-6);
-    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_DIRECTIONAL), 0.75 / 5 + 0.25 / rest, 1e-4);
-    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_SUN), 0.75 / 5 + 0.25 * sun / rest, 1e-4);
-    EXPECT_NEAR(probability_of(NEARLIGHT_EMITTER_ENVIRONMENT), 0.75 / 5 + 0.25 * sky / rest, 1e-4);
+        ASSERT_NE(found, table.emitters.end()) << type;
+        EXPECT_NEAR(found->probability, 1.0 / 5, 1e-6) << type;
+    }
 }
 
 TEST(EmitterTable, SpotPowerIsTheIntegralOfItsFalloff) {

@@ -135,13 +135,13 @@ Case furnace() {
     return result;
 }
 
-/// A court with a lamp on grounds that are much wider, so that walks from the sky aim at it.
+/// A court with a lamp on grounds that are ten times as wide, so that walks from the sky aim at it.
 Scene court_on_wide_grounds() {
     Scene scene = court_under_sky();
     const uint grass = add_material(scene, lambertian({0.2f, 0.4f, 0.1f}));
     Material lamp = lambertian({0, 0, 0});
     lamp.emission = parameter_of(Vec3{6, 5, 4});
-    add_quad(scene, {-40, -1.01f, -40}, {0, 0, 80}, {80, 0, 0}, grass);
+    add_quad(scene, {-10, -1.01f, -10}, {0, 0, 20}, {20, 0, 0}, grass);
     add_quad(scene, {0.5f, 0.3f, 0.5f}, {0.3f, 0, 0}, {0, 0, 0.3f}, add_material(scene, lamp));
     return scene;
 }
@@ -166,7 +166,8 @@ TEST_F(Convergence, CourtUnderSky) {
     expect_all_converge({.scene = court_under_sky(), .clamp_radius = 0.2f});
 }
 TEST_F(Convergence, CourtOnWideGrounds) {
-    expect_all_converge({.scene = court_on_wide_grounds(), .clamp_radius = 0.2f, .range = 3.0f});
+    expect_all_converge(
+        {.scene = court_on_wide_grounds(), .clamp_radius = 0.2f, .range = 3.0f, .vpl_count = 4000});
 }
 TEST_F(Convergence, Wall) {
     expect_all_converge({.scene = wall_view(), .clamp_radius = 0.2f, .size = 16});

@@ -70,7 +70,7 @@ TEST_F(WideGroundsTest, LeaveTheNoiseInAClosedRoomAsItIs) {
         const double room = relative_variance(device, lit_room());
         const double house = relative_variance(device, lit_room_on_wide_grounds());
         EXPECT_GT(room, 0.0);
-        // The lamp keeps three eighths of the walks, which alone is a factor of 2.7.
+        // The lamp keeps half of the walks, which alone is a factor of 2.
         EXPECT_LT(house, 6 * room);
     });
 }
