@@ -13,6 +13,7 @@
 
 #include "lib/camera_sample.cl"
 #include "lib/close_range.cl"
+#include "lib/outlined.cl"
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
 #include "shared/packet_order.h"
@@ -46,7 +47,7 @@ typedef struct CameraPath {
 /// Decides at a surface with two ways on. The first division gives each branch one way with its full weight:
 /// branch 0 the first way, branch 1 the second. Later ones choose the second with probability p. Returns true
 /// for the second way.
-inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
+static inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
     if (path->undivided) {
         path->undivided = 0;
         if (branch == 1) {
@@ -69,7 +70,7 @@ typedef struct SurfaceNumbers {
     float end;  // whether the path ends by chance
 } SurfaceNumbers;
 
-inline SurfaceNumbers surface_numbers(uint key, uint step) {
+static inline SurfaceNumbers surface_numbers(uint key, uint step) {
     const uint4 random = surface_random(key, step);
     SurfaceNumbers numbers;
     numbers.model = to_unit_float(random.x);
@@ -83,22 +84,24 @@ inline SurfaceNumbers surface_numbers(uint key, uint step) {
 
 /// How many of `max_count` light samples a surface takes whose S reflects `specular`: fewer where its light
 /// weighs little in the pixel.
-inline uint light_sample_count(const CameraPath* path, float3 specular, uint max_count) {
+static inline uint light_sample_count(const CameraPath* path, float3 specular, uint max_count) {
     const float weight = fmin(luminance(path->ray.throughput * specular), 1.0f);
     return max(1u, (uint)ceil((float)max_count * weight));
 }
 
 /// Whether a surface looks for lights in its S by more than the ray of the path: highlights on what the
 /// camera sees straight or in mirrors and glass are the largest part of the noise of glossy rooms.
-inline bool looks_for_lights(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface) {
+static inline bool looks_for_lights(const SceneView* scene, const CameraPath* path,
+                                    const SurfaceBsdf* surface) {
     const bool is_glass = surface->bsdf.model == NEARLIGHT_BSDF_DIELECTRIC;  // its two ways divide the path
     return path->mode == BSDF_CAMERA && has_sampled_lights(scene) && !is_glass &&
            !is_delta_only(&surface->bsdf);
 }
 
 /// What a surface asks lights whose S reflects `specular`. `is_receiver`: its D is a receiver.
-inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path, const SurfaceBsdf* surface,
-                                float3 specular, bool is_receiver, LightQuota max) {
+static inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path,
+                                       const SurfaceBsdf* surface, float3 specular, bool is_receiver,
+                                       LightQuota max) {
     LightQuota quota = max;
     const bool looks = looks_for_lights(scene, path, surface);
     quota.samples = max.samples > 0 ? light_sample_count(path, specular, max.samples) : 0;
@@ -110,9 +113,9 @@ inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path, 
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
 /// branch 1 the reflection.
-inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                            const SurfaceBsdf* surface, uint branch, LightQuota quota,
-                            const SurfaceNumbers* numbers) {
+static inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                                   const SurfaceBsdf* surface, uint branch, LightQuota quota,
+                                   const SurfaceNumbers* numbers) {
     if (quota.samples == 0) {
         return WAY_END;
     }
@@ -139,9 +142,9 @@ inline uint follow_specular(const SceneView* scene, CameraPath* path, const Surf
 }
 
 /// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
-inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                           const SurfaceBsdf* surface, uint branch, LightQuota* quota,
-                           const SurfaceNumbers* numbers, float3* albedo) {
+static inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
+                                  const SurfaceBsdf* surface, uint branch, LightQuota* quota,
+                                  const SurfaceNumbers* numbers, float3* albedo) {
     const float3 wo = world_to_frame(&surface->frame, surface->wo);
     *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
     const float3 specular = s_albedo(&surface->bsdf, wo);
@@ -162,7 +165,7 @@ inline uint follow_surface(const SceneView* scene, CameraPath* path, const Surfa
 
 /// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths
 /// over tens of surfaces show. Returns false where the path ends.
-inline bool goes_on(CameraPath* path, uint step, float u) {
+static inline bool goes_on(CameraPath* path, uint step, float u) {
     if (step < SURE_SURFACES) {
         return true;
     }
@@ -172,7 +175,8 @@ inline bool goes_on(CameraPath* path, uint step, float u) {
 }
 
 /// The surface as what it reflects by S of its bundle's sky is computed (shared_sky.cl).
-inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model, uint light_samples) {
+static inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model,
+                                       uint light_samples) {
     SeenSurface seen;
     seen.triangle = hit->triangle;
     seen.u = hit->weights.x;
@@ -193,7 +197,7 @@ typedef struct CameraReceiver {
     SeenSurface seen;
 } CameraReceiver;
 
-inline CameraReceiver absent_receiver(void) {
+static inline CameraReceiver absent_receiver(void) {
     CameraReceiver receiver;
     receiver.position = (float3)(0.0f);
     receiver.normal = (float3)(0.0f);
@@ -212,13 +216,13 @@ inline CameraReceiver absent_receiver(void) {
 }
 
 /// The key, never 0, of the random numbers of a pixel's receivers of one branch.
-inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed) {
+static inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed) {
     const uint4 key = (uint4)(pixel, sample / NEARLIGHT_SEQUENCE_RECEIVERS * 2 + branch, seed, 0x5e90e2ceu);
     return max(random_uint4(key).x, 1u);
 }
 
-inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample, uint sequence_length,
-                             uint branch_count, uint seed) {
+static inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample,
+                                    uint sequence_length, uint branch_count, uint seed) {
     const CameraSample start = camera_sample(camera, x, y, sample, sequence_length, seed);
     CameraPath path;
     path.key = start.key;
@@ -235,9 +239,9 @@ inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint s
     return path;
 }
 
-inline void set_receiver(const SceneView* scene, const global CloseRange* close_range, const CameraPath* path,
-                         const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint surfaces,
-                         CameraReceiver* receiver) {
+static inline void set_receiver(const SceneView* scene, const global CloseRange* close_range,
+                                const CameraPath* path, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                float3 albedo, uint surfaces, CameraReceiver* receiver) {
     receiver->position = offset_point(scene, hit->position, hit->geometric);
     receiver->normal = surface->frame.n;
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT |
@@ -260,7 +264,7 @@ typedef struct CameraLimits {
 
 /// What the surface at a step may ask of lights. One that paths must not leave reflects no light of lamps,
 /// but it shows in the other layers.
-inline LightQuota quota_at(const CameraLimits* limits, uint step) {
+static inline LightQuota quota_at(const CameraLimits* limits, uint step) {
     const bool is_last = step + 1 >= limits->max_edges;
     const LightQuota quota = {is_last ? 0 : limits->light_samples, limits->light_rays,
                               is_last ? 0 : limits->max_edges - step - 2,
@@ -271,14 +275,15 @@ inline LightQuota quota_at(const CameraLimits* limits, uint step) {
 /// Adds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
 /// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
 /// left.
-inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
-                        const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo, uint max_edges) {
+static inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
+                               const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
+                               uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
     const PathLimits ray = {
         max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0, 0};
     Finds finds = nothing_shared();
-    const ReceivedLight light = received_light(
-        scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &finds);
+    const ReceivedLight light =
+        received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &finds);
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
     path->emitted += response * light.direct;
     path->traced += response * light.indirect;
@@ -286,8 +291,8 @@ inline void trace_light(const SceneView* scene, const CameraLimits* limits, Came
 
 /// The surface that the path meets at a step. Branch 0 sets `first` to that of the first step, and branch 1
 /// takes it from there.
-inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera, const CameraPath* path,
-                             uint step, uint branch, SurfaceHit* first) {
+static inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera,
+                                    const CameraPath* path, uint step, uint branch, SurfaceHit* first) {
     if (step > 0) {
         return trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
     }
@@ -299,9 +304,9 @@ inline SurfaceHit trace_step(const SceneView* scene, const global Camera* camera
 }
 
 /// Follows one branch to its receiver.
-inline CameraReceiver follow_path(const SceneView* scene, const global Camera* camera,
-                                  const global CloseRange* close_range, const CameraLimits* limits,
-                                  CameraPath* path, uint branch, SurfaceHit* first) {
+OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera* camera,
+                                    const global CloseRange* close_range, const CameraLimits* limits,
+                                    CameraPath* path, uint branch, SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
     receiver.vertex.filter_weight = path->filter_weight;
     const float3 straight = path->ray.direction;
@@ -344,7 +349,7 @@ inline CameraReceiver follow_path(const SceneView* scene, const global Camera* c
 }
 
 /// Turns what branch 0 met into branch 1 of a path that never divides, which is absent and brings no light.
-inline void leave_to_branch_0(CameraReceiver* receiver) {
+static inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));
     receiver->vertex.emitted = store3((float3)(0.0f));
@@ -353,8 +358,8 @@ inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->seen.light_samples = 0;
 }
 
-inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to, uint lane,
-                           global CameraVertex* vertex) {
+static inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to, uint lane,
+                                  global CameraVertex* vertex) {
     to->px[lane] = from->position.x;
     to->py[lane] = from->position.y;
     to->pz[lane] = from->position.z;

@@ -10,29 +10,29 @@
 #include "shared/film_layers.h"
 #include "shared/packet_order.h"
 
-inline void add_to_sum(global float* sum, float3 v) {
+static inline void add_to_sum(global float* sum, float3 v) {
     sum[0] += v.x;
     sum[1] += v.y;
     sum[2] += v.z;
 }
-inline void store_channels(global float* channels, float3 v) {
+static inline void store_channels(global float* channels, float3 v) {
     channels[0] = v.x;
     channels[1] = v.y;
     channels[2] = v.z;
 }
-inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
+static inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
     return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
 }
 
 /// Whether a sample's position and depth replace the stored ones: the first sample that met something on the
 /// pixel's own square has precedence over the first one anywhere, whose depth is stored as negative.
-inline bool is_better_depth(float stored, const CameraVertex* vertex) {
+static inline bool is_better_depth(float stored, const CameraVertex* vertex) {
     const bool is_own = (vertex->flags & NEARLIGHT_VERTEX_OWN_PIXEL) != 0;
     return vertex->depth > 0.0f && (stored == 0.0f || (stored < 0.0f && is_own));
 }
 
 /// Keeps the light of the samples so far. After the last sample of the first half, this is the half's light.
-inline void keep_light(global float* pixel) {
+static inline void keep_light(global float* pixel) {
     for (uint c = 0; c < 3; ++c) {
         pixel[NEARLIGHT_SUM_VARIANCE + c] =
             pixel[NEARLIGHT_SUM_DIRECT + c] + pixel[NEARLIGHT_SUM_INDIRECT + c];
@@ -97,32 +97,33 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
 // the column `samples` of the table. `first` is where the layer's own sums begin, and `scale` is 1 / samples.
 // All have the same parameters, so that the table can name any of them.
 
-inline void resolve_mean(const global float* sums, uint first, uint count, float scale, global float* layer) {
+static inline void resolve_mean(const global float* sums, uint first, uint count, float scale,
+                                global float* layer) {
     for (uint c = 0; c < count; ++c) {
         layer[c] = sums[first + c] * scale;
     }
 }
-inline void resolve_first(const global float* sums, uint first, uint count, float scale,
-                          global float* layer) {
+static inline void resolve_first(const global float* sums, uint first, uint count, float scale,
+                                 global float* layer) {
     (void)scale;
     for (uint c = 0; c < count; ++c) {
         layer[c] = sums[first + c];
     }
 }
-inline void resolve_depth(const global float* sums, uint first, uint count, float scale,
-                          global float* layer) {
+static inline void resolve_depth(const global float* sums, uint first, uint count, float scale,
+                                 global float* layer) {
     (void)count, (void)scale;
     layer[0] = fabs(sums[first]);
 }
-inline void resolve_direction(const global float* sums, uint first, uint count, float scale,
-                              global float* layer) {
+static inline void resolve_direction(const global float* sums, uint first, uint count, float scale,
+                                     global float* layer) {
     (void)count, (void)scale;
     const float3 n = (float3)(sums[first], sums[first + 1], sums[first + 2]);
     const float squared = dot(n, n);
     store_channels(layer, squared > 0.0f ? n * rsqrt(squared) : n);
 }
-inline void resolve_light(const global float* sums, uint first, uint count, float scale,
-                          global float* layer) {
+static inline void resolve_light(const global float* sums, uint first, uint count, float scale,
+                                 global float* layer) {
     (void)first;
     for (uint c = 0; c < count; ++c) {
         layer[c] = (sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c]) * scale;
@@ -134,8 +135,8 @@ inline void resolve_light(const global float* sums, uint first, uint count, floa
 /// VPLs and lie in each other's gaps in the pixel. kHalvesToWhole is what this leaves of that variance
 /// (bench/log/error.md).
 constant float kHalvesToWhole = 0.72f;
-inline void resolve_spread(const global float* sums, uint first, uint count, float scale,
-                           global float* layer) {
+static inline void resolve_spread(const global float* sums, uint first, uint count, float scale,
+                                  global float* layer) {
     const float samples = rint(1.0f / scale);
     const float in_first = floor(0.5f * samples);
     const float in_second = samples - in_first;

@@ -12,7 +12,8 @@
 #define MAX_ABSENT 24  // surfaces that are not there, on one ray
 
 /// Whether a surface is not there for the path that begins with `start`. What shines there can be seen.
-inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, const CameraSample* start, uint step) {
+static inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, const CameraSample* start,
+                             uint step) {
     const uint model = scene->materials[hit->material].model;
     if ((model < NEARLIGHT_BSDF_MASK && model != NEARLIGHT_BSDF_NULL) ||
         max_component(emitted_radiance(scene, hit, start->ray.direction)) > 0.0f) {
@@ -22,8 +23,8 @@ inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, const Camer
     return surface_bsdf(scene, hit, start->ray.direction, BSDF_CAMERA, u).bsdf.model == NEARLIGHT_BSDF_NULL;
 }
 
-inline SurfaceHit first_surface(const SceneView* scene, const global Camera* camera,
-                                const CameraSample* start) {
+static inline SurfaceHit first_surface(const SceneView* scene, const global Camera* camera,
+                                       const CameraSample* start) {
     SurfaceHit hit = trace_first(scene, camera, &start->ray);
     for (uint step = 0; hit.t >= 0.0f && is_absent(scene, &hit, start, step); ++step) {
         const float3 origin = ray_origin(scene, &hit, start->ray.direction);

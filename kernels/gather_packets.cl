@@ -34,7 +34,7 @@ typedef struct Accumulator {
     float16 r[GATHER_ROWS], g[GATHER_ROWS], b[GATHER_ROWS];
 } Accumulator;
 
-inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
+static inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool squared) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);
         const float16 term = lanes_of(s->lanes[row]) ? s->weight[row] : (float16)0.0f;
@@ -45,7 +45,7 @@ inline void add_visible(Accumulator* sum, const Segments* s, float3 scale, bool 
     }
 }
 
-inline void clear(Accumulator* sum) {
+static inline void clear(Accumulator* sum) {
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         sum->r[row] = sum->g[row] = sum->b[row] = (float16)0.0f;
     }
@@ -53,8 +53,8 @@ inline void clear(Accumulator* sum) {
 
 /// Adds `sum` to the irradiance, or stores it there if `replace` is set. Lane i has receiver first + order[i]
 /// of the bundle.
-inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle* bundle, uint first,
-                              const uchar* order, const Accumulator* sum, bool replace) {
+static inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle* bundle, uint first,
+                                     const uchar* order, const Accumulator* sum, bool replace) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;
@@ -69,8 +69,8 @@ inline void add_to_irradiance(global IrradiancePacket* irradiance, const Bundle*
 
 #ifdef GATHER_RECORD
 /// Records which segments are open if `before` is set, and after tracing which of them no longer are.
-inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bundle* bundle, uint first,
-                        const uchar* order, const Segments* s, bool before) {
+static inline void record_open(global uchar* record, uint vpl, uint vpl_count, const Bundle* bundle,
+                               uint first, const uchar* order, const Segments* s, bool before) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint packet = (first + order[i]) / NEARLIGHT_PACKET_SIZE;
         const uint lane = (first + order[i]) % NEARLIGHT_PACKET_SIZE;

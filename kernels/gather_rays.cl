@@ -11,7 +11,8 @@
 
 /// The geometry term of a VPL and a receiver without visibility, or 0 if there is nothing to trace. `segment`
 /// leads from the VPL to the receiver.
-inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, float clamp_radius_squared) {
+static inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal,
+                                  float clamp_radius_squared) {
     const float cos_vpl = dot(vpl_normal, segment);
     const float cos_receiver = -dot(normal, segment);
     const float r2 = dot(segment, segment);
@@ -21,14 +22,14 @@ inline float geometry_term(float3 segment, float3 vpl_normal, float3 normal, flo
 }
 
 /// The product of the transmission curves of both ends of a segment.
-inline float segment_transmission(const global float* curves, const global Vpl* vpl, float3 normal,
-                                  uint curve, float3 segment) {
+static inline float segment_transmission(const global float* curves, const global Vpl* vpl, float3 normal,
+                                         uint curve, float3 segment) {
     const float3 direction = normalize(segment);
     return curve_value(curves, vpl_curve(vpl), dot(seen_normal(vpl), direction)) *
            curve_value(curves, curve, -dot(normal, direction));
 }
 
-inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum) {
+static inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum) {
     to->r[lane] = sum.x;
     to->g[lane] = sum.y;
     to->b[lane] = sum.z;

@@ -24,7 +24,7 @@
 #define MIN_CHILD_SHARE 1e-3f
 
 /// A VPL as a tree sees it. Its power is 0 if the gather leaves it out, because a number is not finite.
-inline Emission emission_of_vpl(const global Vpl* vpl) {
+static inline Emission emission_of_vpl(const global Vpl* vpl) {
     const float3 power = fabs(load3(vpl->power)) * M_1_PI_F;
     Emission emission;
     emission.center = load3(vpl->position);
@@ -37,8 +37,8 @@ inline Emission emission_of_vpl(const global Vpl* vpl) {
 }
 
 /// Adds to the box, the power and the weighted normal of a node.
-inline void add_to_node(float3 low, float3 high, float3 axis, float power, float3* node_low,
-                        float3* node_high, float3* node_axis, float* node_power) {
+static inline void add_to_node(float3 low, float3 high, float3 axis, float power, float3* node_low,
+                               float3* node_high, float3* node_axis, float* node_power) {
     if (power > 0.0f) {
         *node_low = fmin(*node_low, low);
         *node_high = fmax(*node_high, high);
@@ -47,8 +47,8 @@ inline void add_to_node(float3 low, float3 high, float3 axis, float power, float
     }
 }
 
-inline void store_node(global CutNode* node, float3 low, float3 high, float3 axis, float spread, float power,
-                       uint first_child, uint child_count) {
+static inline void store_node(global CutNode* node, float3 low, float3 high, float3 axis, float spread,
+                              float power, uint first_child, uint child_count) {
     node->low = store3(low);
     node->high = store3(high);
     node->axis = store3(axis);
@@ -115,7 +115,7 @@ typedef struct CutSource {
 } CutSource;
 
 /// The entry for child `k` of the node at `place`.
-inline CutEntry child_entry(const CutSource* source, uint place, uint k) {
+static inline CutEntry child_entry(const CutSource* source, uint place, uint k) {
     const uint child = (source->nodes[place].children >> 4) + k;
     const bool is_vpl = place < source->leaf_count;
     const Emission emission =
@@ -127,15 +127,15 @@ inline CutEntry child_entry(const CutSource* source, uint place, uint k) {
     return entry;
 }
 
-inline uint child_count(const CutSource* source, uint place) {
+static inline uint child_count(const CutSource* source, uint place) {
     return source->nodes[place].children & 15u;
 }
 
-inline bool is_vpl_entry(CutEntry entry) {
+static inline bool is_vpl_entry(CutEntry entry) {
     return (entry.place & NEARLIGHT_CUT_VPL) != 0;
 }
 
-inline float total_bound(const global CutEntry* cut, uint count) {
+static inline float total_bound(const global CutEntry* cut, uint count) {
     float total = 0.0f;
     for (uint i = 0; i < count; ++i) {
         total += cut[i].bound;
@@ -145,8 +145,8 @@ inline float total_bound(const global CutEntry* cut, uint count) {
 
 /// Copies a cut of `count` entries, with the children of nodes above `limit` in place of these as long as
 /// there is room. Returns the number of entries; `opened` gets whether there was any such node.
-inline uint open_nodes(const CutSource* source, const global CutEntry* from, uint count, float limit,
-                       global CutEntry* to, uint capacity, bool* opened) {
+static inline uint open_nodes(const CutSource* source, const global CutEntry* from, uint count, float limit,
+                              global CutEntry* to, uint capacity, bool* opened) {
     uint size = 0;
     *opened = false;
     for (uint i = 0; i < count; ++i) {
@@ -169,7 +169,7 @@ inline uint open_nodes(const CutSource* source, const global CutEntry* from, uin
 
 /// The bound that is worth one draw: VPLs above it are asked for certain, and all other entries share the
 /// rest of the `asked` draws.
-inline float bound_of_draw(const global CutEntry* cut, uint count, float asked) {
+static inline float bound_of_draw(const global CutEntry* cut, uint count, float asked) {
     float limit = INFINITY;
     for (uint round = 0; round < 16; ++round) {
         float rest = 0.0f;
@@ -190,7 +190,7 @@ inline float bound_of_draw(const global CutEntry* cut, uint count, float asked) 
 
 /// Draws a VPL below a node, where `at` in [0, 1) says which. Returns its index, or ~0u if none could bring
 /// anything; `p` is multiplied by its probability.
-inline uint draw_below(const CutSource* source, uint place, float at, float* p) {
+static inline uint draw_below(const CutSource* source, uint place, float at, float* p) {
     while (true) {
         CutEntry children[NEARLIGHT_CUT_FANOUT];
         const uint count = child_count(source, place);
@@ -239,7 +239,7 @@ typedef struct CutList {
     uint count, capacity;
 } CutList;
 
-inline void ask(CutList* list, uint vpl, float weight) {
+static inline void ask(CutList* list, uint vpl, float weight) {
     if (list->count < list->capacity) {
         list->vpls[list->count] = vpl;
         list->weights[list->count] = weight;
@@ -248,8 +248,8 @@ inline void ask(CutList* list, uint vpl, float weight) {
 }
 
 /// Draws VPLs from a cut. `next` in [0, 1) is where the first draw lies in the running sum of expected draws.
-inline void draw(const CutSource* source, const global CutEntry* cut, uint count, float asked, float next,
-                 CutList* list) {
+static inline void draw(const CutSource* source, const global CutEntry* cut, uint count, float asked,
+                        float next, CutList* list) {
     const float limit = bound_of_draw(cut, count, asked);
     for (uint i = 0; i < count; ++i) {
         const CutEntry entry = cut[i];

@@ -20,8 +20,8 @@
 
 /// Whether patches supply the direct light at this point: its triangle was selected and, where the policy
 /// decides point by point, the point itself lies in the region.
-inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
-                             uint whole_triangles, uint triangle, float3 position) {
+static inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
+                                    uint whole_triangles, uint triangle, float3 position) {
     return close_triangles[triangle] && (whole_triangles || in_close_range(region, position));
 }
 

@@ -13,7 +13,7 @@
 #define MAX_POINTS 8u
 #define LIGHTS_PER_POINT 2u
 
-inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
+static inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_ENVIRONMENT) {
         return true;  // finding the one window of a room takes more rays than it is worth
     }
@@ -27,7 +27,7 @@ inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, f
     return dot(n, light.direction) > 0.0f && may_shine(&light) && light_is_visible(scene, x, &light);
 }
 
-inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {
+static inline bool point_is_lit(const SceneView* scene, float3 x, float3 n, uint point, uint key) {
     const uint emitter_count = scene->info->emitter_count;
     const bool ask_all = emitter_count <= LIGHTS_PER_POINT;
     const uint tries = ask_all ? emitter_count : LIGHTS_PER_POINT;

@@ -40,13 +40,13 @@ typedef struct LocalPoint {
     float3 normal;
 } LocalPoint;
 
-inline LocalPoint receiver_point(const global ReceiverPacket* packet, uint lane) {
+static inline LocalPoint receiver_point(const global ReceiverPacket* packet, uint lane) {
     LocalPoint point;
     point.position = receiver_position(packet, lane);
     point.normal = receiver_normal(packet, lane);
     return point;
 }
-inline LocalPoint light_point(const global Vpl* light) {
+static inline LocalPoint light_point(const global Vpl* light) {
     LocalPoint point;
     point.position = load3(light->position);
     point.normal = load3(light->normal);
@@ -56,8 +56,8 @@ inline LocalPoint light_point(const global Vpl* light) {
 /// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their surfaces by the
 /// ray epsilon, so that points of one plane have height 0 except for rounding, which is less than a tenth of
 /// the epsilon.
-inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, const LocalPoint* light,
-                            float radius) {
+static inline float local_geometry(const SceneView* scene, const LocalPoint* receiver,
+                                   const LocalPoint* light, float radius) {
     const float3 to_receiver = receiver->position - light->position;
     const float squared = dot(to_receiver, to_receiver);
     const float height = dot(light->normal, to_receiver);
@@ -68,7 +68,7 @@ inline float local_geometry(const SceneView* scene, const LocalPoint* receiver, 
 }
 
 /// The key of a packet's random numbers: a hash of the position of its first present receiver.
-inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
+static inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
     uint lane = 0;
     while (lane + 1 < NEARLIGHT_PACKET_SIZE && packet->nx[lane] == 0.0f && packet->ny[lane] == 0.0f &&
            packet->nz[lane] == 0.0f) {

@@ -89,14 +89,14 @@ kernel void metropolis_targets(const global Vpl* restrict vpls, const global uin
 }
 
 /// A number moved by a random step on the unit circle. A step and the step back have the same distribution.
-inline float small_step(float u, uint bits) {
+static inline float small_step(float u, uint bits) {
     const float size = MAX_STEP * exp(-log(MAX_STEP / MIN_STEP) * to_unit_float(bits));
     const float moved = bits & 1u ? u + size : u - size;
     return clamp(moved - floor(moved), 0.0f, 0x1.fffffep-1f);
 }
 
 /// Random words of one step of a chain. Those of `pair` 0 decide, and those of `pair` p + 1 move pair p.
-inline uint4 step_words(uint chain, uint step, uint pair, uint seed) {
+static inline uint4 step_words(uint chain, uint step, uint pair, uint seed) {
     return random_uint4((uint4)(chain, step, pair, seed));
 }
 

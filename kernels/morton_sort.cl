@@ -16,7 +16,7 @@
 #define DIGIT_COUNT 256
 #define DIGIT_OF(key, shift) (((key) >> (shift)) & (DIGIT_COUNT - 1))
 
-inline float3 load_point(const global float* restrict points, uint index, uint stride) {
+static inline float3 load_point(const global float* restrict points, uint index, uint stride) {
     const global float* point = points + (size_t)index * stride;
     return (float3)(point[0], point[1], point[2]);
 }

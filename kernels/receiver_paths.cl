@@ -15,7 +15,7 @@
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
 
-inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
+static inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
     packet->r[lane] = light.x;
     packet->g[lane] = light.y;
     packet->b[lane] = light.z;
@@ -89,8 +89,8 @@ typedef struct SharingPlaces {
     float squared_extent;  // of the box around them: the square of its diagonal, m²
 } SharingPlaces;
 
-inline void find_sharing_places(SharingPlaces* places, const global ReceiverPacket* receivers,
-                                const Bundle* bundle, uint max_edges) {
+static inline void find_sharing_places(SharingPlaces* places, const global ReceiverPacket* receivers,
+                                       const Bundle* bundle, uint max_edges) {
     float3 low = (float3)(INFINITY);
     float3 high = (float3)(-INFINITY);
     places->count = 0;
@@ -112,7 +112,7 @@ inline void find_sharing_places(SharingPlaces* places, const global ReceiverPack
 
 /// The radius (m) of the neighbourhood of a receiver that shares: a sphere around it that holds at least a
 /// quarter of those that share. Half the squared radius would hold fewer.
-inline float neighbourhood_radius(const SharingPlaces* places, uint lane) {
+static inline float neighbourhood_radius(const SharingPlaces* places, uint lane) {
     float16 squared[BUNDLE_ROWS];
     for (uint row = 0; row < BUNDLE_ROWS; ++row) {
         const float16 x = vload16(row, places->x) - places->x[lane];

@@ -16,7 +16,7 @@
 // The minimum probability of a VPL that could bring light. It only keeps 1/p finite.
 #define MIN_PROBABILITY 1e-6f
 
-inline float sum_of_lanes(float16 v) {
+static inline float sum_of_lanes(float16 v) {
     const float8 a = v.lo + v.hi;
     const float4 b = a.lo + a.hi;
     const float2 c = b.lo + b.hi;
@@ -24,8 +24,8 @@ inline float sum_of_lanes(float16 v) {
 }
 
 /// The geometry term of a VPL, root mean square over the receivers of the bundle.
-inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* packets, const Bundle* bundle,
-                            float clamp_radius_squared) {
+static inline float term_of_bundle(const global Vpl* vpl, const global ReceiverPacket* packets,
+                                   const Bundle* bundle, float clamp_radius_squared) {
     float16 squares = (float16)0.0f;
     for (uint i = 0; i < bundle->count; ++i) {
         for (uint row = 0; row < NEARLIGHT_PACKET_SIZE / 16; ++row) {
@@ -63,7 +63,7 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint strata,
 }
 
 /// The bound below which a VPL is left to chance: `threshold` times the mean of all bounds.
-inline float roulette_limit(const global float* bounds, uint count, float threshold) {
+static inline float roulette_limit(const global float* bounds, uint count, float threshold) {
     float total = 0.0f;
     for (uint chunk = 0; chunk < count; chunk += GATHER_CHUNK) {
         float sum = 0.0f;

@@ -8,8 +8,8 @@
 
 /// Sets one bit of a row for each lane whose receiver shares lights. Lane i has receiver first + order[i] of
 /// the bundle.
-inline void find_sharing_lanes(uint* sharing, const global ReceiverPacket* packets, const Bundle* bundle,
-                               uint first, const uchar* order, uint max_edges) {
+static inline void find_sharing_lanes(uint* sharing, const global ReceiverPacket* packets,
+                                      const Bundle* bundle, uint first, const uchar* order, uint max_edges) {
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         sharing[row] = 0;
         for (uint i = 0; i < 16; ++i) {
@@ -20,8 +20,8 @@ inline void find_sharing_lanes(uint* sharing, const global ReceiverPacket* packe
 }
 
 /// Ends the segments to receivers that do not share, and to those whose rays could not have found the light.
-inline void leave_out_strangers(Segments* s, const global SharedLight* light, const uint* sharing,
-                                float radius_squared) {
+static inline void leave_out_strangers(Segments* s, const global SharedLight* light, const uint* sharing,
+                                       float radius_squared) {
     const float3 shading = unpack_direction(light->shading);
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);
@@ -34,7 +34,8 @@ inline void leave_out_strangers(Segments* s, const global SharedLight* light, co
 
 /// Sets the bits of the receivers that see the light. Adds up their geometry terms in the order of the
 /// receivers, so that the sum does not depend on the width of beams.
-inline float add_seen(const Segments* s, const uchar* order, uint first, float sum, global uint* seen_by) {
+static inline float add_seen(const Segments* s, const uchar* order, uint first, float sum,
+                             global uint* seen_by) {
     float terms[GATHER_BEAM_WIDTH];
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         terms[i] = 0.0f;

@@ -21,7 +21,8 @@
 #include "lib/shared_reflection.cl"
 
 /// The surface of a reflection as a receiver sees it towards which `wo` points.
-inline SurfaceBsdf resolve_reflecting(const SceneView* scene, const global SharedReflection* at, float3 wo) {
+static inline SurfaceBsdf resolve_reflecting(const SceneView* scene, const global SharedReflection* at,
+                                             float3 wo) {
     const SurfaceHit hit = surface_met_at(scene, at->triangle, (float2)(at->u, at->v), -wo);
     return surface_bsdf(scene, &hit, -wo, BSDF_RADIANCE, at->model);
 }
@@ -44,7 +45,7 @@ typedef struct Reflected {
 
 /// Finds what one reflection brings. All receivers that see it are on the same side of the surface, so that
 /// the first of them resolves it for all.
-inline void reflect_to_all(const SceneView* scene, const ReflectionEntry* entry, Reflected* to) {
+static inline void reflect_to_all(const SceneView* scene, const ReflectionEntry* entry, Reflected* to) {
     const float3 y = load3(entry->light->position);
     const float3 wi = load3(entry->at->arriving);
     const float light_pdf = entry->at->light_pdf;

@@ -27,7 +27,8 @@ typedef struct ArrivingSky {
     float cosine;  // at x
 } ArrivingSky;
 
-inline ArrivingSky arriving_sky(const SceneView* scene, const global SharedLight* light, float3 x, float3 n) {
+static inline ArrivingSky arriving_sky(const SceneView* scene, const global SharedLight* light, float3 x,
+                                       float3 n) {
     const float3 to_light = load3(light->position) - x;
     const float squared = dot(to_light, to_light);
     const float inverse = rsqrt(squared);
@@ -44,13 +45,13 @@ inline ArrivingSky arriving_sky(const SceneView* scene, const global SharedLight
 
 /// The part of the sky's light that rays of the bundle bring to a surface, where other samples of a total
 /// density `of_others` look for it too.
-inline float bundle_weight(const ArrivingSky* sky, float bundle_rays, float of_others) {
+static inline float bundle_weight(const ArrivingSky* sky, float bundle_rays, float of_others) {
     const float of_bundle = bundle_rays * sky->cosine * M_1_PI_F;
     return of_bundle / (of_bundle + of_others);
 }
 
 /// The surface that the camera saw at a receiver.
-inline SurfaceBsdf resolve_seen(const SceneView* scene, const global SeenSurface* seen) {
+static inline SurfaceBsdf resolve_seen(const SceneView* scene, const global SeenSurface* seen) {
     const float3 direction = load3(seen->direction);
     const SurfaceHit hit = surface_met_at(scene, seen->triangle, (float2)(seen->u, seen->v), direction);
     return surface_bsdf(scene, &hit, direction, BSDF_CAMERA, seen->model);
@@ -73,9 +74,9 @@ typedef struct SkyLight {
 } SkyLight;
 
 /// Sums the listed lights whose bits are set in the word of `seen_by` that has the receiver, at `shift`.
-inline SkyLight sum_sky(const SceneView* scene, const SkyReceiver* at, const global SharedLight* found,
-                        const global uint* listed, const global float* factors, uint length,
-                        const global uint* seen_by, uint shift) {
+static inline SkyLight sum_sky(const SceneView* scene, const SkyReceiver* at, const global SharedLight* found,
+                               const global uint* listed, const global float* factors, uint length,
+                               const global uint* seen_by, uint shift) {
     SkyLight sum;
     sum.irradiance = sum.reflected = (float3)(0.0f);
     SurfaceBsdf surface;

@@ -15,11 +15,12 @@
 #include "lib/close_part.cl"
 #include "lib/math.cl"
 
-inline bool carries_vpls(const global Material* material) {
+static inline bool carries_vpls(const global Material* material) {
     return (material->flags & (NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK)) != 0;
 }
 
-inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c, float3 normal) {
+static inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c,
+                                float3 normal) {
     const float3 origin = load3(region->origin);
     const float margin = close_margin(region, a, b, c);
     // Positions and planes are relative to the camera, so that numbers are small where accuracy matters.

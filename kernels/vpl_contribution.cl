@@ -20,7 +20,7 @@
 #include "lib/gather.cl"
 #include "lib/math.cl"
 
-inline float3 arrived_importance(const global ImportancePacket* importance, uint vpl) {
+static inline float3 arrived_importance(const global ImportancePacket* importance, uint vpl) {
     const global ImportancePacket* packet = importance + vpl / NEARLIGHT_PACKET_SIZE;
     const uint lane = vpl % NEARLIGHT_PACKET_SIZE;
     return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);

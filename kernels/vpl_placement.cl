@@ -29,12 +29,12 @@ kernel void placement_areas(const global float* restrict areas, const global uin
 }
 
 /// Where part `k` of `part_count` begins: floor(k · total / part_count), without overflow.
-inline ulong part_begin(uint k, uint part_count, ulong total) {
+static inline ulong part_begin(uint k, uint part_count, ulong total) {
     return k * (total / part_count) + k * (total % part_count) / part_count;
 }
 
 /// The first of `count` triangles whose sum exceeds `at`, which must be less than the last sum.
-inline uint find_triangle(const global ulong* restrict area_sums, uint count, ulong at) {
+static inline uint find_triangle(const global ulong* restrict area_sums, uint count, ulong at) {
     uint low = 0;
     uint high = count - 1;
     while (low < high) {
@@ -48,8 +48,8 @@ inline uint find_triangle(const global ulong* restrict area_sums, uint count, ul
     return low;
 }
 
-inline SurfaceSample sample_on_triangle(const global Vertex* restrict vertices, Triangle triangle,
-                                        uint triangle_id, float2 weights) {
+static inline SurfaceSample sample_on_triangle(const global Vertex* restrict vertices, Triangle triangle,
+                                               uint triangle_id, float2 weights) {
     const global Vertex* a = vertices + triangle.v0;
     const global Vertex* b = vertices + triangle.v1;
     const global Vertex* c = vertices + triangle.v2;

@@ -7,7 +7,7 @@
 
 /// (cos, sin) of an angle of at most a million turns. The error is below 1e-7, and below 1e-6 of the sine of
 /// a small angle.
-inline float2 circle_point(float turns) {
+static inline float2 circle_point(float turns) {
     const float quarter = floor(4.0f * turns + 0.5f);
     const float x = turns - 0.25f * quarter;  // from −1/8 to 1/8
     const float z = x * x;
@@ -23,7 +23,7 @@ inline float2 circle_point(float turns) {
 
 /// The angle from the x axis to (x, y), from −1/2 to 1/2 turns; 0 at the origin. The error is below 5e-8, and
 /// below 1e-6 of a small angle.
-inline float turns_of_point(float x, float y) {
+static inline float turns_of_point(float x, float y) {
     const float wide = fmax(fabs(x), fabs(y));
     const float t = wide > 0.0f ? fmin(fabs(x), fabs(y)) / wide : 0.0f;
     const float z = t * t;
@@ -43,7 +43,7 @@ inline float turns_of_point(float x, float y) {
 
 /// The angle whose cosine is given, from 0 to 1/2 turns. A cosine beyond ±1 counts as ±1. The error is below
 /// 1e-7.
-inline float turns_of_cosine(float cosine) {
+static inline float turns_of_cosine(float cosine) {
     const float x = fmin(fabs(cosine), 1.0f);
     float series = fma(-2.29416169e-4f, x, 1.15314084e-3f);
     series = fma(series, x, -2.83437658e-3f);

@@ -41,8 +41,8 @@ typedef struct Places {
 } Places;
 
 /// Loads the receivers of a bundle from `first` on; those beyond its last packet are absent.
-inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, const Bundle* bundle,
-                           uint first) {
+static inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, const Bundle* bundle,
+                                  uint first) {
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         const uint lane = first + 16 * row;
         const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
@@ -59,7 +59,7 @@ inline void load_receivers(Receivers* to, const global ReceiverPacket* packets, 
     }
 }
 
-inline void place_receivers(Places* places, const Receivers* receivers) {
+static inline void place_receivers(Places* places, const Receivers* receivers) {
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         const float16 x = receivers->x[row], y = receivers->y[row], z = receivers->z[row];
         const int16 present =
@@ -73,7 +73,8 @@ inline void place_receivers(Places* places, const Receivers* receivers) {
 }
 
 /// The box of `count` places. Where no receiver is present, it is inverted: low is +∞ and high is −∞.
-inline void bound_places(const Places* places, const uchar* order, uint count, float3* low, float3* high) {
+static inline void bound_places(const Places* places, const uchar* order, uint count, float3* low,
+                                float3* high) {
     *low = (float3)INFINITY;
     *high = (float3)-INFINITY;
     for (uint i = 0; i < count; ++i) {
@@ -85,7 +86,7 @@ inline void bound_places(const Places* places, const uchar* order, uint count, f
 
 /// Sorts `order` by ascending `key`, to the precision of ORDER_BINS equal steps from `low` to `high`.
 #define ORDER_BINS 64
-inline void order_by(const float* key, float low, float high, uchar* order, uint count) {
+static inline void order_by(const float* key, float low, float high, uchar* order, uint count) {
     ushort ends[ORDER_BINS + 1];
     uchar bins[GATHER_BEAM_WIDTH], sorted[GATHER_BEAM_WIDTH];
     for (uint i = 0; i <= ORDER_BINS; ++i) {
@@ -107,13 +108,13 @@ inline void order_by(const float* key, float low, float high, uchar* order, uint
     }
 }
 
-inline float component(float3 v, uint axis) {
+static inline float component(float3 v, uint axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
 /// Puts `order` into the order of the clusters: four slices along the longest side of the box, each cut in
 /// four along its own longest side.
-inline void find_clusters(const Places* places, uchar* order) {
+static inline void find_clusters(const Places* places, uchar* order) {
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         order[i] = (uchar)i;
     }
@@ -128,7 +129,7 @@ inline void find_clusters(const Places* places, uchar* order) {
     }
 }
 
-inline void permute(float16* lanes, const uchar* order) {
+static inline void permute(float16* lanes, const uchar* order) {
     float unordered[GATHER_BEAM_WIDTH];
     for (uint row = 0; row < GATHER_ROWS; ++row) {
         vstore16(lanes[row], row, unordered);
@@ -139,8 +140,8 @@ inline void permute(float16* lanes, const uchar* order) {
 }
 
 /// Loads the receivers of a beam in the order of their clusters, and computes their bounds.
-inline void gather_receivers(Receivers* receivers, BeamBounds* bounds, const global ReceiverPacket* packets,
-                             const Bundle* bundle, uint first) {
+static inline void gather_receivers(Receivers* receivers, BeamBounds* bounds,
+                                    const global ReceiverPacket* packets, const Bundle* bundle, uint first) {
     Places places;
     load_receivers(receivers, packets, bundle, first);
     place_receivers(&places, receivers);
@@ -169,8 +170,8 @@ inline void gather_receivers(Receivers* receivers, BeamBounds* bounds, const glo
 
 /// Loads the thresholds of receivers that gather_receivers() has put in order. `thresholds` has one number
 /// for each receiver of all packets.
-inline void load_thresholds(Receivers* receivers, const global float* thresholds, const Bundle* bundle,
-                            uint first) {
+static inline void load_thresholds(Receivers* receivers, const global float* thresholds, const Bundle* bundle,
+                                   uint first) {
     float lanes[GATHER_BEAM_WIDTH];
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint lane = first + receivers->order[i];
@@ -183,8 +184,8 @@ inline void load_thresholds(Receivers* receivers, const global float* thresholds
 }
 
 /// Loads the transmission curves of receivers that gather_receivers() has put in order.
-inline void load_curves(Receivers* receivers, const global ReceiverPacket* packets, const Bundle* bundle,
-                        uint first) {
+static inline void load_curves(Receivers* receivers, const global ReceiverPacket* packets,
+                               const Bundle* bundle, uint first) {
     receivers->curved_rows = 0;
     for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
         const uint lane = first + receivers->order[i];

@@ -13,7 +13,7 @@ typedef struct Bundle {
 } Bundle;
 
 /// The bundle with the number `index`. The last one may be incomplete.
-inline Bundle bundle_at(uint index, uint packet_count) {
+static inline Bundle bundle_at(uint index, uint packet_count) {
     const uint first = index * NEARLIGHT_BUNDLE_PACKETS;
     const uint there = first < packet_count ? packet_count - first : 0;
     const Bundle bundle = {first, min(there, (uint)NEARLIGHT_BUNDLE_PACKETS)};
@@ -22,8 +22,8 @@ inline Bundle bundle_at(uint index, uint packet_count) {
 
 /// A uniform number in [0, 1) for a bundle and one purpose. It is a hash of where the bundle's receivers are,
 /// so that no division of a picture changes it.
-inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed,
-                           uint purpose) {
+static inline float bundle_number(const global ReceiverPacket* packets, const Bundle* bundle, uint seed,
+                                  uint purpose) {
     uint4 key = (uint4)(seed, purpose, 0, 0);
     for (uint i = 0; i < bundle->count; ++i) {
         const global ReceiverPacket* packet = packets + bundle->first + i;
@@ -44,15 +44,15 @@ typedef struct Stratum {
 
 /// The stratum of a bundle. `strata` has the strata of the bundles 0 to period − 1, which repeat; it is not
 /// read if there is only one.
-inline Stratum stratum_of(uint bundle, uint vpl_count, uint stratum_count, const global uint* strata,
-                          uint period) {
+static inline Stratum stratum_of(uint bundle, uint vpl_count, uint stratum_count, const global uint* strata,
+                                 uint period) {
     const uint first = stratum_count > 1 ? strata[bundle % period] : 0;
     const Stratum stratum = {first, stratum_count,
                              first < vpl_count ? (vpl_count - first - 1) / stratum_count + 1 : 0};
     return stratum;
 }
 
-inline uint vpl_of_stratum(const Stratum* stratum, uint k) {
+static inline uint vpl_of_stratum(const Stratum* stratum, uint k) {
     return stratum->first + k * stratum->step;
 }
 

@@ -10,8 +10,8 @@
 
 /// Entry distance of the ray into the box, or infinity if it misses. t_max must be finite, so that the two
 /// differ.
-inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min,
-                       float t_max) {
+static inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 reciprocal, float t_min,
+                              float t_max) {
     const float3 t0 = (load3(box_min) - origin) * reciprocal;
     const float3 t1 = (load3(box_max) - origin) * reciprocal;
     const float3 near3 = fmin(t0, t1);
@@ -23,8 +23,8 @@ inline float enter_box(Vec3 box_min, Vec3 box_max, float3 origin, float3 recipro
 
 /// Möller–Trumbore test of both sides of a triangle, for t strictly inside (t_min, t_max). It divides only if
 /// the triangle is hit; otherwise it returns false and leaves `hit` as it is.
-inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, float3 direction, float t_min,
-                         float t_max, RayHit* hit) {
+static inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, float3 direction,
+                                float t_min, float t_max, RayHit* hit) {
     const float3 edge1 = load3(triangle->edge1);
     const float3 edge2 = load3(triangle->edge2);
     const float3 normal = load3(triangle->normal);
@@ -48,8 +48,8 @@ inline bool hit_triangle(const global BvhTriangle* triangle, float3 origin, floa
 }
 
 /// True if anything lies on the ray strictly inside (t_min, t_max).
-inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
-                     float3 direction, float t_min, float t_max) {
+static inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
+                            float3 direction, float t_min, float t_max) {
     if (!is_finite_ray(origin, direction, t_max)) {
         return false;
     }
@@ -93,8 +93,8 @@ inline bool occluded(const global BvhNode* nodes, const global BvhTriangle* tria
 }
 
 /// The closest hit strictly inside (t_min, t_max). Its slot is ~0u if nothing is hit.
-inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles, float3 origin,
-                          float3 direction, float t_min, float t_max) {
+static inline RayHit closest_hit(const global BvhNode* nodes, const global BvhTriangle* triangles,
+                                 float3 origin, float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
     if (!is_finite_ray(origin, direction, t_max)) {
         return best;

@@ -26,7 +26,7 @@ typedef struct CameraRay {
 } CameraRay;
 
 /// The integral of a table's filter from 0 to x pixels, which is odd in x.
-inline float filter_integral(const global Camera* camera, const global float* table, float x) {
+static inline float filter_integral(const global Camera* camera, const global float* table, float x) {
     const float place = fmin(fabs(x) / camera->filter_radius, 1.0f) * NEARLIGHT_FILTER_CELLS;
     const uint cell = min((uint)place, NEARLIGHT_FILTER_CELLS - 1u);
     return copysign(mix(table[cell], table[cell + 1], place - (float)cell), x);
@@ -34,7 +34,7 @@ inline float filter_integral(const global Camera* camera, const global float* ta
 
 /// The offset from the middle of the pixel whose integral of the filter's absolute value is `wanted`. `sign`
 /// gets that of the filter there.
-inline float invert_filter(const global Camera* camera, float wanted, float* sign) {
+static inline float invert_filter(const global Camera* camera, float wanted, float* sign) {
     const global float* table = camera->filter_absolute;
     const float absolute = fabs(wanted);
     uint cell = 0;
@@ -51,8 +51,8 @@ inline float invert_filter(const global Camera* camera, float wanted, float* sig
 
 /// A sample along one axis, for the pixel with the middle `center` on a film from film_min to film_max. The
 /// result is its place, and its weight is multiplied to `weight`.
-inline float sample_filter(const global Camera* camera, float center, float film_min, float film_max, float u,
-                           float* weight) {
+static inline float sample_filter(const global Camera* camera, float center, float film_min, float film_max,
+                                  float u, float* weight) {
     const float low = fmax(film_min - center, -camera->filter_radius);
     const float high = fmin(film_max - center, camera->filter_radius);
     const float from = filter_integral(camera, camera->filter_absolute, low);
@@ -66,7 +66,7 @@ inline float sample_filter(const global Camera* camera, float center, float film
 }
 
 /// The film sample of pixel (x, y) for the random point u.
-inline FilmSample sample_film(const global Camera* camera, uint x, uint y, float2 u) {
+static inline FilmSample sample_film(const global Camera* camera, uint x, uint y, float2 u) {
     FilmSample sample;
     sample.weight = 1.0f;
     sample.is_in_own_pixel = true;
@@ -86,7 +86,7 @@ inline FilmSample sample_film(const global Camera* camera, uint x, uint y, float
 }
 
 /// The film sample in the middle of pixel (x, y), which stands for the whole pixel.
-inline FilmSample middle_of_pixel(uint x, uint y) {
+static inline FilmSample middle_of_pixel(uint x, uint y) {
     FilmSample sample;
     sample.position = (float2)((float)x + 0.5f, (float)y + 0.5f);
     sample.weight = 1.0f;
@@ -95,7 +95,7 @@ inline FilmSample middle_of_pixel(uint x, uint y) {
 }
 
 /// A point of the unit disc, uniformly. [Shirley & Chiu, A Low Distortion Map Between Disk and Square, 1997]
-inline float2 square_to_disc(float2 u) {
+static inline float2 square_to_disc(float2 u) {
     const float2 p = 2.0f * u - 1.0f;
     if (p.x == 0.0f && p.y == 0.0f) {
         return p;
@@ -107,7 +107,7 @@ inline float2 square_to_disc(float2 u) {
 }
 
 /// The ray through a film position, from the place on the lens that the random point `lens` stands for.
-inline CameraRay camera_ray(const global Camera* camera, float2 film, float2 lens) {
+static inline CameraRay camera_ray(const global Camera* camera, float2 film, float2 lens) {
     CameraRay ray;
     const float3 forward = load3(camera->forward);
     const float3 d = load3(camera->corner) + film.x * load3(camera->step_x) + film.y * load3(camera->step_y);

@@ -15,8 +15,8 @@ typedef struct CameraSample {
 } CameraSample;
 
 /// Sample number `sample` of pixel (x, y), of the `sequence_length` samples that have the seed.
-inline CameraSample camera_sample(const global Camera* camera, uint x, uint y, uint sample,
-                                  uint sequence_length, uint seed) {
+static inline CameraSample camera_sample(const global Camera* camera, uint x, uint y, uint sample,
+                                         uint sequence_length, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraSample start;
     start.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
@@ -29,17 +29,18 @@ inline CameraSample camera_sample(const global Camera* camera, uint x, uint y, u
 }
 
 /// Random numbers of a path at surface number `step`. The first of them decides at masks and blends.
-inline uint4 surface_random(uint key, uint step) {
+static inline uint4 surface_random(uint key, uint step) {
     return random_uint4((uint4)(key, step, 0x5f3759u, 0x1u));
 }
 
-inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
+static inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {
     return max_component(load3(scene->materials[hit->material].emission.value)) > 0.0f;
 }
 
 /// The first surface that the camera sees. Where emitters are hidden, it lies behind all of them, and clip
 /// planes end at the first one, as in Mitsuba.
-inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera, const CameraRay* ray) {
+static inline SurfaceHit trace_first(const SceneView* scene, const global Camera* camera,
+                                     const CameraRay* ray) {
     SurfaceHit hit = trace_between(scene, ray->origin, ray->direction, ray->t_min, ray->t_max);
     for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
         const float passed = hit.t;

@@ -5,7 +5,7 @@
 #define NEARLIGHT_LIB_CHUNK
 
 /// The first element of run `chunk`, which is also the end of the run before it. It is never beyond `count`.
-inline uint chunk_begin(uint chunk, uint chunk_size, uint count) {
+static inline uint chunk_begin(uint chunk, uint chunk_size, uint count) {
     return (uint)min((ulong)chunk * chunk_size, (ulong)count);
 }
 

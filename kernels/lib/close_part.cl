@@ -12,7 +12,7 @@
 #define ROUNDING_MARGIN 4e-6f
 
 /// How far rounding can move points of a triangle with these corners against the planes of the region, m.
-inline float close_margin(const global CloseRange* region, float3 a, float3 b, float3 c) {
+static inline float close_margin(const global CloseRange* region, float3 a, float3 b, float3 c) {
     const float3 origin = load3(region->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     return ROUNDING_MARGIN * max_component(reach);
@@ -21,7 +21,7 @@ inline float close_margin(const global CloseRange* region, float3 a, float3 b, f
 /// The part of a triangle between the planes of the region, the sphere of the range among them as the plane
 /// that faces the camera at that distance. It holds all points of the triangle that in_close_range() accepts.
 /// A vertex (u, v, 0) of the polygon is the point a + u · (b − a) + v · (c − a).
-inline Polygon close_part(const global CloseRange* region, float3 a, float3 b, float3 c) {
+static inline Polygon close_part(const global CloseRange* region, float3 a, float3 b, float3 c) {
     const float3 origin = load3(region->origin);
     const float margin = close_margin(region, a, b, c);
     Polygon part;
@@ -41,14 +41,14 @@ inline Polygon close_part(const global CloseRange* region, float3 a, float3 b, f
 }
 
 /// Twice the signed area of the triangle of vertices 0, i + 1 and i + 2 of a polygon in a plane z = const.
-inline float fan_area(const Polygon* polygon, uint i) {
+static inline float fan_area(const Polygon* polygon, uint i) {
     const float3 s = polygon->vertices[i + 1] - polygon->vertices[0];
     const float3 t = polygon->vertices[i + 2] - polygon->vertices[0];
     return s.x * t.y - s.y * t.x;
 }
 
 /// The area of a part as a fraction of its triangle's.
-inline float part_of_area(const Polygon* part) {
+static inline float part_of_area(const Polygon* part) {
     float sum = 0.0f;
     for (uint i = 0; i + 2 < part->count; ++i) {
         sum += fan_area(part, i);
@@ -57,7 +57,7 @@ inline float part_of_area(const Polygon* part) {
 }
 
 /// A uniform point of a part, (u, v).
-inline float2 square_to_part(const Polygon* part, float2 u) {
+static inline float2 square_to_part(const Polygon* part, float2 u) {
     float at = u.x * part_of_area(part);
     uint i = 0;
     while (i + 3 < part->count && at >= fan_area(part, i)) {

@@ -6,7 +6,7 @@
 
 #include "lib/math.cl"
 
-inline bool in_close_range(const global CloseRange* region, float3 p) {
+static inline bool in_close_range(const global CloseRange* region, float3 p) {
     const float3 q = p - load3(region->origin);
     bool inside = true;
     for (int i = 0; i < 5; ++i) {

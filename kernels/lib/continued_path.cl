@@ -4,6 +4,7 @@
 #ifndef NEARLIGHT_LIB_CONTINUED_PATH
 #define NEARLIGHT_LIB_CONTINUED_PATH
 
+#include "lib/outlined.cl"
 #include "lib/receiver_point.cl"
 #include "lib/shared_light.cl"
 #include "lib/shared_reflection.cl"
@@ -13,7 +14,7 @@
 
 /// Ends weak paths by chance, before anything is spent on the light that their surface reflects. `albedo` is
 /// about what the surface reflects of all light. Returns false where this path ends.
-inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
+static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
     const float part = carried_part(ray, albedo) / first_weight;
     const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(0.95f, part);
     if (!(u < survival)) {
@@ -49,8 +50,8 @@ typedef struct Continuation {
 /// brings the rest: all of it where a map turns the normal of the first surface for this viewer. They bring
 /// too much where a map shadows the receiver, and on paths that are too long for a receiver behind mirrors or
 /// glass. There the ray takes light away, by chance `u`, or else brings what is left of the others.
-inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
-                                        const RayShare* share, float u) {
+static inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
+                                               const RayShare* share, float u) {
     const bool has_specular = scene->info->has_specular;
     const float of_vpls = first->mapped == MAPPED_TURNED ? 0.0f : share->of_vpls;
     const float kept = fmax(1.0f - of_vpls, 0.0f);
@@ -81,7 +82,7 @@ inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsd
 
 /// Decides between the parts of a first surface whose Lambertian part sends its light to all receivers of the
 /// bundle.
-inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* way) {
+static inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* way) {
     const float chance = first->s_share > 0.0f ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
     way->is_found = u < chance;
     way->parts = way->is_found ? BSDF_D : BSDF_S;
@@ -92,13 +93,13 @@ inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* 
 }
 
 /// Whether VPLs bring all light of the Lambertian part of a first surface whose normal no map turned.
-inline bool vpls_bring_diffuse(const RayShare* share) {
+static inline bool vpls_bring_diffuse(const RayShare* share) {
     return share->of_vpls == 1.0f && share->vpl_edges <= share->max_edges;
 }
 
 /// The first surface that a ray met, and how the ray goes on from it.
-inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
-                                 const RayShare* share, float2 u, Continuation* way) {
+static inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                        const RayShare* share, float2 u, Continuation* way) {
     SurfaceBsdf surface =
         surface_bsdf_of(scene, hit, direction, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
     *way = choose_continuation(scene, &surface, share, u.y);
@@ -111,9 +112,9 @@ inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, 
 
 /// What a light sample at the surface number `surfaces` of a path sends back along it. Through veils that
 /// make the path longer than RayShare.max_edges, the light counts as that of a long path.
-inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                               uint parts, const RayShare* share, const Continuation* way, uint surfaces,
-                               uint seed) {
+static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit,
+                                      const SurfaceBsdf* surface, uint parts, const RayShare* share,
+                                      const Continuation* way, uint surfaces, uint seed) {
     const bool is_near = surfaces < share->max_edges;
     const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
     float3 sum = (float3)(0.0f);
@@ -140,8 +141,8 @@ typedef struct BundlePath {
 
 /// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing
 /// else is left on this way.
-inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x, float3 y,
-                               const Continuation* way) {
+static inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x,
+                                      float3 y, const Continuation* way) {
     const bool is_alone = (way->parts & BSDF_S) && way->far_scale == 0.0f &&
                           (!(way->parts & BSDF_D) || is_black(surface->bsdf.diffuse));
     return found->light.is_wanted && is_alone && !surface->mapped &&
@@ -150,9 +151,9 @@ inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* 
 
 /// Begins the bundle's path at the first surface of a receiver's ray, if it is one. Part of these paths end
 /// there: then no part of the surface is left.
-inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
-                                    const SurfaceHit* hit, const SurfaceBsdf* surface, float model, float u,
-                                    Continuation* way) {
+static inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
+                                           const SurfaceHit* hit, const SurfaceBsdf* surface, float model,
+                                           float u, Continuation* way) {
     const float3 y = offset_point(scene, hit->position, hit->geometric);
     BundlePath path;
     path.is_one = reflects_to_bundle(found, surface, x, y, way);
@@ -166,9 +167,10 @@ inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflectio
 
 /// Takes what a light sample sends to the first surface of a bundle's path into the draw. The path counts
 /// `scale` times.
-inline void find_reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                                  const GlossyPlace* place, const LightSample* light, uint max_veils,
-                                  float scale, float u, FoundReflection* found) {
+static inline void find_reflected_sample(const SceneView* scene, const SurfaceHit* hit,
+                                         const SurfaceBsdf* surface, const GlossyPlace* place,
+                                         const LightSample* light, uint max_veils, float scale, float u,
+                                         FoundReflection* found) {
     if (!may_shine(light) || !(light->pdf > 0.0f) || !(dot(surface->frame.n, light->direction) > 0.0f)) {
         return;
     }
@@ -185,9 +187,9 @@ inline void find_reflected_sample(const SceneView* scene, const SurfaceHit* hit,
 }
 
 /// The same for all that reflected_light() asks lights with one sample.
-inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                                  const GlossyPlace* place, uint max_veils, float scale, uint seed,
-                                  FoundReflection* found) {
+static inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit,
+                                         const SurfaceBsdf* surface, const GlossyPlace* place, uint max_veils,
+                                         float scale, uint seed, FoundReflection* found) {
     const uint exact = exact_light_count(scene);
     const uint count = exact + (has_sampled_lights(scene) ? 1 : 0);
     for (uint i = 0; i < count; ++i) {
@@ -220,7 +222,7 @@ typedef struct PathNumbers {
     uint light_seed;
 } PathNumbers;
 
-inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
+static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
     const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
     const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
     const uint4 of_bundle = random_uint4(more ^ 0xd4a35u);
@@ -239,8 +241,8 @@ inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
 /// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
 /// bundle's goes into the draw.
-inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surfaces, float scale, float u,
-                          FoundReflection* found) {
+static inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surfaces, float scale,
+                                 float u, FoundReflection* found) {
     const PathRay* ray = &path->ray;
     const MetLight met = find_met_light(scene, ray, &path->hit);
     const float3 brought = scale * ray->throughput * met.radiance;
@@ -256,9 +258,9 @@ inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surf
 /// Adds the light of lamps that a surface of the path reflects, and scatters the ray there. At the first
 /// surface of a bundle's path the light goes into the draw, and the ray goes on to bring all that arrives
 /// there. Returns false where the path ends.
-inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path, const SurfaceBsdf* surface,
-                                uint parts, const RayShare* share, uint surfaces, const PathNumbers* numbers,
-                                FoundReflection* found) {
+static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path,
+                                       const SurfaceBsdf* surface, uint parts, const RayShare* share,
+                                       uint surfaces, const PathNumbers* numbers, FoundReflection* found) {
     const float3 before = path->ray.throughput;
     const float survived = max_component(before) / path->first_weight;
     const bool begins_bundle_path = path->of_bundle.is_one && surfaces == 1;
@@ -284,8 +286,8 @@ inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path, con
 }
 
 /// Follows the path over one surface to the next. Returns false where it ends.
-inline bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
-                         uint4 keys, FoundReflection* found) {
+OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
+                           uint4 keys, FoundReflection* found) {
     const PathNumbers numbers = path_numbers(keys, surfaces);
     SurfaceBsdf surface;
     uint parts = BSDF_D | BSDF_S;
@@ -313,16 +315,16 @@ inline bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayS
 }
 
 /// Whether a ray may bring anything over surfaces besides what VPLs bring.
-inline bool brings_more(const SceneView* scene, const RayShare* share) {
+static inline bool brings_more(const SceneView* scene, const RayShare* share) {
     return share->of_vpls != 1.0f || scene->info->has_specular || scene->info->has_maps ||
            share->vpl_edges > share->max_edges;
 }
 
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
 /// the bundle is left out.
-inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                     const RayShare* share, uint4 keys, Continuation* first_way,
-                                     FoundReflection* found) {
+static inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
+                                            const RayShare* share, uint4 keys, Continuation* first_way,
+                                            FoundReflection* found) {
     ContinuedPath path;
     path.ray = ray;
     path.hit = hit;

@@ -7,7 +7,7 @@
 #include "shared/material.h"
 
 /// T(cosine) of the curve `row`; row 0 is all ones.
-inline float curve_value(const global float* curves, uint row, float cosine) {
+static inline float curve_value(const global float* curves, uint row, float cosine) {
     if (row == 0) {
         return 1.0f;
     }

@@ -33,8 +33,8 @@ typedef struct Emission {
 #define CUT_DEFENCE 0.0625f
 
 /// The receivers of 16 lanes of a packet.
-inline void add_cluster(BundleClusters* clusters, uint index, const global ReceiverPacket* packet,
-                        uint first_lane) {
+static inline void add_cluster(BundleClusters* clusters, uint index, const global ReceiverPacket* packet,
+                               uint first_lane) {
     float3 center = (float3)0.0f, normal = (float3)0.0f;
     uint count = 0;
     for (uint lane = first_lane; lane < first_lane + 16; ++lane) {
@@ -73,7 +73,7 @@ inline void add_cluster(BundleClusters* clusters, uint index, const global Recei
     ((float*)&clusters->share)[index] = (float)count;
 }
 
-inline BundleClusters clusters_of(const global ReceiverPacket* packets, const Bundle* bundle) {
+static inline BundleClusters clusters_of(const global ReceiverPacket* packets, const Bundle* bundle) {
     BundleClusters clusters;
     clusters.share = (float16)0.0f;
     clusters.x = clusters.y = clusters.z = (float16)0.0f;
@@ -93,7 +93,7 @@ inline BundleClusters clusters_of(const global ReceiverPacket* packets, const Bu
     return clusters;
 }
 
-inline Emission emission_of_node(const global CutNode* node) {
+static inline Emission emission_of_node(const global CutNode* node) {
     const float3 low = load3(node->low);
     const float3 high = load3(node->high);
     Emission emission;
@@ -107,7 +107,7 @@ inline Emission emission_of_node(const global CutNode* node) {
 
 /// The bounded geometry term of clusters at a distance, with cosines as numerators: each still has a factor
 /// of the distance.
-inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl, float16 min_square) {
+static inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl, float16 min_square) {
     const float16 scale = 1.0f / fmax(distance, (float16)1e-30f);
     return clamp(to_receiver * scale, 0.0f, 1.0f) * clamp(from_vpl * scale, 0.0f, 1.0f) /
            fmax(distance * distance, min_square);
@@ -116,7 +116,8 @@ inline float16 cut_term(float16 distance, float16 to_receiver, float16 from_vpl,
 /// The estimated mean over the bundle's receivers of the light that VPLs could bring. It is 0 only where none
 /// of them brings any: cosines are estimated from the centres of spheres, and numerators are greater by at
 /// most the radii, and by the spread of normals times the distance, for any pair of points in the spheres.
-inline float cut_bound(const BundleClusters* clusters, const Emission* from, float clamp_radius_squared) {
+static inline float cut_bound(const BundleClusters* clusters, const Emission* from,
+                              float clamp_radius_squared) {
     const float16 dx = from->center.x - clusters->x;
     const float16 dy = from->center.y - clusters->y;
     const float16 dz = from->center.z - clusters->z;

@@ -6,7 +6,7 @@
 /// Reflectance at a smooth boundary between dielectrics. `eta` is the index on the far side ÷ that on the
 /// near side. `cos_far` gets the cosine on the far side. Under total reflection, the reflectance is 1 and
 /// `cos_far` 0.
-inline float fresnel_dielectric(float cos_near, float eta, float* cos_far) {
+static inline float fresnel_dielectric(float cos_near, float eta, float* cos_far) {
     const float sin2_far = (1.0f - cos_near * cos_near) / (eta * eta);
     if (sin2_far >= 1.0f) {
         *cos_far = 0.0f;
@@ -20,7 +20,7 @@ inline float fresnel_dielectric(float cos_near, float eta, float* cos_far) {
 
 /// Reflectance of a metal with the index eta + i·k, colour by colour. [Born & Wolf, Principles of Optics,
 /// §14.2]
-inline float3 fresnel_conductor(float cosine, float3 eta, float3 k) {
+static inline float3 fresnel_conductor(float cosine, float3 eta, float3 k) {
     const float cos2 = cosine * cosine;
     const float sin2 = 1.0f - cos2;
     const float3 t0 = eta * eta - k * k - sin2;

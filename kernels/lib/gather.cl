@@ -19,7 +19,7 @@
 #define GATHER_RECORD_OCCLUDED 2
 #ifdef GATHER_RECORD
 #define GATHER_RECORD_PARAMETERS , global uchar* record
-inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint lane) {
+static inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint lane) {
     return ((size_t)packet * vpl_count + vpl) * NEARLIGHT_PACKET_SIZE + lane;
 }
 #else
@@ -32,7 +32,7 @@ inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint la
 #ifdef GATHER_LISTS
 #define GATHER_LIST_PARAMETERS \
     , const global uint *listed_vpls, const global float *list_weights, const global uint *list_lengths
-inline size_t gather_list(uint bundle, const GatherParams* params) {
+static inline size_t gather_list(uint bundle, const GatherParams* params) {
     return (size_t)(bundle - params->first_listed_bundle) * params->list_stride;
 }
 #define GATHER_COUNT(bundle, params, stratum) \
@@ -46,30 +46,30 @@ inline size_t gather_list(uint bundle, const GatherParams* params) {
 #define GATHER_WEIGHT(bundle, params, stratum, k) ((float)(stratum)->step)
 #endif
 
-inline Stratum gather_stratum(uint bundle, const GatherParams* params, const global uint* strata) {
+static inline Stratum gather_stratum(uint bundle, const GatherParams* params, const global uint* strata) {
     return stratum_of(bundle, params->vpl_count, params->strata, strata, params->stratum_period);
 }
 
 /// The number of VPLs that are summed by themselves: `group_size`, or GATHER_CHUNK where that is 0.
-inline uint gather_chunk_size(uint group_size) {
+static inline uint gather_chunk_size(uint group_size) {
     return group_size != 0 ? group_size : GATHER_CHUNK;
 }
 
 /// An importon as the gather reads it. The struct Importon in shared/types.h has the members of a Vpl in the
 /// same places.
-inline const global Vpl* as_source(const global Importon* importon) {
+static inline const global Vpl* as_source(const global Importon* importon) {
     return (const global Vpl*)importon;
 }
 
 /// Whether the gather sums squares of the geometry term, which tell the error that a VPL would leave, instead
 /// of light.
-inline bool gather_squared(const global Vpl* vpl) {
+static inline bool gather_squared(const global Vpl* vpl) {
     return (vpl->flags & NEARLIGHT_IMPORTON_SQUARED) != 0;
 }
 
 /// Radiant intensity of the VPL along its normal, W/sr, or 0 if its power is not finite, so that the VPL is
 /// left out.
-inline float3 gather_scale(const global Vpl* vpl) {
+static inline float3 gather_scale(const global Vpl* vpl) {
     const float3 power = load3(vpl->power);
     const bool finite = isfinite(power.x) && isfinite(power.y) && isfinite(power.z);
     return finite ? power * M_1_PI_F : (float3)0.0f;
@@ -77,14 +77,14 @@ inline float3 gather_scale(const global Vpl* vpl) {
 
 /// The factor from the square of a pair's geometry term to the square of the pair's light, R, G and B
 /// together. `scale` comes from gather_scale().
-inline float gather_square_scale(const global Vpl* vpl, float3 scale) {
+static inline float gather_square_scale(const global Vpl* vpl, float3 scale) {
     return gather_squared(vpl) ? scale.x + scale.y + scale.z : dot(scale, scale);
 }
 
 /// Squares of the geometry terms of the VPL and the 16 receivers of a row of the packet, without visibility.
 /// They are 0 where a cosine is not positive or the term is not finite.
-inline float16 squared_terms(const global Vpl* vpl, const global ReceiverPacket* packet, uint row,
-                             float clamp_radius_squared) {
+static inline float16 squared_terms(const global Vpl* vpl, const global ReceiverPacket* packet, uint row,
+                                    float clamp_radius_squared) {
     const float3 origin = load3(vpl->position);
     const float3 vpl_normal = load3(vpl->normal);
     const float16 dx = vload16(row, packet->px) - origin.x;

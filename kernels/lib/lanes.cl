@@ -35,7 +35,7 @@ typedef float LanesFloat4 __attribute__((__vector_size__(16)));
 
 /// Marks functions that inner loops call. Left to itself, the compiler makes calls of large functions, and
 /// every call spills registers.
-#define LANES_INLINE inline __attribute__((always_inline))
+#define LANES_INLINE static inline __attribute__((always_inline))
 
 // Each of these comparisons compiles to one instruction; fmin() and fmax() have to handle NaN.
 LANES_INLINE float16 min16(float16 a, float16 b) {

@@ -24,7 +24,7 @@ typedef struct Landing {
 
 /// Follows the particle to the surface that it meets, of whose BSDFs `u` chooses where there are several.
 /// Returns false, with `at` undefined, if there is none.
-inline bool land(const SceneView* scene, const EmittedParticle* particle, float u, Landing* at) {
+static inline bool land(const SceneView* scene, const EmittedParticle* particle, float u, Landing* at) {
     at->hit = trace_surface(scene, particle->origin, particle->direction, INFINITY);
     if (at->hit.t < 0.0f) {
         return false;
@@ -35,7 +35,7 @@ inline bool land(const SceneView* scene, const EmittedParticle* particle, float 
 
 /// What a map lets a VPL have of the light that it stands for. The VPL has the normal as it is mapped for
 /// all viewers, even for those few who see that normal from behind.
-inline float deposit_factor(const SurfaceBsdf* s) {
+static inline float deposit_factor(const SurfaceBsdf* s) {
     if (!s->mapped) {
         return 1.0f;
     }
@@ -46,7 +46,8 @@ inline float deposit_factor(const SurfaceBsdf* s) {
 
 /// What the Lambertian part reflects of the particle's flux, before the transmission on the way out; 0 where
 /// there is no such part.
-inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* particle, const Landing* at) {
+static inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* particle,
+                                    const Landing* at) {
     const Bsdf* bsdf = &at->surface.bsdf;
     const float geometric = -dot(at->hit.geometric, particle->direction);
     const float shading = -dot(at->surface.frame.n, particle->direction);
@@ -59,7 +60,8 @@ inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* part
 }
 
 /// The deposit of a particle: the VPL that it leaves where it landed.
-inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, uint flags, float3 power) {
+static inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, uint flags,
+                               float3 power) {
     const float3 normal = at->hit.geometric;
     return make_vpl(offset_point(scene, at->hit.position, normal), normal, at->surface.frame.n,
                     at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
@@ -69,7 +71,8 @@ inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, u
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
 /// straight through veils.
-inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u, float2 v) {
+static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u,
+                           float2 v) {
     const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
     const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;

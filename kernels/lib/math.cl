@@ -5,29 +5,29 @@
 
 #include "shared/types.h"
 
-inline float3 load3(Vec3 v) {
+static inline float3 load3(Vec3 v) {
     return (float3)(v.x, v.y, v.z);
 }
-inline Vec3 store3(float3 v) {
+static inline Vec3 store3(float3 v) {
     Vec3 result;
     result.x = v.x;
     result.y = v.y;
     result.z = v.z;
     return result;
 }
-inline float max_component(float3 v) {
+static inline float max_component(float3 v) {
     return fmax(v.x, fmax(v.y, v.z));
 }
-inline float luminance(float3 c) {
+static inline float luminance(float3 c) {
     return dot(c, (float3)(0.2126f, 0.7152f, 0.0722f));
 }
-inline bool is_black(float3 c) {
+static inline bool is_black(float3 c) {
     return !(max_component(c) > 0.0f);
 }
 
 /// How far a point must stand off its surface, in metres, so that rays from it do not meet that surface
 /// again. host/scene/ray_epsilon.h has the same formula.
-inline float ray_epsilon(float3 p, float extent) {
+static inline float ray_epsilon(float3 p, float extent) {
     return 2e-5f * fmax(max_component(fabs(p)), 0.05f * extent);
 }
 
@@ -36,7 +36,7 @@ inline float ray_epsilon(float3 p, float extent) {
 typedef struct Frame {
     float3 tangent, bitangent, n;
 } Frame;
-inline Frame make_frame(float3 n) {
+static inline Frame make_frame(float3 n) {
     const float s = n.z < 0.0f ? -1.0f : 1.0f;
     const float a = -1.0f / (s + n.z);
     const float b = n.x * n.y * a;
@@ -46,28 +46,28 @@ inline Frame make_frame(float3 n) {
     frame.n = n;
     return frame;
 }
-inline float3 frame_to_world(const Frame* frame, float3 v) {
+static inline float3 frame_to_world(const Frame* frame, float3 v) {
     return v.x * frame->tangent + v.y * frame->bitangent + v.z * frame->n;
 }
-inline float3 world_to_frame(const Frame* frame, float3 v) {
+static inline float3 world_to_frame(const Frame* frame, float3 v) {
     return (float3)(dot(v, frame->tangent), dot(v, frame->bitangent), dot(v, frame->n));
 }
 /// Converts a vector from the frame about n to world space.
-inline float3 to_world_frame(float3 v, float3 n) {
+static inline float3 to_world_frame(float3 v, float3 n) {
     const Frame frame = make_frame(n);
     return frame_to_world(&frame, v);
 }
 
 /// A unit vector in two numbers of 16 bits, by the octahedral map [Cigolle et al., A Survey of Efficient
 /// Representations for Independent Unit Vectors, JCGT 2014]. Its error is below 1e-4.
-inline uint pack_direction(float3 d) {
+static inline uint pack_direction(float3 d) {
     const float2 plane = d.xy / fmax(fabs(d.x) + fabs(d.y) + fabs(d.z), 1e-20f);
     const float2 sign = (float2)(plane.x < 0.0f ? -1.0f : 1.0f, plane.y < 0.0f ? -1.0f : 1.0f);
     const float2 folded = d.z < 0.0f ? (1.0f - fabs(plane.yx)) * sign : plane;
     const float2 scaled = round(clamp(folded * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f);
     return (uint)scaled.x | (uint)scaled.y << 16;
 }
-inline float3 unpack_direction(uint packed) {
+static inline float3 unpack_direction(uint packed) {
     const float2 folded =
         (float2)((float)(packed & 0xffffu), (float)(packed >> 16)) * (2.0f / 65535.0f) - 1.0f;
     const float z = 1.0f - fabs(folded.x) - fabs(folded.y);

@@ -6,7 +6,7 @@
 #define NEARLIGHT_MORTON_CELLS 1024.0f  // cells along each axis
 
 /// The low ten bits of x, with two zero bits before each.
-inline uint spread_bits(uint x) {
+static inline uint spread_bits(uint x) {
     x = (x | (x << 16)) & 0x030000ffu;
     x = (x | (x << 8)) & 0x0300f00fu;
     x = (x | (x << 4)) & 0x030c30c3u;
@@ -15,7 +15,7 @@ inline uint spread_bits(uint x) {
 
 /// The Morton code of a cell. Coordinates outside [0, NEARLIGHT_MORTON_CELLS) count as the cell at that end,
 /// and NaN counts as 0.
-inline uint morton_code(float3 cell) {
+static inline uint morton_code(float3 cell) {
     const float last = NEARLIGHT_MORTON_CELLS - 1.0f;
     const uint x = (uint)fmin(fmax(cell.x, 0.0f), last);
     const uint y = (uint)fmin(fmax(cell.y, 0.0f), last);

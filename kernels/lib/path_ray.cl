@@ -9,20 +9,21 @@
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/sample.cl"
 #include "lib/light/shadow.cl"
+#include "lib/outlined.cl"
 #include "lib/random.cl"
 
 /// The density, per steradian and for each light sample of a surface, with which the rays of its bundle find
 /// the sky in a direction (lib/shared_sky.cl), if they count as `bundle_ratio` rays of its own.
-inline float bundle_density(float3 normal, float3 direction, float bundle_ratio) {
+static inline float bundle_density(float3 normal, float3 direction, float bundle_ratio) {
     return bundle_ratio * fmax(dot(normal, direction), 0.0f) * M_1_PI_F;
 }
 
 /// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
 /// surface also sends `path_ratio` rays for each light sample, and `bundle_ratio` of its bundle look for the
 /// sky.
-inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                               const LightSample* light, uint parts, float path_ratio, float bundle_ratio,
-                               uint max_veils) {
+static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit,
+                                      const SurfaceBsdf* surface, const LightSample* light, uint parts,
+                                      float path_ratio, float bundle_ratio, uint max_veils) {
     if (!may_shine(light)) {
         return (float3)(0.0f);
     }
@@ -56,8 +57,9 @@ typedef struct LightQuota {
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
 /// from lights or through veils, as far as light samples bring it: rays that follow the BSDF bring the rest.
-inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                              uint parts, const LightQuota* quota, uint seed) {
+static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit,
+                                     const SurfaceBsdf* surface, uint parts, const LightQuota* quota,
+                                     uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
@@ -94,7 +96,7 @@ typedef struct PathRay {
 } PathRay;
 
 /// Starts a path that carries all light back along `direction`. Its throughput and pdf are still to be set.
-inline PathRay first_ray(float3 direction) {
+static inline PathRay first_ray(float3 direction) {
     PathRay ray;
     ray.direction = direction;
     ray.throughput = (float3)(1.0f);
@@ -103,7 +105,7 @@ inline PathRay first_ray(float3 direction) {
 }
 
 /// Sets where the ray was scattered to where it starts.
-inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
+static inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
     ray->origin = ray->scattered_at = origin;
     ray->normal = normal;
     ray->pdf = pdf;
@@ -121,11 +123,11 @@ typedef struct MetLight {
 } MetLight;
 
 /// Whether light samples of where the ray was scattered look for the lights that it meets, too.
-inline bool shares_met_light(const PathRay* ray) {
+static inline bool shares_met_light(const PathRay* ray) {
     return ray->pdf > 0.0f && ray->veils <= NEARLIGHT_MAX_VEILS;
 }
 
-inline MetLight find_met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
+OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
     MetLight met;
     met.of_others = 0.0f;
     if (hit->t < 0.0f) {
@@ -149,13 +151,13 @@ inline MetLight find_met_light(const SceneView* scene, const PathRay* ray, const
 }
 
 /// The part of the light met that the ray brings; others bring the rest.
-inline float met_weight(const PathRay* ray, const MetLight* met) {
+static inline float met_weight(const PathRay* ray, const MetLight* met) {
     return shares_met_light(ray) ? ray->share * ray->pdf / (ray->pdf + met->of_others) : 1.0f;
 }
 
 /// Radiance that lights send straight along the ray, weighted against light samples of where it was
 /// scattered.
-inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
+static inline float3 met_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit) {
     const MetLight met = find_met_light(scene, ray, hit);
     return met.radiance * met_weight(ray, &met);
 }
@@ -163,13 +165,13 @@ inline float3 met_light(const SceneView* scene, const PathRay* ray, const Surfac
 /// The largest component of what the ray brings back of power. Refraction scales radiance by the square of
 /// the index, which says nothing about how much of the light comes through: what throughput loses where a
 /// path enters glass it regains where the path leaves.
-inline float carried_part(const PathRay* ray, float3 albedo) {
+static inline float carried_part(const PathRay* ray, float3 albedo) {
     return max_component(ray->throughput * albedo) * ray->index * ray->index;
 }
 
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
-inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
-                        const SurfaceBsdf* surface, uint parts, float u, float2 v) {
+OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
+                          const SurfaceBsdf* surface, uint parts, float u, float2 v) {
     const BsdfSample sample = bsdf_sample(scene, surface, parts, u, v);
     ray->throughput *= sample.weight;
     ray->index *= surface->unscaled ? 1.0f : sample.eta;
@@ -186,7 +188,7 @@ inline bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* 
 }
 
 /// Tells a ray that was scattered how its surface asks lights. Light in a mirror image is its own.
-inline void share_lights(PathRay* ray, const LightQuota* quota) {
+static inline void share_lights(PathRay* ray, const LightQuota* quota) {
     if (ray->pdf > 0.0f) {
         ray->pdf *= (float)quota->rays / (float)quota->samples;
         ray->share = 1.0f / (float)quota->rays;
@@ -195,7 +197,7 @@ inline void share_lights(PathRay* ray, const LightQuota* quota) {
 }
 
 /// Light that the ray meets straight or through at most `max_veils` veils, times its throughput.
-inline float3 light_along(const SceneView* scene, PathRay ray, uint max_veils) {
+static inline float3 light_along(const SceneView* scene, PathRay ray, uint max_veils) {
     float3 sum = (float3)(0.0f);
     float t_min = 0.0f;
     while (!is_black(ray.throughput)) {
@@ -214,9 +216,9 @@ inline float3 light_along(const SceneView* scene, PathRay ray, uint max_veils) {
 
 /// What all rays of a quota but the first find, times the throughput of the ray that arrives. `first` is the
 /// number of the first of them in the sequence of `key`.
-inline float3 looked_for_light(const SceneView* scene, const PathRay* arriving, const SurfaceHit* hit,
-                               const SurfaceBsdf* surface, uint parts, const LightQuota* quota, uint first,
-                               uint key) {
+static inline float3 looked_for_light(const SceneView* scene, const PathRay* arriving, const SurfaceHit* hit,
+                                      const SurfaceBsdf* surface, uint parts, const LightQuota* quota,
+                                      uint first, uint key) {
     float3 sum = (float3)(0.0f);
     for (uint i = 0; i + 1 < quota->rays; ++i) {
         PathRay ray = *arriving;

@@ -21,7 +21,7 @@ typedef struct GatherRadius {
 #define GATHER_LEVELS 4u
 #define GATHER_LIGHT_SAMPLES 4u
 
-inline float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
+static inline float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
     float radius = law->max_radius;
     if (law->at_unit_light < INFINITY) {
         const uint key =
@@ -48,8 +48,8 @@ typedef struct Connections {
 
 /// Irradiance of a receiver from VPLs of depth up to `max_depth`, estimated from VPLs at equal distances in
 /// the set; `u` chooses the first of them.
-inline float3 connected_irradiance(const SceneView* scene, const Connections* to, const ReceiverPoint* at,
-                                   uint max_depth, float u) {
+static inline float3 connected_irradiance(const SceneView* scene, const Connections* to,
+                                          const ReceiverPoint* at, uint max_depth, float u) {
     const uint count = min(to->count, to->vpl_count);
     const float step = (float)to->vpl_count / (float)count;
     float3 sum = (float3)(0.0f);
@@ -78,8 +78,9 @@ inline float3 connected_irradiance(const SceneView* scene, const Connections* to
 /// One-path estimate of the irradiance of a receiver over paths of at most `max_edges` edges. It adds up
 /// direct light, VPLs under a geometry term that is bounded at their radius, and what one ray of the receiver
 /// brings of all other light (lib/receiver_path.cl).
-inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to, const ReceiverPoint* at,
-                                    uint max_edges, uint direct_samples, uint seed) {
+static inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to,
+                                           const ReceiverPoint* at, uint max_edges, uint direct_samples,
+                                           uint seed) {
     const uint4 keys = random_uint4((uint4)(0x3a1du, seed, 0u, 0x9a7bu));
     float3 irradiance =
         sampled_direct_light(scene, at, direct_samples, 1, 0, max(max_edges, 1u) - 1, 0, keys.x);

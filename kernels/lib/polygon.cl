@@ -11,7 +11,7 @@ typedef struct Polygon {
 } Polygon;
 
 /// Keeps the part of the polygon where dot(normal, p) + offset ≥ 0. [Sutherland & Hodgman 1974]
-inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
+static inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
     // Most triangles lie on one side of a plane.
     uint inside = 0;
     for (uint i = 0; i < polygon->count; ++i) {
@@ -43,7 +43,7 @@ inline void clip_polygon(Polygon* polygon, float3 normal, float offset) {
 }
 
 /// Squared distance from the origin to the edge from a to b.
-inline float squared_distance_to_edge(float3 a, float3 b) {
+static inline float squared_distance_to_edge(float3 a, float3 b) {
     const float3 edge = b - a;
     const float squared = dot(edge, edge);
     const float t = squared > 0.0f ? clamp(-dot(a, edge) / squared, 0.0f, 1.0f) : 0.0f;
@@ -53,7 +53,7 @@ inline float squared_distance_to_edge(float3 a, float3 b) {
 
 /// Squared distance from the origin to the polygon; infinite if the polygon is empty. `normal` is normal to
 /// its plane and may have any length. Where it is zero, only the edges count.
-inline float squared_distance_to_polygon(const Polygon* polygon, float3 normal) {
+static inline float squared_distance_to_polygon(const Polygon* polygon, float3 normal) {
     float nearest = INFINITY;
     bool left_of_all = true;
     bool right_of_all = true;

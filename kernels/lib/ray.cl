@@ -6,16 +6,16 @@
 
 #include "lib/math.cl"
 
-inline float away_from_zero(float x) {
+static inline float away_from_zero(float x) {
     return fabs(x) < 1e-20f ? copysign(1e-20f, x) : x;
 }
-inline float3 safe_reciprocal(float3 d) {
+static inline float3 safe_reciprocal(float3 d) {
     return (float3)(1.0f / away_from_zero(d.x), 1.0f / away_from_zero(d.y), 1.0f / away_from_zero(d.z));
 }
 
 /// Whether a ray is free of NaN and infinity, except that t_max may be infinite. A ray that is not hits
 /// nothing; without this test it would visit every node, because fmin and fmax ignore NaN.
-inline bool is_finite_ray(float3 origin, float3 direction, float t_max) {
+static inline bool is_finite_ray(float3 origin, float3 direction, float t_max) {
     return isfinite(origin.x + origin.y + origin.z + direction.x + direction.y + direction.z) &&
            !isnan(t_max);
 }

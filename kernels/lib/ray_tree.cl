@@ -19,11 +19,11 @@ typedef TriangleBlock TreeTriangles;
 #define tree_closest_hit wide_closest_hit
 #define tree_occluded wide_occluded
 
-inline float3 column_of(const global float* rows, uint column) {
+static inline float3 column_of(const global float* rows, uint column) {
     return (float3)(rows[column], rows[NEARLIGHT_BLOCK_TRIANGLES + column],
                     rows[2 * NEARLIGHT_BLOCK_TRIANGLES + column]);
 }
-inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
+static inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
     const global TriangleBlock* block = triangles + slot / NEARLIGHT_BLOCK_TRIANGLES;
     const uint column = slot % NEARLIGHT_BLOCK_TRIANGLES;
     TreeTriangle triangle;
@@ -41,7 +41,7 @@ typedef BvhTriangle TreeTriangles;
 #define tree_closest_hit closest_hit
 #define tree_occluded occluded
 
-inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
+static inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
     TreeTriangle triangle;
     triangle.v0 = load3(triangles[slot].v0);
     triangle.edge1 = load3(triangles[slot].edge1);

@@ -21,7 +21,7 @@ typedef struct Finds {
 } Finds;
 
 /// Those of a receiver that keeps everything to itself.
-inline Finds nothing_shared(void) {
+static inline Finds nothing_shared(void) {
     const Finds finds = {nothing_found(0), nothing_found(0), no_reflection_found()};
     return finds;
 }
@@ -38,14 +38,14 @@ typedef struct PathLimits {
 } PathLimits;
 
 /// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
-inline float remaining_weight(float t, float clamp_radius) {
+static inline float remaining_weight(float t, float clamp_radius) {
     const float ratio = t / clamp_radius;
     return clamp_radius < INFINITY ? fmax(0.0f, 1.0f - ratio * ratio) : 1.0f;
 }
 
 /// A cosine-distributed ray of a receiver.
-inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, float rays_per_light_sample,
-                            float2 u) {
+static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at,
+                                   float rays_per_light_sample, float2 u) {
     PathRay ray = first_ray(to_world_frame(square_to_cosine_hemisphere(u), at->n));
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
@@ -56,8 +56,8 @@ inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at, flo
 
 /// The light at the place that a ray met, which sends `radiance` to all sides. It counts in draws by what it
 /// brings to the receiver that found it, or at least a part of that, because others may be nearer.
-inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
-                                float3 radiance, float of_vpls) {
+static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
+                                       float3 radiance, float of_vpls) {
     SharedLight light;
     light.position = store3(offset_point(scene, hit->position, hit->geometric));
     light.weight = max_component(radiance) * fmax(1.0f - of_vpls, 0.05f);
@@ -69,8 +69,8 @@ inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, c
 }
 
 /// What one ray of a receiver brings.
-inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                               float2 u, uint4 keys, Finds* finds) {
+static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at,
+                                      const PathLimits* limits, float2 u, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
     ray.bundle_ratio = (float)limits->bundle_count / (float)limits->light_samples;
@@ -113,8 +113,8 @@ inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at, 
 }
 
 /// All light of a receiver except what VPLs bring, and except what `finds` keeps for the bundle.
-inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                                    uint4 keys, Finds* finds) {
+static inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at,
+                                           const PathLimits* limits, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;

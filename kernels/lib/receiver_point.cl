@@ -14,7 +14,7 @@ typedef struct ReceiverPoint {
 } ReceiverPoint;
 
 /// The Lambertian part of a surface as a receiver at x, which stands off it.
-inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
+static inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
     ReceiverPoint at;
     at.x = x;
     at.n = surface->frame.n;
@@ -23,13 +23,13 @@ inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
     return at;
 }
 
-inline bool is_mapped(const ReceiverPoint* at) {
+static inline bool is_mapped(const ReceiverPoint* at) {
     return dot(at->mesh_n, at->mesh_n) > 0.0f;
 }
 
 /// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
 /// lets through.
-inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
+static inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
     if (!is_mapped(at)) {
         return 1.0f;
     }
@@ -43,7 +43,7 @@ typedef struct ReceivedLight {
     float3 indirect;  // over at least one more surface
 } ReceivedLight;
 
-inline ReceivedLight nothing_received(void) {
+static inline ReceivedLight nothing_received(void) {
     ReceivedLight none;
     none.direct = none.indirect = (float3)(0.0f);
     return none;
@@ -52,8 +52,9 @@ inline ReceivedLight nothing_received(void) {
 /// What a light sample brings to the irradiance of a receiver through at most `max_veils` veils, weighted for
 /// `path_ratio` cosine-distributed rays for each light sample, and for `bundle_ratio` more of its bundle that
 /// look for the sky.
-inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at, const LightSample* light,
-                                 float path_ratio, float bundle_ratio, uint max_veils) {
+static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at,
+                                        const LightSample* light, float path_ratio, float bundle_ratio,
+                                        uint max_veils) {
     const float cosine = dot(at->n, light->direction);
     if (!(cosine > 0.0f) || !may_shine(light)) {
         return (float3)(0.0f);
@@ -80,9 +81,9 @@ inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at
 /// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
 /// bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays of the
 /// bundle as `bundle_count` look for the sky too.
-inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                   uint path_count, uint bundle_count, uint max_veils, uint first,
-                                   uint seed) {
+static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
+                                          uint path_count, uint bundle_count, uint max_veils, uint first,
+                                          uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);

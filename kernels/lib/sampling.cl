@@ -7,7 +7,7 @@
 #include "lib/math.cl"
 
 /// The smallest index with u < cdf[index], or the last one if rounding leaves u above all entries.
-inline uint search_cdf(const global float* cdf, uint count, float u) {
+static inline uint search_cdf(const global float* cdf, uint count, float u) {
     uint low = 0;
     uint high = count - 1;
     while (low < high) {
@@ -22,7 +22,7 @@ inline uint search_cdf(const global float* cdf, uint count, float u) {
 }
 
 /// The probability of an entry of a cumulative distribution.
-inline float step_of_cdf(const global float* cdf, uint index) {
+static inline float step_of_cdf(const global float* cdf, uint index) {
     return index == 0 ? cdf[0] : cdf[index] - cdf[index - 1];
 }
 
@@ -33,7 +33,7 @@ typedef struct CdfStep {
     float within;  // where in the entry's part the number lies, uniform in [0, 1)
 } CdfStep;
 
-inline CdfStep choose_step(const global float* cdf, uint count, float u) {
+static inline CdfStep choose_step(const global float* cdf, uint count, float u) {
     CdfStep step;
     step.index = search_cdf(cdf, count, u);
     step.probability = step_of_cdf(cdf, step.index);
@@ -43,13 +43,13 @@ inline CdfStep choose_step(const global float* cdf, uint count, float u) {
 }
 
 /// A direction about +Z with the density cosθ/π.
-inline float3 square_to_cosine_hemisphere(float2 u) {
+static inline float3 square_to_cosine_hemisphere(float2 u) {
     return (float3)(sqrt(u.x) * circle_point(u.y), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
 /// A direction within the angle of cosine `cos_max` about +Z, with the density 1 / (2π(1 − cos_max)). A
 /// cosine of −1 gives the whole sphere.
-inline float3 square_to_cone(float2 u, float cos_max) {
+static inline float3 square_to_cone(float2 u, float cos_max) {
     const float z = 1.0f - u.x * (1.0f - cos_max);
     return (float3)(sqrt(fmax(0.0f, 1.0f - z * z)) * circle_point(u.y), z);
 }
@@ -57,7 +57,7 @@ inline float3 square_to_cone(float2 u, float cos_max) {
 /// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that points that are
 /// stratified in the square are stratified in the triangle. [Heitz, A Low-Distortion Map Between Triangle and
 /// Square, 2019]
-inline float2 square_to_triangle(float2 u) {
+static inline float2 square_to_triangle(float2 u) {
     return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
 }
 

@@ -69,8 +69,8 @@ typedef struct SurfaceHit {
 
 /// The surface at a point of a triangle, met from the front or from the back. `normal` is that of the
 /// triangle's front, and `t` is left 0.
-inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 weights, float3 position,
-                             float3 normal, bool front) {
+static inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 weights, float3 position,
+                                    float3 normal, bool front) {
     SurfaceHit hit;
     const float u = weights.x;
     const float v = weights.y;
@@ -94,7 +94,8 @@ inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, float2 we
 }
 
 /// The surface at a point of a triangle, met by a ray along `direction`; t is left 0.
-inline SurfaceHit surface_met_at(const SceneView* scene, uint triangle_id, float2 weights, float3 direction) {
+static inline SurfaceHit surface_met_at(const SceneView* scene, uint triangle_id, float2 weights,
+                                        float3 direction) {
     const Triangle triangle = scene->triangles[triangle_id];
     const float3 corner = load3(scene->vertices[triangle.v0].position);
     const float3 edge1 = load3(scene->vertices[triangle.v1].position) - corner;
@@ -105,8 +106,8 @@ inline SurfaceHit surface_met_at(const SceneView* scene, uint triangle_id, float
                       front);
 }
 
-inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* of_tree, uint triangle_id,
-                                   float3 direction, RayHit ray_hit) {
+static inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* of_tree,
+                                          uint triangle_id, float3 direction, RayHit ray_hit) {
     const float3 normal = normalize(of_tree->normal);
     // The position comes from the triangle and not from the ray, so that it is as exact as the vertices are.
     const float3 position = of_tree->v0 + ray_hit.u * of_tree->edge1 + ray_hit.v * of_tree->edge2;
@@ -116,15 +117,15 @@ inline SurfaceHit make_surface_hit(const SceneView* scene, const TreeTriangle* o
     return hit;
 }
 
-inline SurfaceHit no_surface(void) {
+static inline SurfaceHit no_surface(void) {
     SurfaceHit none;
     none.t = -1.0f;
     return none;
 }
 
 /// The nearest surface on a ray from t_min to t_max. Its t is negative if there is none.
-inline SurfaceHit trace_between(const SceneView* scene, float3 origin, float3 direction, float t_min,
-                                float t_max) {
+static inline SurfaceHit trace_between(const SceneView* scene, float3 origin, float3 direction, float t_min,
+                                       float t_max) {
     const RayHit hit = tree_closest_hit(scene->nodes, scene->tree_triangles, origin, direction, t_min, t_max);
     if (hit.slot == ~0u) {
         return no_surface();
@@ -134,22 +135,22 @@ inline SurfaceHit trace_between(const SceneView* scene, float3 origin, float3 di
 }
 
 /// The nearest surface on a ray before t_max. Its t is negative if there is none.
-inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
+static inline SurfaceHit trace_surface(const SceneView* scene, float3 origin, float3 direction, float t_max) {
     return trace_between(scene, origin, direction, 0.0f, t_max);
 }
 
 /// True if no surface lies between two points that both stand off their surfaces.
-inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
+static inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
     return !tree_occluded(scene->nodes, scene->tree_triangles, from, to - from, NEARLIGHT_SEGMENT_T_MIN,
                           NEARLIGHT_SEGMENT_T_MAX);
 }
 
-inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {
+static inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {
     return position + ray_epsilon(position, scene->info->extent) * normal;
 }
 
 /// The point off a surface from which a ray in the given direction starts.
-inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+static inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     return offset_point(scene, hit->position,
                         dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
 }

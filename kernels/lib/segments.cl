@@ -50,8 +50,8 @@ LANES_INLINE void end_lanes(Segments* s, uint row, uint lanes) {
 }
 
 /// Sets up the segments to the receivers that face the VPL and are faced by it, with their geometry terms.
-inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receivers,
-                    float clamp_radius_squared) {
+static inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receivers,
+                           float clamp_radius_squared) {
     s->origin = load3(vpl->position);
     s->open = 0;
     const float3 vpl_normal = load3(vpl->normal);
@@ -84,7 +84,7 @@ inline void connect(Segments* s, const global Vpl* vpl, const Receivers* receive
 }
 
 /// Ends the segments that leave the VPL behind the normal by which it is seen.
-inline void leave_out_unseen(Segments* s, float3 seen_normal) {
+static inline void leave_out_unseen(Segments* s, float3 seen_normal) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);
         const float16 height =
@@ -94,7 +94,7 @@ inline void leave_out_unseen(Segments* s, float3 seen_normal) {
 }
 
 /// Ends the segments whose light, squared, is less than the receiver's threshold.
-inline void leave_out_small(Segments* s, const Receivers* receivers, float square_scale) {
+static inline void leave_out_small(Segments* s, const Receivers* receivers, float square_scale) {
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);
         const float16 square = s->weight[row] * s->weight[row] * square_scale;
@@ -103,8 +103,8 @@ inline void leave_out_small(Segments* s, const Receivers* receivers, float squar
 }
 
 /// Multiplies the geometry terms of open segments by the transmission curves of both ends.
-inline void weigh_by_curves(Segments* s, const global Vpl* vpl, const Receivers* receivers,
-                            const global float* curves) {
+static inline void weigh_by_curves(Segments* s, const global Vpl* vpl, const Receivers* receivers,
+                                   const global float* curves) {
     const float3 vpl_normal = seen_normal(vpl);
     const uint row_of_vpl = vpl_curve(vpl);
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {

@@ -43,7 +43,7 @@ typedef struct Planes {
 } Planes;
 
 /// Makes the shaft that contains all segments from `origin` to points within the bounds.
-inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bounds) {
+static inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bounds) {
     const float3 low = bounds->low - origin;
     const float3 high = bounds->high - origin;
     shaft->center = 0.5f * (low + high);
@@ -68,8 +68,8 @@ inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bounds) {
     }
 }
 
-inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, float3 from,
-                                const BeamBounds* bounds) {
+static inline void make_cluster_shafts(ClusterShafts* clusters, const Shaft* shaft, float3 from,
+                                       const BeamBounds* bounds) {
     const float origin[3] = {from.x, from.y, from.z};
     for (uint axis = 0; axis < 3; ++axis) {
         const float16 by_low = reciprocal16(bounds->cluster_low[axis] - origin[axis]);

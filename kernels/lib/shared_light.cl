@@ -16,14 +16,14 @@
 
 /// Whether a receiver shares lights with its bundle: it is present, no map tilts its normal, and its paths
 /// may be as long as those of the others. Receivers behind mirrors and panes have shorter ones.
-inline bool receiver_shares(const global ReceiverPacket* packet, uint lane, uint max_edges) {
+static inline bool receiver_shares(const global ReceiverPacket* packet, uint lane, uint max_edges) {
     const float3 n = receiver_normal(packet, lane);
     return dot(n, n) > 0.0f && packet->mesh_normal[lane] == 0 &&
            (receiver_surfaces(packet, lane) == 0 || max_edges >= LONG_PATH);
 }
 
-inline bool bundle_receiver_shares(const global ReceiverPacket* packets, const Bundle* bundle, uint lane,
-                                   uint max_edges) {
+static inline bool bundle_receiver_shares(const global ReceiverPacket* packets, const Bundle* bundle,
+                                          uint lane, uint max_edges) {
     const uint packet = lane / NEARLIGHT_PACKET_SIZE;
     return packet < bundle->count &&
            receiver_shares(packets + bundle->first + packet, lane % NEARLIGHT_PACKET_SIZE, max_edges);
@@ -37,7 +37,7 @@ typedef struct FoundLight {
     SharedLight light;
 } FoundLight;
 
-inline FoundLight nothing_found(uint is_wanted) {
+static inline FoundLight nothing_found(uint is_wanted) {
     FoundLight found;
     found.is_wanted = is_wanted;
     found.sum = 0.0f;
@@ -49,7 +49,7 @@ inline FoundLight nothing_found(uint is_wanted) {
 
 /// Takes one more light into the draw; `u` is uniform in [0, 1). Returns whether it is the one to be kept so
 /// far.
-inline bool find_light(FoundLight* found, const SharedLight* light, float u) {
+static inline bool find_light(FoundLight* found, const SharedLight* light, float u) {
     if (!(light->weight > 0.0f && light->weight < INFINITY)) {
         return false;
     }
@@ -62,7 +62,7 @@ inline bool find_light(FoundLight* found, const SharedLight* light, float u) {
 }
 
 /// The light that was drawn, as strong as it must be to stand for all.
-inline SharedLight kept_light(const FoundLight* found) {
+static inline SharedLight kept_light(const FoundLight* found) {
     SharedLight light = found->light;
     if (found->sum > 0.0f) {
         light.radiance = store3(load3(light.radiance) * (found->sum / light.weight));
@@ -73,7 +73,7 @@ inline SharedLight kept_light(const FoundLight* found) {
 
 /// A light as a beam reads it. The struct SharedLight has the members that it needs in the places of those of
 /// a Vpl.
-inline const global Vpl* as_vpl(const global SharedLight* light) {
+static inline const global Vpl* as_vpl(const global SharedLight* light) {
     return (const global Vpl*)light;
 }
 
@@ -84,8 +84,8 @@ typedef struct SharedConnection {
     float cos_light, cos_receiver;  // to the shading normals
 } SharedConnection;
 
-inline SharedConnection connect_shared(const global SharedLight* light, float3 x, float3 n,
-                                       float clamp_radius_squared) {
+static inline SharedConnection connect_shared(const global SharedLight* light, float3 x, float3 n,
+                                              float clamp_radius_squared) {
     const float3 d = x - load3(light->position);
     const float squared = dot(d, d);
     const float inverse = rsqrt(squared);
@@ -104,7 +104,7 @@ inline SharedConnection connect_shared(const global SharedLight* light, float3 x
 /// What turns the radiance of a listed light into irradiance per geometry term: 1/probability of the draw
 /// over the density of all rays of the bundle, of which `sum` is the sum of the geometry terms of all
 /// receivers that see the light.
-inline float shared_factor(float inverse_probability, float sum, uint rays_per_receiver) {
+static inline float shared_factor(float inverse_probability, float sum, uint rays_per_receiver) {
     return sum > 0.0f ? inverse_probability * M_PI_F / ((float)rays_per_receiver * sum) : 0.0f;
 }
 

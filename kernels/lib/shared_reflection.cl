@@ -9,7 +9,7 @@
 
 /// About how far, in radians, the narrowest lobe of S spreads light; 0 where bundles share none of it because
 /// S mirrors light or lets it through.
-inline float gloss_width(const Bsdf* bsdf) {
+static inline float gloss_width(const Bsdf* bsdf) {
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_PLASTIC:
         case NEARLIGHT_BSDF_CONDUCTOR:
@@ -29,7 +29,7 @@ inline float gloss_width(const Bsdf* bsdf) {
 
 /// Whether a receiver at x shares what gloss of this width reflects to it at y. `spacing` is the radius of
 /// the receiver's neighbourhood (m).
-inline bool shares_gloss(float3 x, float3 y, float width, float spacing) {
+static inline bool shares_gloss(float3 x, float3 y, float width, float spacing) {
     return width * distance(x, y) > NEARLIGHT_GLOSS_REACH * spacing;
 }
 
@@ -44,7 +44,7 @@ typedef struct FoundReflection {
     float spacing;  // radius of the receiver's neighbourhood, m
 } FoundReflection;
 
-inline FoundReflection no_reflection_found(void) {
+static inline FoundReflection no_reflection_found(void) {
     FoundReflection found;
     found.light = nothing_found(0);
     found.spacing = 0.0f;
@@ -63,8 +63,8 @@ typedef struct GlossyPlace {
 
 /// `position` stands off the surface. `model` is the random number that chose between the parts of masks and
 /// blends.
-inline GlossyPlace glossy_place(float3 position, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                                float model) {
+static inline GlossyPlace glossy_place(float3 position, const SurfaceHit* hit, const SurfaceBsdf* surface,
+                                       float model) {
     GlossyPlace place;
     place.light = nothing_found(0).light;
     place.light.position = store3(position);
@@ -92,8 +92,8 @@ typedef struct ArrivingRay {
 
 /// Takes light that arrives at a glossy place into the draw. `light_pdf` is that of SharedReflection, and `u`
 /// is uniform in [0, 1).
-inline void find_reflection(FoundReflection* found, const GlossyPlace* place, const ArrivingRay* ray,
-                            float3 radiance, float light_pdf, float u) {
+static inline void find_reflection(FoundReflection* found, const GlossyPlace* place, const ArrivingRay* ray,
+                                   float3 radiance, float light_pdf, float u) {
     const float of_rays = light_pdf < 0.0f ? 0.0f : ray->pdf + OTHER_LOBES;
     SharedLight light = place->light;
     light.radiance = store3(radiance);

@@ -13,7 +13,7 @@
 
 /// Where a ray from x leaves the sphere around the scene, with the inward normal. The sphere is a little
 /// larger than the scene, so that all segments end off its surfaces.
-inline float3 sky_place(const SceneView* scene, float3 x, float3 direction, float3* normal) {
+static inline float3 sky_place(const SceneView* scene, float3 x, float3 direction, float3* normal) {
     const float3 center = load3(scene->environment->scene_center);
     const float radius = 1.01f * scene->environment->scene_radius;
     const float3 from = x - center;
@@ -27,7 +27,7 @@ inline float3 sky_place(const SceneView* scene, float3 x, float3 direction, floa
 
 /// Takes the sky that a ray from x met into the draw. All finds have the same weight, however dark the sky is
 /// where this ray met it: other receivers see another part of it behind the same place.
-inline void find_sky(const SceneView* scene, float3 x, float3 direction, float u, FoundLight* sky) {
+static inline void find_sky(const SceneView* scene, float3 x, float3 direction, float u, FoundLight* sky) {
     float3 normal;
     SharedLight light;
     light.position = store3(sky_place(scene, x, direction, &normal));

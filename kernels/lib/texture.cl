@@ -15,7 +15,7 @@ typedef struct TextureValue {
 } TextureValue;
 
 /// The index of the texel that stands at place i of a row or column of n texels.
-inline int wrap_texel(int i, int n, uint wrap) {
+static inline int wrap_texel(int i, int n, uint wrap) {
     if (i >= 0 && i < n) {
         return i;  // most do, and are spared the divisions
     }
@@ -28,7 +28,7 @@ inline int wrap_texel(int i, int n, uint wrap) {
     return i < n ? i : period - 1 - i;
 }
 
-inline float3 load_texel(const SceneView* scene, const global Texture* texture, int x, int y) {
+static inline float3 load_texel(const SceneView* scene, const global Texture* texture, int x, int y) {
     const int width = (int)texture->width;
     const int height = (int)texture->height;
     const uint index =
@@ -47,14 +47,15 @@ inline float3 load_texel(const SceneView* scene, const global Texture* texture, 
 
 /// A coordinate near 0 where the texture looks the same, so that large coordinates lose no precision. One
 /// that is no finite number counts as 0.
-inline float reduce_coordinate(float s, uint wrap) {
+static inline float reduce_coordinate(float s, uint wrap) {
     if (!isfinite(s)) {
         return 0.0f;
     }
     return wrap == NEARLIGHT_WRAP_CLAMP ? clamp(s, -1.0f, 2.0f) : s - 2.0f * floor(0.5f * s);
 }
 
-inline TextureValue look_up_bitmap(const SceneView* scene, const global Texture* texture, float s, float t) {
+static inline TextureValue look_up_bitmap(const SceneView* scene, const global Texture* texture, float s,
+                                          float t) {
     TextureValue value = {(float3)(0.0f), (float2)(0.0f), (float2)(0.0f)};
     const bool nearest = texture->filter == NEARLIGHT_FILTER_NEAREST;
     const float2 size = (float2)((float)texture->width, (float)texture->height);
@@ -85,7 +86,7 @@ inline TextureValue look_up_bitmap(const SceneView* scene, const global Texture*
     return value;
 }
 
-inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) {
+static inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) {
     const Triangle triangle = scene->triangles[hit->triangle];
     return (1.0f - hit->weights.x - hit->weights.y) * load3(scene->vertex_colors[triangle.v0]) +
            hit->weights.x * load3(scene->vertex_colors[triangle.v1]) +
@@ -93,7 +94,8 @@ inline float3 interpolated_color(const SceneView* scene, const SurfaceHit* hit) 
 }
 
 /// The texture coordinates at which a texture is looked up.
-inline float2 coordinates_for(const SceneView* scene, const global Texture* texture, const SurfaceHit* hit) {
+static inline float2 coordinates_for(const SceneView* scene, const global Texture* texture,
+                                     const SurfaceHit* hit) {
     if (!(texture->flags & NEARLIGHT_TEXTURE_SECOND_UV)) {
         return hit->uv;
     }
@@ -104,7 +106,7 @@ inline float2 coordinates_for(const SceneView* scene, const global Texture* text
 
 /// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
 /// other texture.
-inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
+static inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
     const global Texture* texture = scene->textures + index;
     if (texture->kind != NEARLIGHT_TEXTURE_BITMAP) {
         return (float3)(1.0f);
@@ -115,8 +117,8 @@ inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
 }
 
 /// The value of a parameter at the point.
-inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
-                            const SurfaceHit* hit) {
+static inline TextureValue look_up(const SceneView* scene, const global Parameter* parameter,
+                                   const SurfaceHit* hit) {
     TextureValue texel = {(float3)(1.0f), (float2)(0.0f), (float2)(0.0f)};
     const float3 scale = load3(parameter->value);
     float3 field = (float3)(1.0f);  // of the checkerboards on the way

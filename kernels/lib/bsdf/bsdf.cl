@@ -11,6 +11,7 @@
 #include "lib/bsdf/surface.cl"
 #include "lib/bsdf/thin_dielectric.cl"
 #include "lib/curve.cl"
+#include "lib/outlined.cl"
 #include "lib/sampling.cl"
 
 // Parts of a BSDF.
@@ -19,7 +20,7 @@
 
 /// Whether S is a mirror image, a refraction or a passage straight on only, so that it has nothing to
 /// evaluate.
-inline bool is_delta_only(const Bsdf* bsdf) {
+static inline bool is_delta_only(const Bsdf* bsdf) {
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_PLASTIC:
         case NEARLIGHT_BSDF_CONDUCTOR:
@@ -30,7 +31,7 @@ inline bool is_delta_only(const Bsdf* bsdf) {
     }
 }
 
-inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
+static inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     *pdf = 0.0f;
     if (!(wo.z > 0.0f) || wi.z == 0.0f || is_delta_only(bsdf)) {
         return (float3)(0.0f);
@@ -49,7 +50,7 @@ inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
 
 /// A direction drawn from S. Weight and density are set only for a mirror image, a refraction or a passage
 /// straight on.
-inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
+static inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_PLASTIC:
             return plastic_sample(bsdf, wo, v);
@@ -69,7 +70,7 @@ inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
     }
 }
 
-inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_PLASTIC:
             return plastic_albedo(bsdf, wo);
@@ -90,18 +91,18 @@ inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
 }
 
 /// T of a transmission curve at a cosine.
-inline float diffuse_transmission(const SceneView* scene, uint curve, float cosine) {
+static inline float diffuse_transmission(const SceneView* scene, uint curve, float cosine) {
     return curve_value(scene->curves, curve, cosine);
 }
 
 /// About ∫ D |cosθi| dωi: at the cosine ½, a boundary lets through as much as on the mean over a hemisphere.
-inline float3 d_albedo(const SceneView* scene, const Bsdf* bsdf, float cosine) {
+static inline float3 d_albedo(const SceneView* scene, const Bsdf* bsdf, float cosine) {
     return bsdf->diffuse * (diffuse_transmission(scene, bsdf->curve, cosine) *
                             diffuse_transmission(scene, bsdf->curve, 0.5f));
 }
 
 /// About what the surface reflects and lets through in all of what arrives evenly from everywhere.
-inline float3 bsdf_albedo(const SceneView* scene, const SurfaceBsdf* s) {
+static inline float3 bsdf_albedo(const SceneView* scene, const SurfaceBsdf* s) {
     const float3 wo = world_to_frame(&s->frame, s->wo);
     return wo.z > 0.0f ? d_albedo(scene, &s->bsdf, wo.z) + s_albedo(&s->bsdf, wo) : (float3)(0.0f);
 }
@@ -109,8 +110,8 @@ inline float3 bsdf_albedo(const SceneView* scene, const SurfaceBsdf* s) {
 /// The BSDF of the point that a ray along `direction` met. `u` (uniform in [0, 1)) decides by chance at masks
 /// and blends. Where the side reflects nothing, the BSDF is diffuse and black. Where `without_diffuse` is
 /// set, D need not be known, and is black where its colour would be looked up for nothing.
-inline SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
-                                   float u, bool without_diffuse) {
+OUTLINED SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                     uint mode, float u, bool without_diffuse) {
     SurfaceBsdf s = bare_surface(hit, direction, mode);
     s.unscaled = scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     resolve_material(scene, hit, &s, u, without_diffuse);
@@ -125,26 +126,26 @@ inline SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* hit
 }
 
 /// The BSDF of the point with all of its parts.
-inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction, uint mode,
-                                float u) {
+static inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                       uint mode, float u) {
     return surface_bsdf_of(scene, hit, direction, mode, u, false);
 }
 
 /// Shadowing by the bumps that a map stands for, as light sees them that has this cosine to the mesh's
 /// normal. [Estevez et al., A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, Ray
 /// Tracing Gems 2019]
-inline float map_shadowing(float tilt2, float cosine) {
+static inline float map_shadowing(float tilt2, float cosine) {
     const float cos2 = fmax(cosine * cosine, 1e-12f);
     return 2.0f / (1.0f + sqrt(1.0f + tilt2 * fmax(1.0f - cos2, 0.0f) / cos2));
 }
 
 /// The flag of a VPL on this surface that says whether a map tilts its shading normal.
-inline uint mapped_flag(const SurfaceBsdf* s) {
+static inline uint mapped_flag(const SurfaceBsdf* s) {
     return s->mapped ? NEARLIGHT_VPL_MAPPED : 0;
 }
 
 /// The factor of what a map takes away: 0 where its normal and the mesh's see light on different sides.
-inline float map_factor(const SurfaceBsdf* s, float3 wi) {
+static inline float map_factor(const SurfaceBsdf* s, float3 wi) {
     const bool flux = s->mode == BSDF_FLUX;
     const float3 light = flux ? s->wo : wi;
     if (!(dot(light, s->unmapped) * dot(light, s->frame.n) > 0.0f)) {
@@ -166,7 +167,7 @@ inline float map_factor(const SurfaceBsdf* s, float3 wi) {
 /// The factor by which light along wi counts besides the model's value. `eta` is the index on wi's side ÷
 /// that on wo's. Radiance shrinks by 1/eta² where it passes a boundary. For flux, a shading normal asks for
 /// the ratio of cosines [Veach 1997, §5.3.2].
-inline float transport_factor(const SurfaceBsdf* s, float3 wi, float eta) {
+static inline float transport_factor(const SurfaceBsdf* s, float3 wi, float eta) {
     const float factor = s->mapped ? map_factor(s, wi) : 1.0f;
     if (s->mode != BSDF_FLUX) {
         return s->unscaled ? factor : factor / (eta * eta);
@@ -176,7 +177,7 @@ inline float transport_factor(const SurfaceBsdf* s, float3 wi, float eta) {
 }
 
 /// Index beyond the surface ÷ that on the viewer's side, for what the surface lets through.
-inline float transmission_eta(const Bsdf* bsdf) {
+static inline float transmission_eta(const Bsdf* bsdf) {
     const bool body = bsdf->model == NEARLIGHT_BSDF_DIELECTRIC ||
                       (bsdf->model == NEARLIGHT_BSDF_PRINCIPLED && !(bsdf->flags & NEARLIGHT_MATERIAL_THIN));
     return body ? bsdf->eta.x : 1.0f;
@@ -184,7 +185,7 @@ inline float transmission_eta(const Bsdf* bsdf) {
 
 /// BSDF · |cosθi| of the chosen parts (BSDF_D, BSDF_S or both), without mirror images, refractions and what
 /// passes straight on. `pdf` gets the density with which bsdf_sample draws wi for the same parts.
-inline float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 wi, uint parts, float* pdf) {
+OUTLINED float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 wi, uint parts, float* pdf) {
     const float3 local_wo = world_to_frame(&s->frame, s->wo);
     const float3 local_wi = world_to_frame(&s->frame, wi);
     const Bsdf* bsdf = &s->bsdf;
@@ -208,7 +209,7 @@ inline float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 wi,
 
 /// The probability with which a direction drawn from S with these numbers is a reflection, where S also lets
 /// light through and the lower numbers `u` reflect; otherwise 1.
-inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
+static inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
     const float3 wo = world_to_frame(&s->frame, s->wo);
     if (s->bsdf.model == NEARLIGHT_BSDF_THIN_DIELECTRIC || s->bsdf.model == NEARLIGHT_BSDF_CLEAR_GLASS) {
         return pane_reflectance(&s->bsdf, wo);
@@ -226,7 +227,8 @@ inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
 }
 
 /// A direction drawn from the chosen parts. `u` and `v` are independent and uniform in [0, 1).
-inline BsdfSample bsdf_sample(const SceneView* scene, const SurfaceBsdf* s, uint parts, float u, float2 v) {
+static inline BsdfSample bsdf_sample(const SceneView* scene, const SurfaceBsdf* s, uint parts, float u,
+                                     float2 v) {
     const float s_share = parts == BSDF_D ? 0.0f : (parts == BSDF_S ? 1.0f : s->s_share);
     const float3 wo = world_to_frame(&s->frame, s->wo);
     BsdfSample sample = no_bsdf_sample();

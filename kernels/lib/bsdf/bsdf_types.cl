@@ -49,7 +49,7 @@ typedef struct BsdfSample {
     uint is_straight;  // 1: light passes straight on, as shadow rays do (lib/light/shadow.cl)
 } BsdfSample;
 
-inline BsdfSample no_bsdf_sample(void) {
+static inline BsdfSample no_bsdf_sample(void) {
     BsdfSample sample;
     sample.wi = (float3)(0.0f);
     sample.weight = (float3)(0.0f);
@@ -61,7 +61,7 @@ inline BsdfSample no_bsdf_sample(void) {
 }
 
 /// Whether microfacets of this roughness count as a smooth surface.
-inline bool is_smooth(const Bsdf* bsdf) {
+static inline bool is_smooth(const Bsdf* bsdf) {
     return fmax(bsdf->alpha.x, bsdf->alpha.y) < NEARLIGHT_MIN_ALPHA;
 }
 

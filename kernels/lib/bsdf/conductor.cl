@@ -6,14 +6,14 @@
 #include "lib/bsdf/microfacet.cl"
 #include "lib/fresnel.cl"
 
-inline float3 conductor_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
+static inline float3 conductor_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     float3 m;
     const Microfacets facets = microfacets_of(bsdf);
     const float reflection = facet_reflection(&facets, wo, wi, &m, pdf);
     return bsdf->specular * fresnel_conductor(clamp(dot(wo, m), 0.0f, 1.0f), bsdf->eta, bsdf->k) * reflection;
 }
 
-inline BsdfSample conductor_sample(const Bsdf* bsdf, float3 wo, float2 v) {
+static inline BsdfSample conductor_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     BsdfSample sample = no_bsdf_sample();
     if (is_smooth(bsdf)) {
         sample.wi = (float3)(-wo.xy, wo.z);
@@ -27,7 +27,7 @@ inline BsdfSample conductor_sample(const Bsdf* bsdf, float3 wo, float2 v) {
 }
 
 /// Exact for smooth metal.
-inline float3 conductor_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 conductor_albedo(const Bsdf* bsdf, float3 wo) {
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     return bsdf->specular * facet_escape(bsdf) * fresnel_conductor(cosine, bsdf->eta, bsdf->k);
 }

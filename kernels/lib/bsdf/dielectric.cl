@@ -9,15 +9,15 @@
 #include "lib/fresnel.cl"
 
 /// The normal of the facet that reflects (wi.z > 0) or refracts wo into wi.
-inline float3 facet_between(float3 wo, float3 wi, float eta) {
+static inline float3 facet_between(float3 wo, float3 wi, float eta) {
     const float3 m = normalize(wo + (wi.z > 0.0f ? 1.0f : eta) * wi);
     return m.z < 0.0f ? -m : m;
 }
 
 /// Refraction by facets, without Fresnel's factor, for the transport of flux. `pdf` gets the density of
 /// refractions at visible facets.
-inline float facet_refraction(const Microfacets* facets, float3 wo, float3 wi, float3 m, float eta,
-                              float* pdf) {
+static inline float facet_refraction(const Microfacets* facets, float3 wo, float3 wi, float3 m, float eta,
+                                     float* pdf) {
     const float cos_near = dot(wo, m);
     const float cos_far = dot(wi, m);
     *pdf = 0.0f;
@@ -30,7 +30,7 @@ inline float facet_refraction(const Microfacets* facets, float3 wo, float3 wi, f
     return *pdf * facet_masking(facets, wi, m);
 }
 
-inline float3 dielectric_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
+static inline float3 dielectric_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     const Microfacets facets = microfacets_of(bsdf);
     const float eta = bsdf->eta.x;
     float3 m = facet_between(wo, wi, eta);
@@ -52,7 +52,7 @@ inline float3 dielectric_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf
 
 /// Gives `sample` the mirror image of wo about the facet m. One that leaves the viewer's side is none of this
 /// surface, and wi stays 0.
-inline void reflect_at(float3 wo, float3 m, BsdfSample* sample) {
+static inline void reflect_at(float3 wo, float3 m, BsdfSample* sample) {
     const float3 wi = mirror(wo, m);
     if (wi.z > 0.0f) {
         sample->wi = wi;
@@ -61,7 +61,7 @@ inline void reflect_at(float3 wo, float3 m, BsdfSample* sample) {
 
 /// Gives `sample` the refraction of wo about the facet m, and its eta. One that stays on the viewer's side is
 /// none of this surface, and wi stays 0.
-inline void refract_at(float3 wo, float3 m, float cos_far, float eta, BsdfSample* sample) {
+static inline void refract_at(float3 wo, float3 m, float cos_far, float eta, BsdfSample* sample) {
     const float3 wi = (dot(wo, m) / eta - cos_far) * m - wo / eta;
     if (wi.z < 0.0f) {
         sample->wi = normalize(wi);
@@ -71,7 +71,7 @@ inline void refract_at(float3 wo, float3 m, float cos_far, float eta, BsdfSample
 
 /// Direction of a mirror image or a refraction about the facet m, chosen by `u`. `sample` gets a tint, too,
 /// which is its weight if the facet is the surface itself.
-inline void choose_at_boundary(const Bsdf* bsdf, float3 wo, float3 m, float u, BsdfSample* sample) {
+static inline void choose_at_boundary(const Bsdf* bsdf, float3 wo, float3 m, float u, BsdfSample* sample) {
     const float cos_near = clamp(dot(wo, m), 0.0f, 1.0f);
     const float eta = bsdf->eta.x;
     float cos_far;
@@ -84,7 +84,7 @@ inline void choose_at_boundary(const Bsdf* bsdf, float3 wo, float3 m, float u, B
     }
 }
 
-inline BsdfSample dielectric_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
+static inline BsdfSample dielectric_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
     BsdfSample sample = no_bsdf_sample();
     sample.is_delta = is_smooth(bsdf);
     float3 m = (float3)(0.0f, 0.0f, 1.0f);
@@ -97,7 +97,7 @@ inline BsdfSample dielectric_sample(const Bsdf* bsdf, float3 wo, float u, float2
 }
 
 /// Exact for a smooth boundary.
-inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     const float reflectance = fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);

@@ -8,13 +8,14 @@
 
 #include "lib/angle.cl"
 #include "lib/bsdf/bsdf_types.cl"
+#include "lib/outlined.cl"
 
 typedef struct Microfacets {
     float2 alpha;
     uint beckmann;  // 0: GGX
 } Microfacets;
 
-inline Microfacets microfacets_of(const Bsdf* bsdf) {
+static inline Microfacets microfacets_of(const Bsdf* bsdf) {
     Microfacets facets;
     facets.alpha = fmax(bsdf->alpha, 1e-4f);
     facets.beckmann = bsdf->flags & NEARLIGHT_MATERIAL_BECKMANN;
@@ -22,7 +23,7 @@ inline Microfacets microfacets_of(const Bsdf* bsdf) {
 }
 
 /// Density of normals m (m.z > 0), in area of facets for each area of surface and steradian.
-inline float facet_density(const Microfacets* facets, float3 m) {
+static inline float facet_density(const Microfacets* facets, float3 m) {
     const float2 slope = m.xy / facets->alpha;
     const float planar = dot(slope, slope);
     const float scale = M_PI_F * facets->alpha.x * facets->alpha.y;
@@ -34,7 +35,7 @@ inline float facet_density(const Microfacets* facets, float3 m) {
 }
 
 /// The share of facets with the normal m that is visible from v.
-inline float facet_masking(const Microfacets* facets, float3 v, float3 m) {
+static inline float facet_masking(const Microfacets* facets, float3 v, float3 m) {
     if (dot(v, m) * v.z <= 0.0f) {
         return 0.0f;
     }
@@ -48,7 +49,7 @@ inline float facet_masking(const Microfacets* facets, float3 v, float3 m) {
 }
 
 /// Inverse of erf() on (−1, 1). [Giles, Approximating the erfinv Function, GPU Computing Gems 2, 2011]
-inline float inverse_erf(float x) {
+static inline float inverse_erf(float x) {
     const float w = -log((1.0f - x) * (1.0f + x));
     float p;
     if (w < 5.0f) {
@@ -80,7 +81,7 @@ inline float inverse_erf(float x) {
 /// Slopes of Beckmann's surface of roughness 1, along and across the viewer's direction, in proportion to how
 /// much of them the viewer sees. The slope along is found by Newton's method, for which all is expressed by
 /// x = erf(slope). [Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014]
-inline float2 sample_beckmann_slopes(float cos_viewer, float2 u) {
+static inline float2 sample_beckmann_slopes(float cos_viewer, float2 u) {
     const float limit = 0.9999999f;
     const float tangent = sqrt(fmax(1.0f - cos_viewer * cos_viewer, 1e-12f)) / cos_viewer;
     const float cotangent = 1.0f / tangent;
@@ -98,7 +99,7 @@ inline float2 sample_beckmann_slopes(float cos_viewer, float2 u) {
 }
 
 /// A normal with the density of facet_density · facet_masking(wo) · max0(wo·m) / wo.z, for wo.z > 0.
-inline float3 sample_visible_facet(const Microfacets* facets, float3 wo, float2 u) {
+OUTLINED float3 sample_visible_facet(const Microfacets* facets, float3 wo, float2 u) {
     const float3 stretched = normalize((float3)(wo.xy * facets->alpha, wo.z));
     if (facets->beckmann) {
         const float planar = length(stretched.xy);
@@ -116,7 +117,7 @@ inline float3 sample_visible_facet(const Microfacets* facets, float3 wo, float2 
 
 /// Reflection by facets, without Fresnel's factor: density · masking both ways / (4 wo.z). `pdf` gets the
 /// density of mirror directions about visible facets. Both are 0 where either side cannot see the facet.
-inline float facet_reflection(const Microfacets* facets, float3 wo, float3 wi, float3* m, float* pdf) {
+static inline float facet_reflection(const Microfacets* facets, float3 wo, float3 wi, float3* m, float* pdf) {
     *m = normalize(wo + wi);
     *pdf = 0.0f;
     if (!(wi.z > 0.0f) || !(dot(wo, *m) > 0.0f)) {
@@ -127,17 +128,17 @@ inline float facet_reflection(const Microfacets* facets, float3 wo, float3 wi, f
 }
 
 /// About the mean cosine between the viewer and the facets that it sees.
-inline float facing_cosine(const Bsdf* bsdf, float3 wo) {
+static inline float facing_cosine(const Bsdf* bsdf, float3 wo) {
     return mix(wo.z, 0.65f, 0.4f * fmin(bsdf->alpha.x + bsdf->alpha.y, 2.0f));
 }
 
 /// About the share of light that leaves rough facets after one reflection, for all directions of it together.
-inline float facet_escape(const Bsdf* bsdf) {
+static inline float facet_escape(const Bsdf* bsdf) {
     const float alpha = fmin(0.5f * (bsdf->alpha.x + bsdf->alpha.y), 1.0f);
     return 1.0f - (bsdf->flags & NEARLIGHT_MATERIAL_BECKMANN ? 0.4f : 0.6f) * alpha * sqrt(alpha);
 }
 
-inline float3 mirror(float3 wo, float3 m) {
+static inline float3 mirror(float3 wo, float3 m) {
     return 2.0f * dot(wo, m) * m - wo;
 }
 

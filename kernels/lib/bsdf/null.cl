@@ -5,7 +5,7 @@
 
 #include "lib/bsdf/bsdf_types.cl"
 
-inline BsdfSample null_sample(float3 wo) {
+static inline BsdfSample null_sample(float3 wo) {
     BsdfSample sample = no_bsdf_sample();
     sample.wi = -wo;
     sample.weight = (float3)(1.0f);

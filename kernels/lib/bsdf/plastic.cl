@@ -7,7 +7,7 @@
 #include "lib/bsdf/microfacet.cl"
 #include "lib/fresnel.cl"
 
-inline float3 plastic_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
+static inline float3 plastic_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     float3 m;
     float cos_far;
     const Microfacets facets = microfacets_of(bsdf);
@@ -16,7 +16,7 @@ inline float3 plastic_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
            (reflection * fresnel_dielectric(clamp(dot(wo, m), 0.0f, 1.0f), bsdf->eta.x, &cos_far));
 }
 
-inline BsdfSample plastic_sample(const Bsdf* bsdf, float3 wo, float2 v) {
+static inline BsdfSample plastic_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     BsdfSample sample = no_bsdf_sample();
     if (is_smooth(bsdf)) {
         float cos_far;
@@ -31,7 +31,7 @@ inline BsdfSample plastic_sample(const Bsdf* bsdf, float3 wo, float2 v) {
 }
 
 /// Exact for a smooth coat.
-inline float3 plastic_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 plastic_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     return bsdf->specular * facet_escape(bsdf) * fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);

@@ -14,19 +14,19 @@
 #include "lib/sampling.cl"
 
 /// (1 − cosine)⁵, the weight of grazing light in Schlick's approximation.
-inline float schlick_weight(float cosine) {
+static inline float schlick_weight(float cosine) {
     const float m = clamp(1.0f - cosine, 0.0f, 1.0f);
     return m * m * m * m * m;
 }
 
 /// The base colour with luminance 1.
-inline float3 tint_of(float3 base) {
+static inline float3 tint_of(float3 base) {
     const float l = luminance(base);
     return l > 0.0f ? base / l : (float3)(1.0f);
 }
 
 /// Facets of the roughness, which `scale` multiplies.
-inline Microfacets principled_facets(const Bsdf* bsdf, float scale) {
+static inline Microfacets principled_facets(const Bsdf* bsdf, float scale) {
     const float roughness = bsdf->alpha.x * scale;
     const float aspect = sqrt(1.0f - 0.9f * bsdf->anisotropic);
     Microfacets facets;
@@ -35,12 +35,12 @@ inline Microfacets principled_facets(const Bsdf* bsdf, float scale) {
     return facets;
 }
 
-inline bool is_thin(const Bsdf* bsdf) {
+static inline bool is_thin(const Bsdf* bsdf) {
     return bsdf->flags & NEARLIGHT_MATERIAL_THIN;
 }
 
 /// What light loses in roughness as it passes through a thin sheet [Burley 2015, figure 15].
-inline float thin_roughness_scale(const Bsdf* bsdf) {
+static inline float thin_roughness_scale(const Bsdf* bsdf) {
     return 0.65f * bsdf->eta.x - 0.35f;
 }
 
@@ -52,7 +52,7 @@ typedef struct PrincipledWays {
     float through;  // cosine-distributed, through a thin sheet
 } PrincipledWays;
 
-inline PrincipledWays principled_ways(const Bsdf* bsdf) {
+static inline PrincipledWays principled_ways(const Bsdf* bsdf) {
     const bool thin = is_thin(bsdf);
     const float rest = (thin ? 1.0f : 1.0f - bsdf->metallic) * (1.0f - bsdf->spec_trans);
     const float through = thin ? bsdf->transmission.x : 0.0f;
@@ -76,7 +76,7 @@ inline PrincipledWays principled_ways(const Bsdf* bsdf) {
 }
 
 /// The share of what facets reflect among the light that they scatter, given the dielectric's reflectance.
-inline float facet_reflection_share(const Bsdf* bsdf, float reflectance) {
+static inline float facet_reflection_share(const Bsdf* bsdf, float reflectance) {
     if (is_thin(bsdf)) {
         return 0.5f;
     }
@@ -85,7 +85,7 @@ inline float facet_reflection_share(const Bsdf* bsdf, float reflectance) {
 }
 
 /// Fresnel's factor of the facets, whose reflectance as a dielectric is given.
-inline float3 principled_fresnel(const Bsdf* bsdf, float reflectance, float cosine) {
+static inline float3 principled_fresnel(const Bsdf* bsdf, float reflectance, float cosine) {
     if (!bsdf->front && !is_thin(bsdf)) {
         return (float3)((1.0f - bsdf->metallic) * bsdf->spec_trans * reflectance);
     }
@@ -101,13 +101,13 @@ inline float3 principled_fresnel(const Bsdf* bsdf, float reflectance, float cosi
 }
 
 /// α of the clearcoat.
-inline float clearcoat_alpha(const Bsdf* bsdf) {
+static inline float clearcoat_alpha(const Bsdf* bsdf) {
     return mix(0.1f, 0.001f, bsdf->clearcoat_gloss);
 }
 
 /// Clearcoat: facets of the distribution GTR1 with half vector m. `pdf` gets the density of their mirror
 /// directions.
-inline float clearcoat_eval(const Bsdf* bsdf, float3 wo, float3 wi, float3 m, float* pdf) {
+static inline float clearcoat_eval(const Bsdf* bsdf, float3 wo, float3 wi, float3 m, float* pdf) {
     const float alpha = clearcoat_alpha(bsdf);
     const float a2 = alpha * alpha;
     const float density = (a2 - 1.0f) / (M_PI_F * log(a2) * (1.0f + (a2 - 1.0f) * m.z * m.z));
@@ -121,7 +121,7 @@ inline float clearcoat_eval(const Bsdf* bsdf, float3 wo, float3 wi, float3 m, fl
 }
 
 /// Retro-reflection, fake subsurface scattering and sheen, times the cosine.
-inline float3 soft_reflection(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) {
+static inline float3 soft_reflection(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) {
     const float fo = schlick_weight(wo.z);
     const float fi = schlick_weight(wi.z);
     const float cosine = dot(wi, m);
@@ -140,8 +140,8 @@ inline float3 soft_reflection(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) 
 }
 
 /// S for light on the viewer's side.
-inline float3 principled_reflection(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi,
-                                    float* pdf) {
+static inline float3 principled_reflection(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi,
+                                           float* pdf) {
     const Microfacets facets = principled_facets(bsdf, 1.0f);
     float3 m;
     float facet_pdf;
@@ -169,8 +169,8 @@ inline float3 principled_reflection(const Bsdf* bsdf, const PrincipledWays* ways
 }
 
 /// S for light that comes through a body.
-inline float3 principled_refraction(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi,
-                                    float* pdf) {
+static inline float3 principled_refraction(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi,
+                                           float* pdf) {
     const Microfacets facets = principled_facets(bsdf, 1.0f);
     const float3 m = facet_between(wo, wi, bsdf->eta.x);
     float cos_far;
@@ -183,14 +183,15 @@ inline float3 principled_refraction(const Bsdf* bsdf, const PrincipledWays* ways
 
 /// Whether the facet with the normal m has the light on its far side. Only with this condition of Mitsuba's
 /// does it let light through a thin sheet; for an oblique viewer it is not the same from both ends.
-inline bool facet_passes(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) {
+static inline bool facet_passes(const Bsdf* bsdf, float3 wo, float3 wi, float3 m) {
     const float3 light = bsdf->flux ? (float3)(wo.xy, -wo.z) : wi;
     return dot(light, m) < 0.0f;
 }
 
 /// S for light that comes through a thin sheet: as if facets on the viewer's side reflected the direction,
 /// and evenly.
-inline float3 thin_passage(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi, float* pdf) {
+static inline float3 thin_passage(const Bsdf* bsdf, const PrincipledWays* ways, float3 wo, float3 wi,
+                                  float* pdf) {
     const Microfacets facets = principled_facets(bsdf, thin_roughness_scale(bsdf));
     const float3 reflected = (float3)(wi.xy, -wi.z);
     float3 m;
@@ -207,7 +208,7 @@ inline float3 thin_passage(const Bsdf* bsdf, const PrincipledWays* ways, float3 
                          (1.0f - bsdf->spec_trans) * bsdf->transmission.x * evenly);
 }
 
-inline float3 principled_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
+static inline float3 principled_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     const PrincipledWays ways = principled_ways(bsdf);
     if (wi.z > 0.0f) {
         return principled_reflection(bsdf, &ways, wo, wi, pdf);
@@ -219,14 +220,14 @@ inline float3 principled_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf
 }
 
 /// A normal of the clearcoat's facets.
-inline float3 sample_clearcoat_facet(const Bsdf* bsdf, float2 v) {
+static inline float3 sample_clearcoat_facet(const Bsdf* bsdf, float2 v) {
     const float alpha = clearcoat_alpha(bsdf);
     const float a2 = alpha * alpha;
     const float cos2 = clamp((1.0f - pow(a2, 1.0f - v.x)) / (1.0f - a2), 0.0f, 1.0f);
     return (float3)(sqrt(1.0f - cos2) * circle_point(v.y), sqrt(cos2));
 }
 
-inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
+static inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2 v) {
     const PrincipledWays ways = principled_ways(bsdf);
     BsdfSample sample = no_bsdf_sample();
     if (u >= ways.facets) {
@@ -260,7 +261,7 @@ inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u, float2
 }
 
 /// An estimate, good for steering.
-inline float3 principled_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 principled_albedo(const Bsdf* bsdf, float3 wo) {
     const bool thin = is_thin(bsdf);
     const float cosine = mix(wo.z, 0.65f, 0.8f * bsdf->alpha.x * bsdf->alpha.x);
     float cos_far;

@@ -33,7 +33,8 @@ typedef struct SurfaceBsdf {
 #define MAPPED_TURNED 2u  // the mapped normal is turned about the mesh's, as it would face away otherwise
 
 /// Derivatives of the position by u and v; the edges of the triangle where (u, v) is the same everywhere.
-inline void position_derivatives(const SceneView* scene, const SurfaceHit* hit, float3* du, float3* dv) {
+static inline void position_derivatives(const SceneView* scene, const SurfaceHit* hit, float3* du,
+                                        float3* dv) {
     const Triangle triangle = scene->triangles[hit->triangle];
     const global Vertex* a = scene->vertices + triangle.v0;
     const global Vertex* b = scene->vertices + triangle.v1;
@@ -53,7 +54,7 @@ inline void position_derivatives(const SceneView* scene, const SurfaceHit* hit, 
 }
 
 /// A frame about n whose tangent is as near to `along` as can be.
-inline Frame frame_along(float3 n, float3 along) {
+static inline Frame frame_along(float3 n, float3 along) {
     const float3 tangent = along - dot(n, along) * n;
     const float squared = dot(tangent, tangent);
     if (!(squared > 0.0f)) {
@@ -68,8 +69,8 @@ inline Frame frame_along(float3 n, float3 along) {
 
 /// The normal of the displaced surface in the frame of the surface, where the position has the derivatives du
 /// and dv, and the displacement the gradient. [Blinn 1978; Mitsuba's `bumpmap`]
-inline float3 bumped_normal(const SurfaceHit* hit, const Frame* front, float3 du, float3 dv,
-                            float2 gradient) {
+static inline float3 bumped_normal(const SurfaceHit* hit, const Frame* front, float3 du, float3 dv,
+                                   float2 gradient) {
     du += (gradient.x - dot(front->n, du)) * front->n;
     dv += (gradient.y - dot(front->n, dv)) * front->n;
     const float3 n = cross(du, dv);
@@ -83,7 +84,7 @@ inline float3 bumped_normal(const SurfaceHit* hit, const Frame* front, float3 du
 
 /// The squared α of the shadowing by the bumps that a map stands for, whose normal has this cosine to the
 /// mesh's.
-inline float map_tilt(float cosine) {
+static inline float map_tilt(float cosine) {
     const float cos2 = cosine * cosine;
     return clamp(0.125f * (1.0f - cos2) / fmax(cos2, 1e-12f), 0.0f, 1.0f);
 }
@@ -92,7 +93,7 @@ inline float map_tilt(float cosine) {
 /// without a direction leaves the frame as it is. As in Mitsuba, a normal that the viewer sees from behind is
 /// turned about the frame's. Which viewers a path of flux will find is not known yet, so one in eight of
 /// these turns the normal, and counts only for viewers for whom it is turned.
-inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
+static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
     const float squared = dot(n, n);
     n = squared > 0.0f && squared < INFINITY ? n : (float3)(0.0f, 0.0f, 1.0f);
     const float3 wo = world_to_frame(&s->frame, s->wo);
@@ -114,7 +115,7 @@ inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
 
 /// Makes parameter `index` of a material (counted from `reflectance`) part of the BSDF. Textures of numbers
 /// may leave the range from 0 to 1, which the models rely on.
-inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
+static inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
     const float2 number = clamp(value->number, 0.0f, 1.0f);
     switch (index) {
         case 0:
@@ -159,7 +160,7 @@ inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
 }
 
 /// Which parameters a model uses: bit i stands for parameter i, counted from `reflectance`.
-inline uint used_parameters(uint model) {
+static inline uint used_parameters(uint model) {
     switch (model) {
         case NEARLIGHT_BSDF_PLASTIC:
             return 0xbu;
@@ -178,7 +179,7 @@ inline uint used_parameters(uint model) {
     }
 }
 
-inline Bsdf black_bsdf(void) {
+static inline Bsdf black_bsdf(void) {
     Bsdf bsdf;
     bsdf.model = NEARLIGHT_BSDF_DIFFUSE;
     bsdf.flags = 0;
@@ -194,7 +195,7 @@ inline Bsdf black_bsdf(void) {
 }
 
 /// The colour of D from looked-up parameters.
-inline float3 diffuse_color(const Bsdf* bsdf, const global Material* material) {
+static inline float3 diffuse_color(const Bsdf* bsdf, const global Material* material) {
     const float3 base = bsdf->base;
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_DIFFUSE:
@@ -215,7 +216,7 @@ inline float3 diffuse_color(const Bsdf* bsdf, const global Material* material) {
 
 /// Completes a BSDF with looked-up parameters for a viewer on the front (or back) side. Smooth glass becomes
 /// clear where `clear` is set.
-inline void finish_bsdf(Bsdf* bsdf, const global Material* material, bool front, bool clear) {
+static inline void finish_bsdf(Bsdf* bsdf, const global Material* material, bool front, bool clear) {
     const bool straight = clear && material->model == NEARLIGHT_BSDF_DIELECTRIC && is_smooth(bsdf);
     const uint model = straight ? NEARLIGHT_BSDF_CLEAR_GLASS : material->model;
     const bool thin =
@@ -238,16 +239,16 @@ inline void finish_bsdf(Bsdf* bsdf, const global Material* material, bool front,
 }
 
 /// Turns the frame's normal to the other side.
-inline void turn_over(SurfaceBsdf* s) {
+static inline void turn_over(SurfaceBsdf* s) {
     s->frame.n = -s->frame.n;
     s->unmapped = -s->unmapped;
 }
 
 /// One step towards the model that stands behind `material`: applies one that stands for another, given the
 /// value of its parameter, and returns the other. Returns null for a surface that is not there.
-inline const global Material* resolve_step(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s,
-                                           const global Material* material, const TextureValue* value,
-                                           float* turn, float* u) {
+static inline const global Material* resolve_step(const SceneView* scene, const SurfaceHit* hit,
+                                                  SurfaceBsdf* s, const global Material* material,
+                                                  const TextureValue* value, float* turn, float* u) {
     uint child = 0;
     switch (material->model) {
         case NEARLIGHT_BSDF_MASK: {
@@ -290,8 +291,8 @@ inline const global Material* resolve_step(const SceneView* scene, const Surface
 }
 
 /// Looks up the model behind `material` (which is none that stands for others) for the viewer s->wo.
-inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s,
-                         const global Material* material, float3 reflectance) {
+static inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s,
+                                const global Material* material, float3 reflectance) {
     s->bsdf.model = material->model;
     s->bsdf.flags = material->flags;
     s->bsdf.base = reflectance;
@@ -312,7 +313,7 @@ inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, SurfaceB
 }
 
 /// Everything but the BSDF itself, which is black: the frame of the mesh.
-inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mode) {
+static inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mode) {
     SurfaceBsdf s;
     s.bsdf = black_bsdf();
     s.bsdf.flux = mode == BSDF_FLUX;
@@ -330,14 +331,14 @@ inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mo
 }
 
 /// Whether the colour `reflectance` of the model counts where D is not asked for.
-inline bool needs_reflectance(const SurfaceBsdf* s, uint model, bool without_diffuse) {
+static inline bool needs_reflectance(const SurfaceBsdf* s, uint model, bool without_diffuse) {
     return !without_diffuse || s->mapped == MAPPED_TURNED || model == NEARLIGHT_BSDF_PRINCIPLED;
 }
 
 /// Resolves the material of the hit into s->bsdf and s->frame. `u` decides by chance at masks and blends.
 /// Without D, its colour is not looked up, and D is black, except under a map that turned the normal.
-inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s, float u,
-                             bool without_diffuse) {
+static inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s, float u,
+                                    bool without_diffuse) {
     const global Material* material = scene->materials + hit->material;
     float turn = 1.0f;  // −1 where a two-sided material turned the frame over
     bool aligned = false;

@@ -11,13 +11,13 @@
 
 /// Reflectance of the pane, with all reflections between its faces: r + t·r·t + t·r³·t + …; of clear glass,
 /// r.
-inline float pane_reflectance(const Bsdf* bsdf, float3 wo) {
+static inline float pane_reflectance(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float once = fresnel_dielectric(wo.z, bsdf->eta.x, &cos_far);
     return bsdf->model == NEARLIGHT_BSDF_CLEAR_GLASS ? once : 2.0f * once / (1.0f + once);
 }
 
-inline BsdfSample thin_dielectric_sample(const Bsdf* bsdf, float3 wo, float u) {
+static inline BsdfSample thin_dielectric_sample(const Bsdf* bsdf, float3 wo, float u) {
     BsdfSample sample = no_bsdf_sample();
     const bool reflected = u < pane_reflectance(bsdf, wo);
     sample.wi = reflected ? (float3)(-wo.xy, wo.z) : -wo;
@@ -27,7 +27,7 @@ inline BsdfSample thin_dielectric_sample(const Bsdf* bsdf, float3 wo, float u) {
     return sample;
 }
 
-inline float3 thin_dielectric_albedo(const Bsdf* bsdf, float3 wo) {
+static inline float3 thin_dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     return mix(bsdf->transmission, bsdf->specular, pane_reflectance(bsdf, wo));
 }
 

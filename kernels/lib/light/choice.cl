@@ -10,13 +10,13 @@
 #define MAX_EXACT_LIGHTS 16u
 
 /// How many delta lights, the first ones of the table, are few enough to be summed all.
-inline uint exact_light_count(const SceneView* scene) {
+static inline uint exact_light_count(const SceneView* scene) {
     const uint count = scene->info->delta_emitter_count;
     return count <= MAX_EXACT_LIGHTS ? count : 0;
 }
 
 /// The first emitter of the table with u < cdf, or the last one if rounding leaves u above all entries.
-inline uint choose_emitter(const SceneView* scene, float u) {
+static inline uint choose_emitter(const SceneView* scene, float u) {
     uint low = 0;
     uint high = scene->info->emitter_count - 1;
     while (low < high) {
@@ -31,7 +31,7 @@ inline uint choose_emitter(const SceneView* scene, float u) {
 }
 
 /// The part of the distribution that belongs to lights which are summed exactly.
-inline float exact_share(const SceneView* scene) {
+static inline float exact_share(const SceneView* scene) {
     const uint count = exact_light_count(scene);
     return count == 0 ? 0.0f : scene->emitters[count - 1].cdf;
 }
@@ -42,13 +42,13 @@ typedef struct CdfRange {
 } CdfRange;
 
 /// Whether the light is a triangle, sphere or cylinder.
-inline bool is_area_light(const global Emitter* emitter) {
+static inline bool is_area_light(const global Emitter* emitter) {
     return emitter->type == NEARLIGHT_EMITTER_TRIANGLE || emitter->type == NEARLIGHT_EMITTER_SPHERE ||
            emitter->type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
 /// The part of the distribution that belongs to area lights.
-inline CdfRange area_light_share(const SceneView* scene) {
+static inline CdfRange area_light_share(const SceneView* scene) {
     const uint delta_count = scene->info->delta_emitter_count;
     uint end = scene->info->emitter_count;
     while (end > delta_count && !is_area_light(scene->emitters + end - 1)) {
@@ -64,7 +64,7 @@ inline CdfRange area_light_share(const SceneView* scene) {
 /// counts from all sides); there must be a light. All area lights together have the share of their power, and
 /// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
 /// ~0u if the choice brings nothing.
-inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
+static inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
     const float low = exact_share(scene);
     const float place = low + u * (1.0f - low);
     if (scene->info->light_node_count > 0) {
@@ -83,7 +83,7 @@ inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, fl
 }
 
 /// The probability with which choose_light() picks this entry of the table.
-inline float choice_probability(const SceneView* scene, uint index, float3 x, float3 n) {
+static inline float choice_probability(const SceneView* scene, uint index, float3 x, float3 n) {
     if (index < exact_light_count(scene)) {
         return 0.0f;
     }
@@ -98,7 +98,7 @@ inline float choice_probability(const SceneView* scene, uint index, float3 x, fl
 /// The entry of a triangle in the table, by itself or as a part of a sphere or cylinder, or ~0u for a
 /// triangle that does not emit. Area lights lie in the table by ascending triangles, between the delta lights
 /// and the environment.
-inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
+static inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
     const uint first = scene->info->delta_emitter_count;
     uint low = first;
     uint high = scene->info->emitter_count;

@@ -20,7 +20,7 @@ typedef struct SeenCylinder {
     float half_angle;  // greatest φ; 0 where the point does not lie outside
 } SeenCylinder;
 
-inline SeenCylinder seen_cylinder(const global Emitter* emitter, float3 x) {
+static inline SeenCylinder seen_cylinder(const global Emitter* emitter, float3 x) {
     SeenCylinder seen;
     const float3 to_end = load3(emitter->position) - x;
     seen.axis = load3(emitter->direction);
@@ -37,18 +37,18 @@ inline SeenCylinder seen_cylinder(const global Emitter* emitter, float3 x) {
 }
 
 /// The distance from the point to a coaxial cylinder of the given radius, across the axis at the angle φ.
-inline float distance_across(const SeenCylinder* seen, float sine, float cosine, float radius) {
+static inline float distance_across(const SeenCylinder* seen, float sine, float cosine, float radius) {
     const float past = seen->distance * sine;
     return seen->distance * cosine - sqrt(fmax(0.0f, radius * radius - past * past));
 }
 
 /// The difference between the elevations of the two ends, at this distance across the axis.
-inline float elevation_range(const SeenCylinder* seen, float across) {
+static inline float elevation_range(const SeenCylinder* seen, float across) {
     return atan2(across * (seen->high - seen->low), across * across + seen->low * seen->high);
 }
 
 /// The density of sample_cylinder() in a unit direction.
-inline float cylinder_pdf(const global Emitter* emitter, float3 x, float3 direction) {
+static inline float cylinder_pdf(const global Emitter* emitter, float3 x, float3 direction) {
     const SeenCylinder seen = seen_cylinder(emitter, x);
     const float2 flat = (float2)(dot(direction, seen.across), dot(direction, seen.beside));
     const float cos_elevation = length(flat);
@@ -62,7 +62,7 @@ inline float cylinder_pdf(const global Emitter* emitter, float3 x, float3 direct
     return meets ? 1.0f / (2.0f * seen.half_angle * elevation_range(&seen, across) * cos_elevation) : 0.0f;
 }
 
-inline RoundSample sample_cylinder(const global Emitter* emitter, float3 x, float2 u) {
+static inline RoundSample sample_cylinder(const global Emitter* emitter, float3 x, float2 u) {
     const SeenCylinder seen = seen_cylinder(emitter, x);
     const float phi = (2.0f * u.x - 1.0f) * seen.half_angle;
     const float sine = sin(phi);

@@ -6,7 +6,7 @@
 #include "lib/texture.cl"
 
 /// The colour that the light's image has at (s, t); white for a light without one.
-inline float3 image_color(const SceneView* scene, const global Emitter* emitter, float2 st) {
+static inline float3 image_color(const SceneView* scene, const global Emitter* emitter, float2 st) {
     if (emitter->image == 0) {
         return (float3)(1.0f);
     }
@@ -14,7 +14,7 @@ inline float3 image_color(const SceneView* scene, const global Emitter* emitter,
 }
 
 /// What remains of a spot's intensity at this angle from its axis.
-inline float spot_falloff(const global Emitter* emitter, float cosine) {
+static inline float spot_falloff(const global Emitter* emitter, float cosine) {
     const float angle = acos(clamp(cosine, -1.0f, 1.0f));
     if (angle <= emitter->beam_angle) {
         return 1.0f;
@@ -24,7 +24,8 @@ inline float spot_falloff(const global Emitter* emitter, float cosine) {
 }
 
 /// Intensity of a point light, spot or projector towards `direction` (unit, away from the light), W/sr.
-inline float3 delta_intensity(const SceneView* scene, const global Emitter* emitter, float3 direction) {
+static inline float3 delta_intensity(const SceneView* scene, const global Emitter* emitter,
+                                     float3 direction) {
     const float3 intensity = load3(emitter->radiance);
     if (emitter->type == NEARLIGHT_EMITTER_POINT) {
         return intensity;

@@ -7,6 +7,7 @@
 #include "lib/light/delta.cl"
 #include "lib/light/environment.cl"
 #include "lib/light/triangle.cl"
+#include "lib/outlined.cl"
 
 /// A particle that leaves a light.
 typedef struct EmittedParticle {
@@ -16,8 +17,8 @@ typedef struct EmittedParticle {
     uint from_delta;  // 1: from a light that no path can hit
 } EmittedParticle;
 
-inline EmittedParticle emit_from_triangle(const SceneView* scene, const global Emitter* emitter,
-                                          float2 u_position, float2 u_direction) {
+static inline EmittedParticle emit_from_triangle(const SceneView* scene, const global Emitter* emitter,
+                                                 float2 u_position, float2 u_direction) {
     EmittedParticle particle;
     float3 normal;
     const float2 place = square_to_triangle(u_position);
@@ -31,8 +32,8 @@ inline EmittedParticle emit_from_triangle(const SceneView* scene, const global E
 
 /// A particle of a uniform point of a sphere or cylinder, which starts where it leaves the last of the
 /// light's triangles behind.
-inline EmittedParticle emit_from_round_light(const SceneView* scene, const global Emitter* emitter,
-                                             float2 u_position, float2 u_direction) {
+static inline EmittedParticle emit_from_round_light(const SceneView* scene, const global Emitter* emitter,
+                                                    float2 u_position, float2 u_direction) {
     const bool is_sphere = emitter->type == NEARLIGHT_EMITTER_SPHERE;
     const float3 axis = load3(emitter->direction);
     const float3 normal = is_sphere ? square_to_cone(u_position, -1.0f)
@@ -68,7 +69,7 @@ typedef struct EntryPoint {
 } EntryPoint;
 
 /// An entry point on the disk of the scene's size that faces the light.
-inline EntryPoint spread_entry(float3 center, float radius, float3 from, float2 u) {
+static inline EntryPoint spread_entry(float3 center, float radius, float3 from, float2 u) {
     EntryPoint entry;
     entry.position =
         center + radius * from + to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
@@ -79,7 +80,7 @@ inline EntryPoint spread_entry(float3 center, float radius, float3 from, float2 
 /// The place across light that travels along −`from`, from the middle of the sphere's shadow, of a walk that
 /// aims (u.x < PART_AIMED) or lands around (u.x < PART_AIMED + PART_AROUND). Around the shadow, each doubling
 /// of the distance up to radius · e^`log_reach` gets as many walks.
-inline float3 place_about(float radius, float log_reach, float3 from, float2 u) {
+static inline float3 place_about(float radius, float log_reach, float3 from, float2 u) {
     const float distance = u.x < PART_AIMED ? radius * sqrt(u.x / PART_AIMED)
                                             : radius * exp(log_reach * (u.x - PART_AIMED) / PART_AROUND);
     return to_world_frame((float3)(distance * circle_point(u.y), 0.0f), from);
@@ -88,7 +89,7 @@ inline float3 place_about(float radius, float log_reach, float3 from, float2 u) 
 /// An entry point of light that travels along −`from`. The density is that of all three ways together, so
 /// that no walk counts for much only because it came by an unlikely way. Where the sphere at which walks aim
 /// is about as large as the scene, there is nothing to win, and all are spread.
-inline EntryPoint entry_point(const SceneView* scene, WalkAim aim, float3 from, float2 u) {
+static inline EntryPoint entry_point(const SceneView* scene, WalkAim aim, float3 from, float2 u) {
     const float3 center = load3(scene->environment->scene_center);
     const float radius = scene->environment->scene_radius;
     if (!(aim.radius > 0.0f && aim.radius < 0.5f * radius)) {
@@ -114,8 +115,8 @@ inline EntryPoint entry_point(const SceneView* scene, WalkAim aim, float3 from, 
     return entry;
 }
 
-inline EmittedParticle emit_from_environment(const SceneView* scene, WalkAim aim, bool is_sun,
-                                             float2 u_position, float2 u_direction) {
+static inline EmittedParticle emit_from_environment(const SceneView* scene, WalkAim aim, bool is_sun,
+                                                    float2 u_position, float2 u_direction) {
     float3 from;
     float3 radiance;
     float pdf;
@@ -138,8 +139,8 @@ inline EmittedParticle emit_from_environment(const SceneView* scene, WalkAim aim
     return particle;
 }
 
-inline EmittedParticle emit_from_point(const SceneView* scene, const global Emitter* emitter,
-                                       float2 u_direction) {
+static inline EmittedParticle emit_from_point(const SceneView* scene, const global Emitter* emitter,
+                                              float2 u_direction) {
     const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
     const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;
     const float3 axis = is_spot ? load3(emitter->direction) : (float3)(0.0f, 0.0f, 1.0f);
@@ -152,7 +153,8 @@ inline EmittedParticle emit_from_point(const SceneView* scene, const global Emit
 }
 
 /// A particle through a uniform point of the image plane at the distance 1, on which dω = cos³ dA.
-inline EmittedParticle emit_from_projector(const SceneView* scene, const global Emitter* emitter, float2 st) {
+static inline EmittedParticle emit_from_projector(const SceneView* scene, const global Emitter* emitter,
+                                                  float2 st) {
     const float3 x_axis = load3(emitter->x_axis);
     const float3 y_axis = load3(emitter->y_axis);
     EmittedParticle particle;
@@ -165,8 +167,8 @@ inline EmittedParticle emit_from_projector(const SceneView* scene, const global 
     return particle;
 }
 
-inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAim aim, const global Emitter* emitter,
-                                           float2 u_position) {
+static inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAim aim,
+                                                  const global Emitter* emitter, float2 u_position) {
     EmittedParticle particle;
     particle.direction = load3(emitter->direction);
     const EntryPoint entry = entry_point(scene, aim, -particle.direction, u_position);
@@ -176,8 +178,8 @@ inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAim aim, 
     return particle;
 }
 
-inline EmittedParticle emit_particle(const SceneView* scene, WalkAim aim, float2 choice, float2 u_position,
-                                     float2 u_direction) {
+OUTLINED EmittedParticle emit_particle(const SceneView* scene, WalkAim aim, float2 choice, float2 u_position,
+                                       float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {

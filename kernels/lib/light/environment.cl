@@ -6,37 +6,37 @@
 #include "lib/sampling.cl"
 #include "lib/scene.cl"
 
-inline float3 rotate_to_local(const global float* m, float3 v) {
+static inline float3 rotate_to_local(const global float* m, float3 v) {
     return (float3)(m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
                     m[6] * v.x + m[7] * v.y + m[8] * v.z);
 }
-inline float3 rotate_to_world(const global float* m, float3 v) {
+static inline float3 rotate_to_world(const global float* m, float3 v) {
     return (float3)(m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
                     m[2] * v.x + m[5] * v.y + m[8] * v.z);
 }
 
 /// Where on the map a world direction looks: (column ÷ width, row ÷ height), from 0 to 1. In the light's
 /// frame the direction is (sinφ·sinθ, cosθ, −cosφ·sinθ), with φ = 2π·column/width and θ = π·row/height.
-inline float2 map_place(const SceneView* scene, float3 direction) {
+static inline float2 map_place(const SceneView* scene, float3 direction) {
     const float3 d = rotate_to_local(scene->environment->world_to_local, direction);
     const float turn = turns_of_point(-d.z, d.x);
     return (float2)(turn - floor(turn), 2.0f * turns_of_cosine(d.y));
 }
 
-inline uint2 pixel_at(const SceneView* scene, float2 place) {
+static inline uint2 pixel_at(const SceneView* scene, float2 place) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
     return (uint2)(min((uint)(place.x * (float)width), width - 1),
                    min((uint)(place.y * (float)height), height - 1));
 }
 
-inline float3 pixel_radiance(const SceneView* scene, uint column, uint row) {
+static inline float3 pixel_radiance(const SceneView* scene, uint column, uint row) {
     return scene->environment_pixels[row * scene->environment->width + column].xyz;
 }
 
 /// Radiance of an interpolated map, as Mitsuba's `envmap` reads it: columns have their centres at (i +
 /// 0.5)/width and go around, and rows lie at i/(height − 1), the first and the last at the poles.
-inline float3 interpolated_radiance(const SceneView* scene, float2 place) {
+static inline float3 interpolated_radiance(const SceneView* scene, float2 place) {
     const uint width = scene->environment->width;
     const uint height = scene->environment->height;
     const float x = place.x * (float)width + (float)width - 0.5f;
@@ -52,12 +52,12 @@ inline float3 interpolated_radiance(const SceneView* scene, float2 place) {
                y - (float)row);
 }
 
-inline bool has_map(const SceneView* scene) {
+static inline bool has_map(const SceneView* scene) {
     return scene->environment->width > 0;
 }
 
 /// Radiance of the map alone, without a sun. There must be a map.
-inline float3 map_radiance(const SceneView* scene, float2 place) {
+static inline float3 map_radiance(const SceneView* scene, float2 place) {
     if (scene->environment->interpolated) {
         return interpolated_radiance(scene, place);
     }
@@ -66,30 +66,30 @@ inline float3 map_radiance(const SceneView* scene, float2 place) {
 }
 
 /// Whether a unit direction meets the sun. The chord tells small angles apart, which a cosine does not.
-inline bool meets_sun(const SceneView* scene, float3 direction) {
+static inline bool meets_sun(const SceneView* scene, float3 direction) {
     const float3 chord = direction - load3(scene->environment->sun_direction);
     const float half_chord = scene->environment->sun_half_chord;
     return dot(chord, chord) < half_chord * half_chord;
 }
 
 /// Density per steradian of sample_sun().
-inline float sun_pdf(const SceneView* scene, float3 direction) {
+static inline float sun_pdf(const SceneView* scene, float3 direction) {
     return meets_sun(scene, direction) ? 1.0f / (2.0f * M_PI_F * scene->environment->sun_height) : 0.0f;
 }
 
 /// A direction that is uniform over the sun's disc.
-inline float3 sample_sun(const SceneView* scene, float2 u) {
+static inline float3 sample_sun(const SceneView* scene, float2 u) {
     const float height = scene->environment->sun_height * u.x;
     return to_world_frame((float3)(sqrt(height * (2.0f - height)) * circle_point(u.y), 1.0f - height),
                           load3(scene->environment->sun_direction));
 }
 
 /// What the sun adds to the map's radiance.
-inline float3 sun_radiance(const SceneView* scene, float3 direction) {
+static inline float3 sun_radiance(const SceneView* scene, float3 direction) {
     return meets_sun(scene, direction) ? load3(scene->environment->sun_radiance) : (float3)(0.0f);
 }
 
-inline float3 environment_radiance(const SceneView* scene, float3 direction) {
+static inline float3 environment_radiance(const SceneView* scene, float3 direction) {
     const float3 map = has_map(scene) ? map_radiance(scene, map_place(scene, direction)) : (float3)(0.0f);
     return map + sun_radiance(scene, direction);
 }
@@ -101,7 +101,7 @@ typedef struct MapRegion {
     float probability;
 } MapRegion;
 
-inline MapRegion block_of_map(const SceneView* scene, uint2 block) {
+static inline MapRegion block_of_map(const SceneView* scene, uint2 block) {
     const uint size = scene->environment->block_size;
     MapRegion region;
     region.first = block * size;
@@ -112,7 +112,7 @@ inline MapRegion block_of_map(const SceneView* scene, uint2 block) {
 }
 
 /// Per steradian. The cosine of the polar angle and the azimuth are uniform inside a region.
-inline float region_pdf(const SceneView* scene, const MapRegion* region) {
+static inline float region_pdf(const SceneView* scene, const MapRegion* region) {
     const float zone = scene->row_cosines[region->first.y] - scene->row_cosines[region->end.y];
     const float turn =
         (float)(region->end.x - region->first.x) / (float)scene->environment->width * 2.0f * M_PI_F;
@@ -120,7 +120,7 @@ inline float region_pdf(const SceneView* scene, const MapRegion* region) {
 }
 
 /// The region that holds a pixel.
-inline MapRegion region_of_pixel(const SceneView* scene, uint2 pixel) {
+static inline MapRegion region_of_pixel(const SceneView* scene, uint2 pixel) {
     const uint2 block = pixel / scene->environment->block_size;
     const uint columns = scene->environment->block_columns;
     MapRegion region = block_of_map(scene, block);
@@ -140,7 +140,7 @@ inline MapRegion region_of_pixel(const SceneView* scene, uint2 pixel) {
 }
 
 /// The region that u selects, and u's place inside of it.
-inline MapRegion choose_region(const SceneView* scene, float2* u) {
+static inline MapRegion choose_region(const SceneView* scene, float2* u) {
     const uint columns = scene->environment->block_columns;
     const CdfStep row = choose_step(scene->row_cdf, scene->environment->block_rows, u->y);
     const CdfStep column = choose_step(scene->column_cdf + row.index * columns, columns, u->x);
@@ -168,7 +168,7 @@ typedef struct MapSample {
     float pdf;         // with which sample_map() chooses the direction, per steradian; 0 without a map
 } MapSample;
 
-inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
+static inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
     MapSample sample;
     sample.direction = direction;
     sample.place = (float2)(0.0f);
@@ -182,12 +182,12 @@ inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
 }
 
 /// A direction that is uniform over the sun's disc.
-inline MapSample map_sample_towards_sun(const SceneView* scene, float2 u) {
+static inline MapSample map_sample_towards_sun(const SceneView* scene, float2 u) {
     return map_sample_towards(scene, sample_sun(scene, u));
 }
 
 /// A direction that the tables choose. There must be a map.
-inline MapSample sample_map(const SceneView* scene, float2 u) {
+static inline MapSample sample_map(const SceneView* scene, float2 u) {
     const MapRegion region = choose_region(scene, &u);
     const float cosine = mix(scene->row_cosines[region.first.y], scene->row_cosines[region.end.y], u.y);
     const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));

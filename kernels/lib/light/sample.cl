@@ -12,6 +12,7 @@
 #include "lib/light/delta.cl"
 #include "lib/light/environment.cl"
 #include "lib/light/triangle.cl"
+#include "lib/outlined.cl"
 
 /// Light that arrives at x from one direction, before visibility. For delta lights `radiance` is an
 /// irradiance across the direction (intensity/r²), and pdf the probability of choosing the light. Radiance of
@@ -28,7 +29,7 @@ typedef struct LightSample {
     float2 place;  // where on the map
 } LightSample;
 
-inline LightSample no_light(float3 x) {
+static inline LightSample no_light(float3 x) {
     LightSample sample;
     sample.direction = (float3)(0.0f, 0.0f, 1.0f);
     sample.target = x;
@@ -42,15 +43,15 @@ inline LightSample no_light(float3 x) {
 }
 
 /// Whether the sample may bring light.
-inline bool may_shine(const LightSample* light) {
+static inline bool may_shine(const LightSample* light) {
     return light->on_map || !is_black(light->radiance);
 }
 
-inline float3 light_radiance(const SceneView* scene, const LightSample* light) {
+static inline float3 light_radiance(const SceneView* scene, const LightSample* light) {
     return light->on_map ? light->radiance + map_radiance(scene, light->place) : light->radiance;
 }
 
-inline LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
+OUTLINED LightSample sample_delta(const SceneView* scene, const global Emitter* emitter, float3 x) {
     LightSample sample = no_light(x);
     sample.pdf = 1.0f;
     sample.is_delta = 1;
@@ -69,8 +70,8 @@ inline LightSample sample_delta(const SceneView* scene, const global Emitter* em
     return sample;
 }
 
-inline LightSample sample_triangle_light(const SceneView* scene, const global Emitter* emitter, float3 x,
-                                         float2 u) {
+static inline LightSample sample_triangle_light(const SceneView* scene, const global Emitter* emitter,
+                                                float3 x, float2 u) {
     const TriangleSample on_light = sample_triangle(scene, emitter->triangle, x, u);
     float3 normal;
     const float3 point = triangle_point(scene, emitter->triangle, on_light.barycentrics, &normal);
@@ -84,8 +85,8 @@ inline LightSample sample_triangle_light(const SceneView* scene, const global Em
     return sample;
 }
 
-inline LightSample sample_round_light(const SceneView* scene, const global Emitter* emitter, float3 x,
-                                      float2 u) {
+static inline LightSample sample_round_light(const SceneView* scene, const global Emitter* emitter, float3 x,
+                                             float2 u) {
     const RoundSample on_light = emitter->type == NEARLIGHT_EMITTER_SPHERE ? sample_sphere(emitter, x, u)
                                                                            : sample_cylinder(emitter, x, u);
     LightSample sample = no_light(x);
@@ -99,13 +100,13 @@ inline LightSample sample_round_light(const SceneView* scene, const global Emitt
 
 /// Whether the light is the environment's map or its sun, which share a direction: a sample of either brings
 /// the radiance of both, and has the density of both.
-inline bool is_distant(const global Emitter* emitter) {
+static inline bool is_distant(const global Emitter* emitter) {
     return emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN;
 }
 
 /// Light from the entry `index` of the table, which is neither the map nor the sun, with the density that it
 /// has once this light is chosen.
-inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
+OUTLINED LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {
     const global Emitter* emitter = scene->emitters + index;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         return sample_triangle_light(scene, emitter, x, u);
@@ -117,18 +118,19 @@ inline LightSample sample_emitter(const SceneView* scene, uint index, float3 x, 
 }
 
 /// The delta light `index`, below exact_light_count().
-inline LightSample exact_light(const SceneView* scene, uint index, float3 x) {
+static inline LightSample exact_light(const SceneView* scene, uint index, float3 x) {
     return sample_delta(scene, scene->emitters + index, x);
 }
 
 /// Whether some light is not summed exactly, so that sample_light() has something to choose from.
-inline bool has_sampled_lights(const SceneView* scene) {
+static inline bool has_sampled_lights(const SceneView* scene) {
     return scene->info->emitter_count > exact_light_count(scene);
 }
 
 /// Density with which sample_light() picks a direction in which nothing is met. `map_density` is
 /// MapSample.pdf there.
-inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction, float map_density) {
+static inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction,
+                                float map_density) {
     float pdf = 0.0f;
     for (uint index = scene->info->emitter_count; index > 0 && is_distant(scene->emitters + index - 1);
          --index) {
@@ -140,7 +142,7 @@ inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 dire
 }
 
 /// A sample of the sky: of the map, and of the sun where the direction meets it.
-inline LightSample sample_of_sky(const SceneView* scene, float3 x, float3 n, const MapSample* map) {
+static inline LightSample sample_of_sky(const SceneView* scene, float3 x, float3 n, const MapSample* map) {
     LightSample sample = no_light(x);
     sample.direction = map->direction;
     sample.radiance = sun_radiance(scene, map->direction);
@@ -153,7 +155,7 @@ inline LightSample sample_of_sky(const SceneView* scene, float3 x, float3 n, con
 /// Light at x, whose surface has the normal n (zero: light counts from both sides), from one of the lights
 /// that are not summed exactly; there must be one. A sample of no use has a black radiance, and its pdf may
 /// be 0.
-inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, float2 choice, float2 u) {
+OUTLINED LightSample sample_light(const SceneView* scene, float3 x, float3 n, float2 choice, float2 u) {
     float probability;
     const uint index = choose_light(scene, x, n, choice.x, &probability);
     if (index == ~0u) {
@@ -161,9 +163,8 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
     }
     const global Emitter* emitter = scene->emitters + index;
     if (is_distant(emitter)) {
-        const MapSample map = emitter->type == NEARLIGHT_EMITTER_SUN
-                                  ? map_sample_towards_sun(scene, u)
-                                  : sample_map(scene, u);
+        const MapSample map =
+            emitter->type == NEARLIGHT_EMITTER_SUN ? map_sample_towards_sun(scene, u) : sample_map(scene, u);
         return sample_of_sky(scene, x, n, &map);
     }
     LightSample sample = sample_emitter(scene, index, x, u);
@@ -173,7 +174,8 @@ inline LightSample sample_light(const SceneView* scene, float3 x, float3 n, floa
 
 /// The density with which sample_light() at x picks the unit direction in which a ray from x met `hit`, or
 /// nothing (t < 0). It is 0 where sample_light() cannot pick it.
-inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direction, const SurfaceHit* hit) {
+static inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direction,
+                              const SurfaceHit* hit) {
     if (scene->info->emitter_count == 0) {
         return 0.0f;
     }
@@ -200,7 +202,7 @@ inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direct
     return choice_probability(scene, index, x, n) * pdf;
 }
 
-inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {
+static inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {
     return sample->infinite
                ? !tree_occluded(scene->nodes, scene->tree_triangles, x, sample->direction, 0.0f, INFINITY)
                : is_visible(scene, x, sample->target);
@@ -208,8 +210,8 @@ inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample
 
 /// A sample for receivers that trace no rays of their own. Where the environment is chosen, half the samples
 /// follow the cosine, half the tables, and `pdf` is the density of the mixture.
-inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, float3 n, float2 choice,
-                                          float2 u) {
+static inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, float3 n, float2 choice,
+                                                 float2 u) {
     float probability;
     const uint index = choose_light(scene, x, n, choice.x, &probability);
     if (index == ~0u) {

@@ -11,6 +11,7 @@
 
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/sample.cl"
+#include "lib/outlined.cl"
 
 /// A material behind ones that stand for others, and its share of the surface.
 typedef struct VeilPart {
@@ -20,8 +21,8 @@ typedef struct VeilPart {
 } VeilPart;
 
 /// What a model that stands for no other lets pass straight on, at an angle of the given cosine.
-inline float3 straight_transmittance(const SceneView* scene, const SurfaceHit* hit,
-                                     const global Material* material, float cosine) {
+static inline float3 straight_transmittance(const SceneView* scene, const SurfaceHit* hit,
+                                            const global Material* material, float cosine) {
     if (material->model == NEARLIGHT_BSDF_NULL) {
         return (float3)(1.0f);
     }
@@ -41,7 +42,7 @@ inline float3 straight_transmittance(const SceneView* scene, const SurfaceHit* h
 
 /// The share of light along the unit direction that the surface lets pass straight on, over all choices of
 /// its masks and blends.
-inline float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+OUTLINED float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     const float along = dot(hit->shading, direction);
     float3 sum = (float3)(0.0f);
     VeilPart parts[NEARLIGHT_MAX_BSDF_NESTING + 2];  // one waits at each blend, and both of the last one
@@ -76,7 +77,7 @@ inline float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, 
 }
 
 /// Where, along the unit direction of a ray that met a surface, one would start that leaves its other side.
-inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+static inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     return hit->t + ray_epsilon(hit->position, scene->info->extent) / fabs(dot(hit->geometric, direction));
 }
 
@@ -87,14 +88,14 @@ typedef struct ArrivingLight {
 } ArrivingLight;
 
 /// Whether light comes straight from the sky, so that a ray that meets nothing finds it too.
-inline bool arriving_from_sky(const LightSample* light, const ArrivingLight* arriving) {
+static inline bool arriving_from_sky(const LightSample* light, const ArrivingLight* arriving) {
     return light->infinite && arriving->veils == 0;
 }
 
 /// What remains of light on the ray from x between t_min and t_max; nothing where it meets more veils than
 /// `max_veils`.
-inline ArrivingLight ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
-                                       float t_max, uint max_veils) {
+static inline ArrivingLight ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
+                                              float t_max, uint max_veils) {
     ArrivingLight light = {(float3)(1.0f), 0};
     for (;; ++light.veils) {
         const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
@@ -111,8 +112,8 @@ inline ArrivingLight ray_transmittance(const SceneView* scene, float3 x, float3 
 
 /// What arrives at x of a light sample, on a path that has room for `max_veils` more surfaces. Veils block
 /// the light of points and directions, which no ray can find behind them, unless glass is clear.
-inline ArrivingLight arriving_light(const SceneView* scene, float3 x, const LightSample* light,
-                                    uint max_veils) {
+OUTLINED ArrivingLight arriving_light(const SceneView* scene, float3 x, const LightSample* light,
+                                      uint max_veils) {
     const uint veils = scene->info->veils;
     if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils != NEARLIGHT_VEILS_CLEAR) ||
         max_veils == 0) {

@@ -19,7 +19,7 @@ typedef struct SeenSphere {
 
 /// Between the sphere's own surface and the farthest corner of its triangles a point counts as inside: there
 /// the rays that meet the triangles bring their light alone.
-inline SeenSphere seen_sphere(const global Emitter* emitter, float3 x) {
+static inline SeenSphere seen_sphere(const global Emitter* emitter, float3 x) {
     SeenSphere seen;
     seen.to_center = load3(emitter->position) - x;
     seen.squared = dot(seen.to_center, seen.to_center);
@@ -32,12 +32,12 @@ inline SeenSphere seen_sphere(const global Emitter* emitter, float3 x) {
 }
 
 /// The density of a direction that is uniform over the cone, per steradian.
-inline float cone_density(const SeenSphere* seen) {
+static inline float cone_density(const SeenSphere* seen) {
     return seen->cone_height > 0.0f ? 1.0f / (2.0f * M_PI_F * seen->cone_height) : 0.0f;
 }
 
 /// The density of sample_sphere() in a unit direction.
-inline float sphere_pdf(const global Emitter* emitter, float3 x, float3 direction) {
+static inline float sphere_pdf(const global Emitter* emitter, float3 x, float3 direction) {
     const SeenSphere seen = seen_sphere(emitter, x);
     const float along = dot(seen.to_center, direction);
     const float3 past = seen.to_center - along * direction;
@@ -53,7 +53,7 @@ typedef struct RoundSample {
     float pdf;         // per steradian; 0 where x does not lie outside
 } RoundSample;
 
-inline RoundSample sample_sphere(const global Emitter* emitter, float3 x, float2 u) {
+static inline RoundSample sample_sphere(const global Emitter* emitter, float3 x, float2 u) {
     const SeenSphere seen = seen_sphere(emitter, x);
     const float distance = sqrt(seen.squared);
     const float height = seen.cone_height * u.x;

@@ -17,7 +17,7 @@ typedef struct SphericalTriangle {
 } SphericalTriangle;
 
 /// The triangle with the corner `a` and the edges from there to the second and third corner, seen from x.
-inline SphericalTriangle seen_triangle(float3 a, float3 edge1, float3 edge2, float3 x) {
+static inline SphericalTriangle seen_triangle(float3 a, float3 edge1, float3 edge2, float3 x) {
     const float3 to_v0 = a - x;
     const float3 to_v1 = to_v0 + edge1;
     const float3 to_v2 = to_v0 + edge2;
@@ -37,7 +37,7 @@ inline SphericalTriangle seen_triangle(float3 a, float3 edge1, float3 edge2, flo
 }
 
 /// A unit vector that is uniform over the solid angle, which must be greater than 0.
-inline float3 sample_spherical_triangle(const SphericalTriangle* seen, float2 u) {
+static inline float3 sample_spherical_triangle(const SphericalTriangle* seen, float2 u) {
     // The point q of the arc from v0 to v2 for which (v0, v1, q) has the share u.x of the solid angle: v0 is
     // mirrored at the direction `half_way` to q.
     const float2 turned = circle_point(seen->solid_angle * u.x * (0.25f / M_PI_F));

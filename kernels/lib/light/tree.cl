@@ -11,14 +11,14 @@
 typedef struct Angle {
     float cosine, sine;
 } Angle;
-inline Angle angle_of_cosine(float cosine) {
+static inline Angle angle_of_cosine(float cosine) {
     Angle angle;
     angle.cosine = clamp(cosine, -1.0f, 1.0f);
     angle.sine = sqrt(fmax(0.0f, 1.0f - angle.cosine * angle.cosine));
     return angle;
 }
 /// a − b, or 0 if b is greater.
-inline Angle angle_beyond(Angle a, Angle b) {
+static inline Angle angle_beyond(Angle a, Angle b) {
     Angle rest;
     rest.cosine = a.cosine > b.cosine ? 1.0f : a.cosine * b.cosine + a.sine * b.sine;
     rest.sine = a.cosine > b.cosine ? 0.0f : a.sine * b.cosine - a.cosine * b.sine;
@@ -28,7 +28,7 @@ inline Angle angle_beyond(Angle a, Angle b) {
 /// About how much irradiance the lights below a node bring to x, whose surface has the normal n (zero: light
 /// counts from all sides). It is 0 only where they bring nothing: if all of them face away from x, or lie
 /// below its horizon.
-inline float light_node_importance(const global LightNode* node, float3 x, float3 n) {
+static inline float light_node_importance(const global LightNode* node, float3 x, float3 n) {
     const float3 low = load3(node->low);
     const float3 high = load3(node->high);
     const float3 to_center = 0.5f * (low + high) - x;
@@ -61,7 +61,7 @@ inline float light_node_importance(const global LightNode* node, float3 x, float
 
 /// The probability with which a walk that has reached the inner node goes to its first child. Negative if
 /// neither child brings anything.
-inline float first_child_probability(const SceneView* scene, uint node, float3 x, float3 n) {
+static inline float first_child_probability(const SceneView* scene, uint node, float3 x, float3 n) {
     const float first = light_node_importance(scene->light_nodes + node + 1, x, n);
     const float second =
         light_node_importance(scene->light_nodes + scene->light_nodes[node].second_child, x, n);
@@ -70,7 +70,8 @@ inline float first_child_probability(const SceneView* scene, uint node, float3 x
 
 /// The index of the chosen light in the table of lights, or ~0u if none brings anything. `probability`
 /// gets that of the choice.
-inline uint choose_in_light_tree(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
+static inline uint choose_in_light_tree(const SceneView* scene, float3 x, float3 n, float u,
+                                        float* probability) {
     uint node = 0;
     *probability = 1.0f;
     while (scene->light_nodes[node].second_child != 0) {
@@ -88,7 +89,7 @@ inline uint choose_in_light_tree(const SceneView* scene, float3 x, float3 n, flo
 }
 
 /// The probability with which choose_in_light_tree() picks the light at `index` of the table.
-inline float light_tree_probability(const SceneView* scene, uint index, float3 x, float3 n) {
+static inline float light_tree_probability(const SceneView* scene, uint index, float3 x, float3 n) {
     uint way = scene->emitters[index].tree_way;
     uint node = 0;
     float probability = 1.0f;

@@ -14,7 +14,7 @@
 typedef struct Corner {
     float3 origin, edge1, edge2;
 } Corner;
-inline Corner triangle_corner(const SceneView* scene, uint triangle_id) {
+static inline Corner triangle_corner(const SceneView* scene, uint triangle_id) {
     const Triangle triangle = scene->triangles[triangle_id];
     Corner corner;
     corner.origin = load3(scene->vertices[triangle.v0].position);
@@ -25,25 +25,26 @@ inline Corner triangle_corner(const SceneView* scene, uint triangle_id) {
 
 /// The point of the triangle `triangle_id` with the given weights of v1 and v2. `normal` gets the unit normal
 /// of its front.
-inline float3 triangle_point(const SceneView* scene, uint triangle_id, float2 barycentrics, float3* normal) {
+static inline float3 triangle_point(const SceneView* scene, uint triangle_id, float2 barycentrics,
+                                    float3* normal) {
     const Corner corner = triangle_corner(scene, triangle_id);
     *normal = normalize(cross(corner.edge1, corner.edge2));
     return corner.origin + barycentrics.x * corner.edge1 + barycentrics.y * corner.edge2;
 }
 
-inline float triangle_area(const SceneView* scene, uint triangle_id) {
+static inline float triangle_area(const SceneView* scene, uint triangle_id) {
     const Corner corner = triangle_corner(scene, triangle_id);
     return 0.5f * length(cross(corner.edge1, corner.edge2));
 }
 
 /// Radiance that a surface sends back along a ray that met it. Only the front emits.
-inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
+static inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     (void)direction;  // emission is alike in all directions
     return hit->front ? look_up(scene, &scene->materials[hit->material].emission, hit).color : (float3)(0.0f);
 }
 
 /// Radiance that the front of an emissive triangle sends from the point with the given weights of v1 and v2.
-inline float3 triangle_radiance(const SceneView* scene, uint triangle_id, float2 barycentrics) {
+static inline float3 triangle_radiance(const SceneView* scene, uint triangle_id, float2 barycentrics) {
     const global Parameter* emission = &scene->materials[scene->triangles[triangle_id].material].emission;
     if (emission->texture < 0) {
         return load3(emission->value);
@@ -55,7 +56,7 @@ inline float3 triangle_radiance(const SceneView* scene, uint triangle_id, float2
 
 /// Weights of v1 and v2 where a ray from x meets the triangle's plane, moved into the triangle if rounding
 /// has left them outside.
-inline float2 met_barycentrics(const Corner* corner, float3 x, float3 direction) {
+static inline float2 met_barycentrics(const Corner* corner, float3 x, float3 direction) {
     const float3 across = cross(direction, corner->edge2);
     const float3 from_corner = x - corner->origin;
     const float inverse = 1.0f / dot(corner->edge1, across);
@@ -73,7 +74,7 @@ typedef struct TriangleSample {
     float pdf;            // per steradian; 0 where x does not lie in front
 } TriangleSample;
 
-inline TriangleSample sample_triangle(const SceneView* scene, uint triangle_id, float3 x, float2 u) {
+static inline TriangleSample sample_triangle(const SceneView* scene, uint triangle_id, float3 x, float2 u) {
     const Corner corner = triangle_corner(scene, triangle_id);
     const float3 across = cross(corner.edge1, corner.edge2);
     const float double_area = length(across);
@@ -98,7 +99,7 @@ inline TriangleSample sample_triangle(const SceneView* scene, uint triangle_id, 
 
 /// The density of sample_triangle() in a direction in which a ray from x met the front of the triangle at the
 /// distance t, at an angle of the given cosine.
-inline float triangle_pdf(const SceneView* scene, uint triangle_id, float3 x, float t, float cosine) {
+static inline float triangle_pdf(const SceneView* scene, uint triangle_id, float3 x, float t, float cosine) {
     const Corner corner = triangle_corner(scene, triangle_id);
     const SphericalTriangle seen = seen_triangle(corner.origin, corner.edge1, corner.edge2, x);
     return seen.solid_angle >= MIN_SOLID_ANGLE
