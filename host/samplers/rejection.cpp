@@ -71,7 +71,7 @@ WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const B
 LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
     return {.walk_count = walk_count,
             .bounce_count = task.bounce_count,
-            .mean_albedo = task.scene.mean_albedo,
+            .survival = task.scene.mean_albedo,
             .seed = seed,
             .aim = walk_aim(task)};
 }

@@ -11,10 +11,12 @@ namespace {
 
 constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
-/// Keller's fractional absorption: ρ̄^(j−1)·N walks go on to depth j. The bounds on ρ̄ keep deep light from
-/// costing as much as all other light in bright rooms, and from having hardly any walks in dark rooms.
+}  // namespace
+
+// This is Keller's fractional absorption: ρ^(j−1)·N walks go on to depth j. The bounds on ρ keep deep light
+// from costing as much as all other light in bright rooms, and from having hardly any walks in dark rooms.
 std::vector<float> walks_at_each_depth(const LightWalks& walks) {
-    const float survival = std::clamp(walks.mean_albedo, 0.2f, 0.9f);
+    const float survival = std::clamp(walks.survival, 0.2f, 0.95f);
     std::vector<float> launched;
     float count = static_cast<float>(walks.walk_count);
     for (uint depth = 1; depth <= walks.bounce_count; ++depth, count *= survival) {
@@ -22,8 +24,6 @@ std::vector<float> walks_at_each_depth(const LightWalks& walks) {
     }
     return launched;
 }
-
-}  // namespace
 
 LightTracer::LightTracer(Device& device)
     : device_(&device),

@@ -21,14 +21,17 @@ struct CloseRegion {
     bool whole_triangles = false;  ///< whether selected triangles lie in it as a whole (policy `paper`)
 };
 
-/// How walks are launched. The result is unbiased for any value of `mean_albedo` and any aim.
+/// How walks are launched. The result is unbiased for any `survival` above 0 and any aim.
 struct LightWalks {
     uint walk_count = 0;
-    uint bounce_count = 1;     ///< maximum number of VPLs that a walk deposits
-    float mean_albedo = 0.5f;  ///< sets how many walks go on to each depth
+    uint bounce_count = 1;  ///< maximum number of VPLs that a walk deposits
+    float survival = 0.5f;  ///< of the walks that go on to a depth, the part that goes on to the next
     uint seed = 0;
     WalkAim aim{};  ///< of walks from infinitely far away
 };
+
+/// How many walks, a real number, go on to each depth from 1 to bounce_count.
+std::vector<float> walks_at_each_depth(const LightWalks& walks);
 
 /// Takes deposits while they are on the device: the first `count` ≥ 1 elements of `vpls`, which the next
 /// batch overwrites.

@@ -33,9 +33,8 @@ TEST_F(LightTracerTest, ClosedFurnaceKeepsItsPowerAtEveryDepth) {
     add_inward_sphere(scene, 1.0f, 2, add_material(scene, lambertian(albedo)));
     add_point_light(scene, {0.2f, 0.1f, -0.3f}, {1, 2, 3});
     on_each_ray_tree([&](Device& device) {
-        for (const float mean_albedo : {0.3f, 0.6f, 0.9f}) {
-            const LightWalks walks{
-                .walk_count = 20'000, .bounce_count = 5, .mean_albedo = mean_albedo, .seed = 4};
+        for (const float survival : {0.3f, 0.6f, 0.9f}) {
+            const LightWalks walks{.walk_count = 20'000, .bounce_count = 5, .survival = survival, .seed = 4};
             const std::vector<Power> power =
                 power_by_depth(trace_all(device, scene, walks), walks.bounce_count);
             Vec3 expected = Vec3{1, 2, 3} * (4 * kPi);
@@ -46,7 +45,7 @@ TEST_F(LightTracerTest, ClosedFurnaceKeepsItsPowerAtEveryDepth) {
                 EXPECT_NEAR(power[depth - 1].x, expected.x, tolerance * expected.x) << "depth " << depth;
                 EXPECT_NEAR(power[depth - 1].y, expected.y, tolerance * expected.y) << "depth " << depth;
                 EXPECT_NEAR(power[depth - 1].z, expected.z, tolerance * expected.z) << "depth " << depth;
-                launched *= mean_albedo;
+                launched *= survival;
             }
         }
     });
@@ -59,7 +58,7 @@ TEST_F(LightTracerTest, DepositsStandOffTheSurfaceTheyLieOn) {
     add_point_light(scene, {0, 0, 0}, {1, 1, 1});
     on_each_ray_tree([&](Device& device) {
         const std::vector<Vpl> vpls =
-            trace_all(device, scene, {.walk_count = 2000, .bounce_count = 3, .mean_albedo = 0.8f, .seed = 5});
+            trace_all(device, scene, {.walk_count = 2000, .bounce_count = 3, .survival = 0.8f, .seed = 5});
         Vec3 mean{0, 0, 0};
         for (const Vpl& vpl : vpls) {
             ASSERT_NEAR(length(vpl.position), 0.995f, 0.005f);
@@ -111,7 +110,7 @@ TEST_F(LightTracerTest, KeepModesPartitionAllDeposits) {
     on_each_ray_tree([&](Device& device) {
         const SceneOnDevice on_device(device, scene);
         const CloseRegion region = make_region(device, on_device.buffers, range, 1);
-        const LightWalks walks{.walk_count = 5000, .bounce_count = 4, .mean_albedo = 0.7f, .seed = 9};
+        const LightWalks walks{.walk_count = 5000, .bounce_count = 4, .survival = 0.7f, .seed = 9};
         LightTracer tracer(device);
         const auto run = [&](KeepDeposits keep) {
             return tracer.run(on_device.buffers, region, keep, walks);

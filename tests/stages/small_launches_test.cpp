@@ -187,7 +187,7 @@ TEST_F(SmallLaunchesTest, LightWalks) {
         region.triangles = Buffer<uint>(device, std::vector<uint>(scene.scene.triangles.size(), 1));
         return numbers_of(
             LightTracer(device).run(scene.buffers, region, KeepDeposits::all,
-                                    {.walk_count = 24, .bounce_count = 2, .mean_albedo = 0.6f, .seed = 3}));
+                                    {.walk_count = 24, .bounce_count = 2, .survival = 0.6f, .seed = 3}));
     });
 }
 
