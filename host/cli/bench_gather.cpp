@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/bench_gather.h"
 
+#include <optional>
+
 #include "host/bench/gather_bench.h"
 #include "host/bench/segment_file.h"
 #include "host/cli/bench_gather_text.h"
@@ -21,7 +23,7 @@ struct BenchGatherOptions {
     ImageSize size{512, 512};
     std::size_t vpls = 128;
     int repeats = 11;
-    GatherKernel kernel = GatherKernel::automatic;  ///< all that there are
+    std::optional<GatherKernel> kernel;  ///< `automatic`: all that there are
     bool rendered = false;
     float roulette = 0.0f;
     BvhQuality bvh = BvhQuality::quality;
@@ -36,6 +38,11 @@ GatherSegments make_segments(const BenchGatherOptions& options, Device& device) 
     const auto [width, height] = options.size;
     return options.rendered ? make_rendered_segments(device, scene, bvh, options.vpls, width, height)
                             : make_camera_segments(scene, bvh, options.vpls, width, height);
+}
+
+/// The kernels that take part. On a GPU, the kernel that is for CPUs takes minutes.
+GatherKernel kernel_of(const BenchGatherOptions& options, const Device& device) {
+    return options.kernel.value_or(device.is_cpu() ? GatherKernel::automatic : GatherKernel::rays);
 }
 
 nlohmann::ordered_json to_json(const Vec3& v) {
@@ -116,9 +123,9 @@ ExitCode run_bench_gather(const BenchGatherOptions& options, const GlobalOptions
         spdlog::info("wrote {}", options.dump.string());
     }
     const Bvh bvh = build_scene_bvh(segments.geometry, {.quality = options.bvh});
-    const GatherBenchResult result =
-        bench_gather(*device, segments, bvh,
-                     {.repeats = options.repeats, .kernel = options.kernel, .roulette = options.roulette});
+    const GatherBenchResult result = bench_gather(
+        *device, segments, bvh,
+        {.repeats = options.repeats, .kernel = kernel_of(options, *device), .roulette = options.roulette});
     if (global.json) {
         print_json(to_json(segments.geometry.name, options.bvh, result));
     } else {
@@ -153,8 +160,8 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
     std::map<std::string, GatherKernel> kernels{kGatherKernels.begin(), kGatherKernels.end()};
     kernels.erase(to_string(GatherKernel::automatic));
     kernels.emplace("all", GatherKernel::automatic);
-    add_choice(command, "--kernel", options->kernel, kernels, "Gather kernels of nearlight that take part")
-        ->default_str("all");
+    add_choice(command, "--kernel", options->kernel, kernels,
+               "Gather kernels of nearlight that take part (default: all, but on GPUs rays)");
     command.add_flag("--rendered", options->rendered,
                      "Use the VPLs of a render instead of those of plain light walks");
     command

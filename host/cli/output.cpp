@@ -14,7 +14,7 @@ void print_json(const nlohmann::ordered_json& result) {
 }
 
 void print(std::string_view text) {
-    std::cout << printable(text);
+    std::cout << printable(text) << std::flush;
 }
 
 void check_standard_output() {
