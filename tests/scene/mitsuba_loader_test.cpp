@@ -301,6 +301,22 @@ TEST(MitsubaXml, UnknownPropertiesAreNotedOnceAndStrictRefusesThem) {
     EXPECT_TRUE(has_note(scene, "nothing in the scene emits light"));
 }
 
+TEST(MitsubaXml, MediaAreLeftOutWithANoteAndStrictRefusesThem) {
+    const SceneFiles files;
+    const std::string medium = "<medium type='homogeneous'/>";
+    const std::string body = shape("cube", "<bsdf type='null'/>" + medium);
+    for (const std::string& text : {body, medium + shape("cube"),
+                                    "<sensor type='perspective'>" + medium + "</sensor>" + shape("cube")}) {
+        const Scene scene = files.load_xml(text);
+        EXPECT_EQ(scene.triangles.size(), 12u);
+        EXPECT_TRUE(has_note(scene, "scene.xml:2: participating media are left out")) << text;
+        EXPECT_TRUE(mentions(file_error([&] { files.load_xml(text, {.parameters = {}, .strict = true}); }),
+                             "participating media"));
+    }
+    EXPECT_TRUE(mentions(file_error([&] { files.load_xml(shape("cube", "<subsurface type='dipole'/>")); }),
+                         "subsurface scattering is not supported"));
+}
+
 TEST(MitsubaXml, AnEmptySceneIsASceneWithNotes) {
     const SceneFiles files;
     const Scene scene = files.load_xml("");

@@ -39,7 +39,7 @@ void translate(const Object& root, const std::string& camera, Scene& scene, Note
     MaterialMaker materials(scene, notes, textures);
     ShapeMaker shapes(scene, notes, textures, materials);
     for (const Object* medium : root.nested("medium")) {
-        fail(medium->where, "participating media are not supported");
+        note(notes, medium->where, kMediaAreLeftOut);
     }
     shapes.add_all(root.nested("shape"));
     for (const Object* emitter : root.nested("emitter")) {

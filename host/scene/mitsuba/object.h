@@ -96,6 +96,10 @@ struct Document {
 /// Calls fail() with the list of the known types.
 [[noreturn]] void fail_unknown_type(const Object& object, const std::string& known);
 
+/// The note about media of shapes, sensors and scenes. Mitsuba's integrators of surfaces leave them out, too.
+inline constexpr const char* kMediaAreLeftOut =
+    "participating media are left out; light passes through them as through a vacuum";
+
 /// Notes an approximation at the place `where`.
 void note(NoteSink& notes, const Location& where, const std::string& text);
 

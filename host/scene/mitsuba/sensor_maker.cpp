@@ -128,6 +128,9 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
         camera.fov_x_degrees = read_fov(sensor, static_cast<double>(film.width) / film.height);
         apply_optics(sensor, film, camera);
     }
+    for (const Object* medium : sensor.nested("medium")) {
+        note(notes, medium->where, kMediaAreLeftOut);
+    }
     sensor.ignore({"focus_distance", "shutter_open", "shutter_close", "fov_axis"});
     sensor.report_unused(notes);
 }

@@ -119,8 +119,11 @@ std::string ShapeMaker::name_of(const Object& shape, std::size_t number) const {
 void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                             const std::string& instance) {
     const std::vector<const Object*> bsdfs = shape.nested("bsdf");
-    if (!shape.nested("medium").empty() || !shape.nested("subsurface").empty()) {
-        fail(shape.where, "participating media are not supported");
+    if (!shape.nested("subsurface").empty()) {
+        fail(shape.where, "subsurface scattering is not supported");
+    }
+    for (const Object* medium : shape.nested("medium")) {
+        note(notes_, medium->where, kMediaAreLeftOut);
     }
     const Parameter emitted = emission(shape);
     const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
