@@ -23,7 +23,7 @@ constexpr std::array kFields{
 
 /// On CPUs one thread runs a work-group, so work-items are few and long, with several per core to balance the
 /// load. A launch takes more VPLs rather than more bundles, because each bundle costs time to start. GPUs
-/// need enough work-items to fill their lanes.
+/// need enough work-items to fill their lanes, also where an item is a bundle of 256 receivers.
 constexpr Tunables kCpu{.beam_width = 256,
                         .local_size = 8,
                         .run_local_size = 1,
@@ -43,7 +43,7 @@ constexpr Tunables kGpu{.beam_width = 256,
                         .roulette_run = 1,
                         .launch_bundles = 4096,
                         .launch_ms = 200,
-                        .batch_receivers = 1u << 21u};
+                        .batch_receivers = 1u << 23u};
 
 constexpr std::array kTable{
     TunablesRow{"CPUs", DeviceKind::cpu, kCpu},
