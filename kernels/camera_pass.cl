@@ -4,13 +4,13 @@
 //
 // Packets of receivers are in the order of shared/packet_order.h, where rows of tiles count from the first of
 // the band, and lane = row within the tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or
-// 2) receivers. At the first surface
-// with two ways on (D and S, or glass), branch 0 takes D or the refraction and branch 1 S or the reflection,
-// each with its full weight, which keeps noise out of glossy floors. At later surfaces the way is chosen by
-// chance. Branch 1 of a sample that never divides is absent. A receiver of little weight is absent too: its
-// light is traced at once and added up in CameraVertex. One work-item for each sample, with all its
-// branches; any work-group size. Random numbers depend on pixel and sample only.
+// 2) receivers. At the first surface with two ways on (D and S, or glass), branch 0 takes D or the refraction
+// and branch 1 S or the reflection, each with its full weight, which keeps noise out of glossy floors. At
+// later surfaces the way is chosen by chance. Branch 1 of a sample that never divides is absent. A receiver
+// of little weight is absent too: its light is traced at once and added up in CameraVertex. One work-item for
+// each sample, with all its branches; any work-group size. Random numbers depend on pixel and sample only.
 
+#include "lib/camera_path.cl"
 #include "lib/camera_sample.cl"
 #include "lib/close_range.cl"
 #include "lib/outlined.cl"
@@ -19,160 +19,8 @@
 #include "shared/packet_order.h"
 #include "shared/shared_light.h"
 
-#define MAX_CHAIN 255      // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
-#define SURE_SURFACES 16   // after which chance ends paths
-#define SURE_WEIGHT 0.02f  // of a path, below which chance ends it sooner
+#define MAX_CHAIN 255  // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
 #define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
-
-typedef struct CameraPath {
-    PathRay ray;
-    float3 emitted;
-    float3 traced;   // indirect light of a path that is traced to its end
-    uint key;        // key of the random sequence
-    uint sample;     // of the pixel
-    uint sequence;   // key of the random numbers that receivers of the pixel share, of one branch
-    uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
-    uint mode;       // BSDF_CAMERA until a surface scatters the path, then BSDF_RADIANCE
-    float t_min;     // where the first surface may lie on the ray
-    float t_max;
-    float filter_weight;
-    uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
-} CameraPath;
-
-/// The ways on from a surface.
-#define WAY_END 0u       // none
-#define WAY_RECEIVER 1u  // the path ends here: the Lambertian part is its receiver
-#define WAY_ON 2u        // the path has a new direction
-
-/// Decides at a surface with two ways on. The first division gives each branch one way with its full weight:
-/// branch 0 the first way, branch 1 the second. Later ones choose the second with probability p. Returns true
-/// for the second way.
-static inline bool take_second_way(CameraPath* path, uint branch, float p, float u) {
-    if (path->undivided) {
-        path->undivided = 0;
-        if (branch == 1) {
-            path->emitted = (float3)(0.0f);  // what was seen so far is counted by branch 0
-        }
-        return branch == 1;
-    }
-    const bool second = u < p;
-    path->ray.throughput *= 1.0f / (second ? p : 1.0f - p);
-    return second;
-}
-
-/// The random numbers of a path at one surface.
-typedef struct SurfaceNumbers {
-    float model;  // for masks and blends
-    float part;   // D or S
-    float lobe;   // within S
-    float2 direction;
-    uint light_seed;
-    float end;  // whether the path ends by chance
-} SurfaceNumbers;
-
-static inline SurfaceNumbers surface_numbers(uint key, uint step) {
-    const uint4 random = surface_random(key, step);
-    SurfaceNumbers numbers;
-    numbers.model = to_unit_float(random.x);
-    numbers.part = sample_2d(0, 2 * step + 2, key).x;
-    numbers.lobe = to_unit_float(random.y);
-    numbers.direction = sample_2d(0, 2 * step + 1, key);
-    numbers.light_seed = random.z;
-    numbers.end = to_unit_float(random.w);
-    return numbers;
-}
-
-/// How many of `max_count` light samples a surface takes whose S reflects `specular`: fewer where its light
-/// weighs little in the pixel.
-static inline uint light_sample_count(const CameraPath* path, float3 specular, uint max_count) {
-    const float weight = fmin(luminance(path->ray.throughput * specular), 1.0f);
-    return max(1u, (uint)ceil((float)max_count * weight));
-}
-
-/// Whether a surface looks for lights in its S by more than the ray of the path: highlights on what the
-/// camera sees straight or in mirrors and glass are the largest part of the noise of glossy rooms.
-static inline bool looks_for_lights(const SceneView* scene, const CameraPath* path,
-                                    const SurfaceBsdf* surface) {
-    const bool is_glass = surface->bsdf.model == NEARLIGHT_BSDF_DIELECTRIC;  // its two ways divide the path
-    return path->mode == BSDF_CAMERA && has_sampled_lights(scene) && !is_glass &&
-           !is_delta_only(&surface->bsdf);
-}
-
-/// What a surface asks lights whose S reflects `specular`. `is_receiver`: its D is a receiver.
-static inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path,
-                                       const SurfaceBsdf* surface, float3 specular, bool is_receiver,
-                                       LightQuota max) {
-    LightQuota quota = max;
-    const bool looks = looks_for_lights(scene, path, surface);
-    quota.samples = max.samples > 0 ? light_sample_count(path, specular, max.samples) : 0;
-    quota.rays = looks ? max.rays : 1;
-    quota.bundle_rays = looks && is_receiver && !surface->mapped ? max.bundle_rays : 0;
-    return quota;
-}
-
-/// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
-/// reflects and lets light through, the first division of the path gives branch 0 what is let through and
-/// branch 1 the reflection.
-static inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                                   const SurfaceBsdf* surface, uint branch, LightQuota quota,
-                                   const SurfaceNumbers* numbers) {
-    if (quota.samples == 0) {
-        return WAY_END;
-    }
-    path->emitted +=
-        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota, numbers->light_seed);
-    path->emitted +=
-        looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
-                         path->sample % NEARLIGHT_SEQUENCE_RECEIVERS * (quota.rays - 1), path->sequence);
-    float choice = numbers->lobe;
-    const float reflected = reflection_probability(surface, numbers->direction);
-    if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
-        const bool second = take_second_way(path, branch, 0.5f, 0.0f);
-        path->ray.throughput *= second ? reflected : 1.0f - reflected;
-        choice = second ? 0.0f : 0x1.fffffep-1f;
-    }
-    if (!scatter_ray(scene, &path->ray, hit, surface, BSDF_S, choice, numbers->direction)) {
-        return WAY_END;
-    }
-    if (path->ray.veils == 0) {
-        share_lights(&path->ray, &quota);
-        path->mode = path->ray.pdf > 0.0f ? BSDF_RADIANCE : path->mode;
-    }
-    return WAY_ON;
-}
-
-/// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
-static inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
-                                  const SurfaceBsdf* surface, uint branch, LightQuota* quota,
-                                  const SurfaceNumbers* numbers, float3* albedo) {
-    const float3 wo = world_to_frame(&surface->frame, surface->wo);
-    *albedo = surface->bsdf.diffuse * diffuse_transmission(scene, surface->bsdf.curve, wo.z);
-    const float3 specular = s_albedo(&surface->bsdf, wo);
-    const bool has_diffuse = !is_black(*albedo);
-    if (is_black(specular)) {
-        quota->bundle_rays = 0;
-        return has_diffuse ? WAY_RECEIVER : WAY_END;
-    }
-    *quota = surface_quota(scene, path, surface, specular, has_diffuse, *quota);
-    if (has_diffuse) {
-        const float share = luminance(specular) / (luminance(specular) + luminance(*albedo));
-        if (!take_second_way(path, branch, clamp(share, 0.05f, 0.95f), numbers->part)) {
-            return WAY_RECEIVER;
-        }
-    }
-    return follow_specular(scene, path, hit, surface, branch, *quota, numbers);
-}
-
-/// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths
-/// over tens of surfaces show. Returns false where the path ends.
-static inline bool goes_on(CameraPath* path, uint step, float u) {
-    if (step < SURE_SURFACES) {
-        return true;
-    }
-    const float survival = fmin(0.95f, carried_part(&path->ray, (float3)(1.0f)) / SURE_WEIGHT);
-    path->ray.throughput /= survival;
-    return u < survival;
-}
 
 /// The surface as what it reflects by S of its bundle's sky is computed (shared_sky.cl).
 static inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model,
