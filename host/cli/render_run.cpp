@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "host/cli/compile_notice.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
 #include "host/cli/matte_layers.h"
@@ -257,6 +258,7 @@ void RowSinks::add_rows(std::span<const float> rows, const Stopwatch& since_begi
 
 MadePicture make_picture(Session& session, const RenderRun& run, PictureStart start, RowSinks& sinks,
                          const Stopwatch& since_begin) {
+    auto notice = std::make_unique<CompileNotice>(*run.devices.front());
     ProgressBar bar(bar_label(run), run.global, known_passes(run.settings));
     PictureKeeper keeper = make_keeper(session, run, start.facts, sinks, bar, since_begin);
     // The file of a frame says that it is finished, so none is there before.
@@ -270,6 +272,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         },
         [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); },
         [&](const std::string&, double fraction) {
+            notice.reset();
             bar.update(fraction, seconds_left(run, since_begin));
             return !interrupted();
         },

@@ -42,6 +42,11 @@ std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
     return result;
 }
 
+bool ProgramCompiler::is_busy() {
+    const std::lock_guard lock(mutex_);
+    return running_ > 0 || !jobs_.empty();
+}
+
 double ProgramCompiler::busy_seconds() {
     const std::lock_guard lock(mutex_);
     return busy_seconds_ + (running_ > 0 ? since_.seconds() : 0.0);

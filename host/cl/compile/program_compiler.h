@@ -32,6 +32,9 @@ class ProgramCompiler {
     /// source are compiled first, as many at a time as there are workers, but at least two.
     std::shared_future<cl::Program> start(ProgramRequest request);
 
+    /// Whether a program is being compiled or loaded, or waits for that.
+    [[nodiscard]] bool is_busy();
+
     /// The seconds in which at least one program was being compiled or loaded.
     [[nodiscard]] double busy_seconds();
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/compile_notice.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/cl/devices/device_list.h"
+#include "host/cl/program.h"
+#include "host/cli/log.h"
+#include "tests/cli/terminal.h"
+
+namespace nearlight::core {
+namespace {
+
+/// What a notice of that patience says in a tenth of a second while a device compiles.
+std::string said_while_compiling(const DeviceEntry& entry, std::chrono::milliseconds patience) {
+    const test::Terminal terminal;
+    set_up_log(Verbosity::normal);
+    DeviceOptions options;
+    options.cache_dir = "none";
+    Device device(entry, options);
+    // No cache has this source, neither ours nor the driver's.
+    const auto built = device.start_build(
+        "slow.cl", "kernel void slow(global int* x) { *x = " + std::to_string(getpid()) + "; }", "");
+    {
+        const CompileNotice notice(device, patience);
+        built.wait_for(std::chrono::milliseconds(100));
+    }
+    return terminal.read_all();
+}
+
+TEST(CompileNotice, SaysOnATerminalThatKernelsAreBeingCompiledUnlessSomethingElseIsSeenSooner) {
+    const DeviceList list = list_devices();
+    if (list.devices.empty()) {
+        GTEST_SKIP() << "no OpenCL device";
+    }
+    const DeviceEntry& entry = list.devices.front();
+    const std::string text = said_while_compiling(entry, std::chrono::milliseconds(0));
+    EXPECT_NE(text.find("compiling kernels for " + entry.label()), std::string::npos) << text;
+    EXPECT_EQ(said_while_compiling(entry, std::chrono::minutes(1)), "");
+}
+
+}  // namespace
+}  // namespace nearlight::core
