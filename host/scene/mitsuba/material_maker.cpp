@@ -2,25 +2,16 @@
 #include "host/scene/mitsuba/material_maker.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
-#include "host/scene/mitsuba/optics_tables.h"
-#include "host/scene/number_pair.h"
 #include "host/scene/reflectance.h"
 #include "host/scene/scene_names.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr const char* kKnown =
-    "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, thindielectric, "
-    "roughdielectric, principled, principledthin, twosided, mask, bumpmap, normalmap, blendbsdf, null";
-
-// With indices closer to each other than this, refraction has no half-vector to speak of.
-constexpr double kMinIndexStep = 1e-3;
-
-bool starts_with_rough(const Object& bsdf) {
-    return bsdf.type.starts_with("rough");
-}
+constexpr const char* kNested = "twosided, mask, bumpmap, normalmap, blendbsdf, null";
 
 /// Whether there is a normal or bump map within a BSDF, which must not contain itself.
 bool holds_map(const Object& bsdf) {
@@ -84,20 +75,8 @@ uint MaterialMaker::make(const Object& bsdf, int depth) {
 
 uint MaterialMaker::make_new(const Object& bsdf, int depth) {
     const std::string& type = bsdf.type;
-    if (type == "diffuse" || type == "roughdiffuse") {
-        return add(make_diffuse(bsdf));
-    }
-    if (type == "plastic" || type == "roughplastic") {
-        return add(make_plastic(bsdf));
-    }
-    if (type == "conductor" || type == "roughconductor") {
-        return add(make_conductor(bsdf));
-    }
-    if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
-        return add(make_glass(bsdf));
-    }
-    if (type == "principled" || type == "principledthin") {
-        return add(make_principled(bsdf));
+    if (const std::optional<Material> material = models_.make(bsdf)) {
+        return add(*material);
     }
     if (type == "null") {
         return add(plain_material(NEARLIGHT_BSDF_NULL));
@@ -117,7 +96,7 @@ uint MaterialMaker::make_new(const Object& bsdf, int depth) {
     if (type == "normalmap") {
         return make_normal_map(bsdf, depth);
     }
-    fail_unknown_type(bsdf, kKnown);
+    fail_unknown_type(bsdf, std::string(SurfaceModels::kNames) + ", " + kNested);
 }
 
 uint MaterialMaker::make_nested(const Object& wrapper, int depth) {
@@ -190,214 +169,6 @@ uint MaterialMaker::make_under_map(const Object& map, int depth) {
                  "': both tilt the normal, but only the inner one shadows light");
     }
     return child;
-}
-
-Material MaterialMaker::make_diffuse(const Object& bsdf) {
-    if (bsdf.type == "roughdiffuse") {
-        note(notes_, bsdf.where, "'roughdiffuse' is replaced by 'diffuse'");
-        bsdf.ignore({"alpha", "use_fast_approx"});
-        bsdf.ignore_nested("texture");
-    }
-    const bool old_name = bsdf.has("diffuse_reflectance") || bsdf.texture("diffuse_reflectance") != nullptr;
-    Material material = plain_material(NEARLIGHT_BSDF_DIFFUSE);
-    material.reflectance =
-        textures_.reflectance(bsdf, old_name ? "diffuse_reflectance" : "reflectance", {0.5f, 0.5f, 0.5f});
-    return material;
-}
-
-double MaterialMaker::index_of_refraction(const Object& bsdf, const std::string& name, double fallback) {
-    const Property* property = bsdf.find(name);
-    if (property == nullptr) {
-        return fallback;
-    }
-    double index = 0.0;
-    if (std::holds_alternative<std::string>(property->value)) {
-        const std::string material = bsdf.string(name, "");
-        const std::optional<double> found = find_index_of_refraction(material);
-        if (!found) {
-            fail(property->where, "no index of refraction is known for '" + material + "'");
-        }
-        index = *found;
-    } else {
-        index = bsdf.number(name, fallback);
-    }
-    if (!(index > 0.0)) {
-        note(notes_, property->where,
-             "'" + name + "' is not greater than 0; " + std::to_string(fallback) + " is used");
-        return fallback;
-    }
-    return index;
-}
-
-double MaterialMaker::index_ratio(const Object& bsdf, double interior) {
-    const double inside = index_of_refraction(bsdf, "int_ior", interior);
-    const double eta = inside / index_of_refraction(bsdf, "ext_ior", 1.000277);
-    if (std::abs(eta - 1.0) < kMinIndexStep) {
-        note(notes_, bsdf.where, "the indices of refraction inside and outside are the same; 1.001 is used");
-        return 1.0 + kMinIndexStep;
-    }
-    if (eta < 1.0 && !bsdf.has("ext_ior")) {
-        notes_.remark(*bsdf.where.file, bsdf.where.line, "the index of refraction is below 1");
-    }
-    return eta;
-}
-
-Parameter MaterialMaker::anisotropic_alpha(const Object& bsdf) {
-    if (bsdf.has("alpha") || bsdf.texture("alpha") != nullptr) {
-        note(notes_, bsdf.where, "'alpha' is ignored beside 'alpha_u' and 'alpha_v'");
-        bsdf.ignore({"alpha"});
-    }
-    const Parameter u = textures_.number(bsdf, "alpha_u", 0.1f);
-    const Parameter v = textures_.number(bsdf, "alpha_v", 0.1f);
-    if (const std::optional<Parameter> pair = pair_of_numbers(scene_, u, v)) {
-        return *pair;
-    }
-    note(notes_, bsdf.where,
-         "textures for 'alpha_u' and 'alpha_v' that differ in kind, size or placement are replaced by their "
-         "means");
-    return {{mean_value(scene_, u).x, mean_value(scene_, v).x, 0.0f}, -1};
-}
-
-void MaterialMaker::read_microfacets(const Object& bsdf, Material& material) {
-    if (!starts_with_rough(bsdf)) {
-        return;
-    }
-    const std::string distribution = bsdf.string("distribution", "beckmann");
-    if (distribution == "phong" || distribution == "as") {
-        note(notes_, bsdf.where,
-             "the microfacet distribution '" + distribution + "' is replaced by Beckmann's");
-    } else if (distribution != "beckmann" && distribution != "ggx") {
-        fail(bsdf.where, "unknown microfacet distribution '" + distribution + "'; known are beckmann, ggx");
-    }
-    material.flags |= distribution == "ggx" ? 0u : NEARLIGHT_MATERIAL_BECKMANN;
-    bsdf.ignore({"sample_visible"});
-    const bool has_two = bsdf.has("alpha_u") || bsdf.has("alpha_v") || bsdf.texture("alpha_u") != nullptr ||
-                         bsdf.texture("alpha_v") != nullptr;
-    material.roughness = has_two ? anisotropic_alpha(bsdf) : textures_.number(bsdf, "alpha", 0.1f);
-    const Vec3 alpha = material.roughness.value;
-    if (alpha.x != alpha.y || holds_two_numbers(scene_, material.roughness)) {
-        material.flags |= NEARLIGHT_MATERIAL_TANGENT;
-    }
-    if (std::min(alpha.x, alpha.y) <= 0.0f) {
-        notes_.remark(*bsdf.where.file, bsdf.where.line, "a roughness of 0 makes a smooth surface");
-    }
-}
-
-Material MaterialMaker::make_plastic(const Object& bsdf) {
-    Material microfacets = plain_material(NEARLIGHT_BSDF_PLASTIC);
-    read_microfacets(bsdf, microfacets);
-    if (microfacets.roughness.texture >= 0) {
-        note(notes_, bsdf.where, "a texture for 'alpha' of 'roughplastic' is replaced by its mean");
-    }
-    const Vec3 alpha = mean_value(scene_, microfacets.roughness);
-    if (alpha.x != alpha.y) {
-        note(notes_, bsdf.where, "anisotropic roughness of 'roughplastic' is replaced by its mean");
-    }
-    const Coat coat{.eta = index_ratio(bsdf, 1.49),
-                    .alpha = std::clamp(0.5 * static_cast<double>(alpha.x + alpha.y), 0.0, 1.0),
-                    .beckmann = (microfacets.flags & NEARLIGHT_MATERIAL_BECKMANN) != 0,
-                    .nonlinear = bsdf.boolean("nonlinear", false)};
-    const auto [entry, is_new] = plastics_.try_emplace(coat);
-    if (is_new) {
-        entry->second = plastic_material(scene_, coat);
-    }
-    Material material = entry->second;
-    material.reflectance = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
-    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    return material;
-}
-
-void MaterialMaker::read_metal(const Object& bsdf, Material& material) {
-    // Without a material, Mitsuba 0.6 takes copper, and Mitsuba 3 a perfect mirror.
-    const std::string name = bsdf.string("material", "none");
-    const std::optional<Metal> metal = find_metal(name);
-    if (!metal) {
-        fail(bsdf.find("material")->where, "unknown metal '" + name + "'; give eta and k instead");
-    }
-    const auto is_given = [&](const char* key) { return bsdf.has(key) || bsdf.texture(key) != nullptr; };
-    const bool given = is_given("eta") || is_given("k");
-    const Vec3 eta = given ? textures_.color(bsdf, "eta", {0, 0, 0}, false) : metal->eta;
-    const Vec3 k = given ? textures_.color(bsdf, "k", {1, 1, 1}, false) : metal->k;
-    const auto outside = static_cast<float>(index_of_refraction(bsdf, "ext_eta", 1.0));
-    material.eta = max(eta, {0, 0, 0}) / outside;
-    material.k = max(k, {0, 0, 0}) / outside;
-    bool is_possible = eta == max(eta, {0, 0, 0}) && k == max(k, {0, 0, 0});
-    for (float Vec3::*channel : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-        if (material.eta.*channel + material.k.*channel == 0.0f) {  // reflects all, as index 0 + 1i does
-            material.k.*channel = 1.0f;
-            is_possible = false;
-        }
-    }
-    if (!is_possible) {
-        note(notes_, bsdf.where, "no metal has this 'eta' and 'k'; negative ones count as 0");
-    }
-}
-
-Material MaterialMaker::make_conductor(const Object& bsdf) {
-    Material material = plain_material(NEARLIGHT_BSDF_CONDUCTOR);
-    read_metal(bsdf, material);
-    read_microfacets(bsdf, material);
-    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    return material;
-}
-
-Material MaterialMaker::make_glass(const Object& bsdf) {
-    const double eta = index_ratio(bsdf, 1.5046);
-    Material material =
-        bsdf.type == "thindielectric" ? thin_dielectric_material(eta) : dielectric_material(eta);
-    read_microfacets(bsdf, material);
-    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
-    material.transmission = textures_.reflectance(bsdf, "specular_transmittance", {1, 1, 1});
-    return material;
-}
-
-// The index from `eta`, or from `specular`, a scale that Disney's model has for indices from 1 to 1.8.
-double MaterialMaker::principled_index(const Object& bsdf, bool transmits) {
-    if (bsdf.texture("eta") != nullptr) {
-        return static_cast<double>(textures_.color(bsdf, "eta", {}, false).x);
-    }
-    const bool is_thin = bsdf.type == "principledthin";
-    double eta = kUsualIndex;
-    if (bsdf.has("eta") || is_thin) {
-        eta = index_of_refraction(bsdf, "eta", kUsualIndex);
-        bsdf.ignore({"specular"});
-    } else {
-        const double specular = static_cast<double>(textures_.number(bsdf, "specular", 0.5f).value.x);
-        eta = 2.0 / (1.0 - std::sqrt(0.08 * specular)) - 1.0;
-    }
-    return transmits && std::abs(eta - 1.0) < kMinIndexStep ? 1.0 + kMinIndexStep : eta;
-}
-
-Material MaterialMaker::make_principled(const Object& bsdf) {
-    bsdf.ignore({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate",
-                 "clearcoat_sampling_rate", "specular_reflectance_sampling_rate",
-                 "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
-    const auto number = [&](const char* name) { return textures_.number(bsdf, name, 0.0f); };
-    const Parameter spec_trans = number("spec_trans");
-    const bool transmits = spec_trans.texture >= 0 || spec_trans.value.x > 0.0f;
-    Material material = principled_material(scene_, principled_index(bsdf, transmits));
-    material.reflectance = textures_.reflectance(bsdf, "base_color", {0.5f, 0.5f, 0.5f});
-    material.roughness = textures_.number(bsdf, "roughness", 0.5f);
-    material.spec_trans = spec_trans;
-    material.anisotropic = number("anisotropic");
-    material.spec_tint = number("spec_tint");
-    material.sheen = number("sheen");
-    material.sheen_tint = number("sheen_tint");
-    material.flatness = number("flatness");
-    if (material.anisotropic.texture >= 0 || material.anisotropic.value.x > 0.0f) {
-        material.flags |= NEARLIGHT_MATERIAL_TANGENT;
-    }
-    if (bsdf.type == "principledthin") {
-        material.flags |= NEARLIGHT_MATERIAL_THIN;
-        // Mitsuba counts diffuse transmission from 0 to 2, twice the share of light that goes through.
-        material.transmission = textures_.number(bsdf, "diff_trans", 0.0f, {0.0f, 2.0f});
-        material.transmission.value *= 0.5f;
-    } else {
-        material.metallic = number("metallic");
-        material.clearcoat = number("clearcoat");
-        material.clearcoat_gloss = number("clearcoat_gloss");
-    }
-    return material;
 }
 
 }  // namespace nearlight::core::mitsuba

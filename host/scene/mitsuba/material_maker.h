@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mitsuba's BSDFs.
+// Mitsuba's BSDFs: which of them share a material, and how they nest.
 #pragma once
 
 #include <map>
 
-#include "host/scene/material_model.h"
+#include "host/scene/mitsuba/surface_models.h"
 #include "host/scene/mitsuba/texture_maker.h"
 
 namespace nearlight::core::mitsuba {
@@ -12,7 +12,7 @@ namespace nearlight::core::mitsuba {
 class MaterialMaker {
   public:
     MaterialMaker(Scene& scene, NoteSink& notes, TextureMaker& textures)
-        : scene_(scene), notes_(notes), textures_(textures) {}
+        : scene_(scene), notes_(notes), textures_(textures), models_(scene, notes, textures) {}
 
     /// The index into Scene::materials that all shapes of this BSDF and emission share. Null stands for
     /// Mitsuba's default: a diffuse reflectance of 0.5, or 0 where light is emitted.
@@ -35,25 +35,13 @@ class MaterialMaker {
     uint make_normal_map(const Object& bsdf, int depth);
     /// What lies under a normal or bump map, with notes of what of the map is left out.
     uint make_under_map(const Object& map, int depth);
-    Material make_diffuse(const Object& bsdf);
-    Material make_plastic(const Object& bsdf);
-    Material make_conductor(const Object& bsdf);
-    Material make_glass(const Object& bsdf);
-    Material make_principled(const Object& bsdf);
-    void read_metal(const Object& bsdf, Material& material);
-    double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
-    double index_ratio(const Object& bsdf, double interior);
-    double principled_index(const Object& bsdf, bool transmits);
-    /// The roughness of a `rough…` BSDF, and flags of its microfacets.
-    void read_microfacets(const Object& bsdf, Material& material);
-    Parameter anisotropic_alpha(const Object& bsdf);
 
     Scene& scene_;
     NoteSink& notes_;
     TextureMaker& textures_;
+    SurfaceModels models_;
     std::map<const Object*, uint> made_;
     std::map<const Object*, std::size_t> numbers_;  ///< of BSDFs that shapes use, in their order
-    std::map<Coat, Material> plastics_;
     std::map<std::pair<const Object*, std::array<float, 4>>, uint> indices_;
 };
 

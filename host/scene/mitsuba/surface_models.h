@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mitsuba's BSDFs of single surfaces, which hold no other BSDFs.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "host/scene/material_model.h"
+#include "host/scene/mitsuba/texture_maker.h"
+
+namespace nearlight::core::mitsuba {
+
+class SurfaceModels {
+  public:
+    static constexpr const char* kNames =
+        "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, "
+        "thindielectric, "
+        "roughdielectric, principled, principledthin";
+
+    SurfaceModels(Scene& scene, NoteSink& notes, TextureMaker& textures)
+        : scene_(scene), notes_(notes), textures_(textures) {}
+
+    /// The material, without emission, of a BSDF that kNames lists; nothing if its type is another. Throws
+    /// Error(ErrorKind::file) where a value makes no sense.
+    std::optional<Material> make(const Object& bsdf);
+
+  private:
+    Material make_diffuse(const Object& bsdf);
+    Material make_plastic(const Object& bsdf);
+    Material make_conductor(const Object& bsdf);
+    Material make_glass(const Object& bsdf);
+    Material make_principled(const Object& bsdf);
+    void read_metal(const Object& bsdf, Material& material);
+    double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
+    double index_ratio(const Object& bsdf, double interior);
+    double principled_index(const Object& bsdf, bool transmits);
+    /// The roughness of a `rough…` BSDF, and flags of its microfacets.
+    void read_microfacets(const Object& bsdf, Material& material);
+    Parameter anisotropic_alpha(const Object& bsdf);
+
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureMaker& textures_;
+    std::map<Coat, Material> plastics_;
+};
+
+}  // namespace nearlight::core::mitsuba
