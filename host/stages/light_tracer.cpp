@@ -13,10 +13,13 @@ constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
 }  // namespace
 
-// This is Keller's fractional absorption: ρ^(j−1)·N walks go on to depth j. The bounds on ρ keep deep light
-// from costing as much as all other light in bright rooms, and from having hardly any walks in dark rooms.
+float bounded_survival(float survival) {
+    return std::clamp(survival, 0.2f, 0.95f);
+}
+
+// This is Keller's fractional absorption: ρ^(j−1)·N walks go on to depth j.
 std::vector<float> walks_at_each_depth(const LightWalks& walks) {
-    const float survival = std::clamp(walks.survival, 0.2f, 0.95f);
+    const float survival = bounded_survival(walks.survival);
     std::vector<float> launched;
     float count = static_cast<float>(walks.walk_count);
     for (uint depth = 1; depth <= walks.bounce_count; ++depth, count *= survival) {

@@ -30,6 +30,9 @@ struct LightWalks {
     WalkAim aim{};  ///< of walks from infinitely far away
 };
 
+/// A survival within the bounds that walks have. They keep deep light from costing as much as all other light
+/// in bright rooms, and from having hardly any walks in dark rooms.
+float bounded_survival(float survival);
 /// How many walks, a real number, go on to each depth from 1 to bounce_count.
 std::vector<float> walks_at_each_depth(const LightWalks& walks);
 

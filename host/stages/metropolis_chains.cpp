@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "host/stages/light_tracer.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -23,8 +25,7 @@ PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_coun
       targets(device, state_count) {}
 
 Buffer<float> make_depth_cdf(Device& device, uint bounce_count, float mean_albedo) {
-    // The bounds are those of LightTracer: neither deep light nor shallow light should take all the samples.
-    const float survival = std::clamp(mean_albedo, 0.2f, 0.9f);
+    const float survival = bounded_survival(mean_albedo);
     std::vector<float> cdf;
     double sum = 0;
     double weight = 1;

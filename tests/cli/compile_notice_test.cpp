@@ -10,6 +10,7 @@
 #include "host/cl/program.h"
 #include "host/cli/log.h"
 #include "tests/cli/terminal.h"
+#include "tests/support/device_required.h"
 
 namespace nearlight::core {
 namespace {
@@ -33,14 +34,11 @@ std::string said_while_compiling(const DeviceEntry& entry, std::chrono::millisec
 }
 
 TEST(CompileNotice, SaysOnATerminalThatKernelsAreBeingCompiledUnlessSomethingElseIsSeenSooner) {
-    const DeviceList list = list_devices();
-    if (list.devices.empty()) {
-        GTEST_SKIP() << "no OpenCL device";
-    }
+    NEARLIGHT_NEEDS_DEVICE();
     if (const test::Terminal terminal; !test::Terminal::works()) {
         GTEST_SKIP() << "no pseudo-terminal here";
     }
-    const DeviceEntry& entry = list.devices.front();
+    const DeviceEntry entry = choose_devices(list_devices(), "").front();
     const std::string text = said_while_compiling(entry, std::chrono::milliseconds(0));
     EXPECT_NE(text.find("compiling kernels for " + entry.label()), std::string::npos) << text;
     EXPECT_EQ(said_while_compiling(entry, std::chrono::minutes(1)), "");
