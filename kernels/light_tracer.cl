@@ -5,9 +5,14 @@
 // One work-item for each walk, from first_walk on; any work-group size. A walk leaves a light, meets up to
 // bounce_count surfaces, and deposits a VPL on each that has a Lambertian part. The deposit goes to slot
 // (walk − first_walk) · bounce_count + (depth − 1) of `vpls`, and the same slot of `flags` gets 1 if it is to
-// be kept. Absorption is fractional: walk i goes on to depth j while i + absorption_shift < walks_at_depth[j
-// − 1]. A VPL of depth j is divided by walks_at_depth[j − 1], the (real-valued) number of walks that are
-// launched that far, never by how many arrive. With a uniform random shift, this is unbiased for every depth.
+// be kept.
+//
+// Absorption is fractional. A walk is one of `launched` walks, a real number that is all_walks at the light
+// and that each surface multiplies by the part of the flux that it sends on, within [min_survival,
+// max_survival]. So what walks carry, flux ÷ launched, stays as it was at the light, among bright surfaces
+// and dark ones alike, and no VPL of many bounces outshines the others. Walk i ends where i +
+// absorption_shift ≥ launched. VPLs are divided by `launched`, never by how many walks arrive. With a uniform
+// random shift this is unbiased: of walks along any one path, `launched` are expected to go on.
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
@@ -25,10 +30,17 @@ static inline bool is_close_surface(const global CloseRange* region, const globa
     return close_triangles[triangle] && (whole_triangles || in_close_range(region, position));
 }
 
+/// The part of the walks that a surface sends on.
+static inline float survival(const SceneView* scene, const EmittedParticle* particle, const Landing* at,
+                             float min_survival, float max_survival) {
+    const float3 reflected = particle->flux * bsdf_albedo(scene, &at->surface);
+    return clamp(max_component(reflected) / max_component(particle->flux), min_survival, max_survival);
+}
+
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
                          const global uint* restrict close_triangles, uint whole_triangles, uint keep,
-                         uint first_walk, uint walk_count, uint bounce_count,
-                         const global float* restrict walks_at_depth, float absorption_shift, WalkAim aim,
+                         uint first_walk, uint walk_count, uint bounce_count, uint all_walks,
+                         float min_survival, float max_survival, float absorption_shift, WalkAim aim,
                          uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
     const uint index = (uint)get_global_id(0);
     if (index >= walk_count) {
@@ -41,8 +53,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
     const uint walk = first_walk + index;
     EmittedParticle particle = emit_particle(&scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
                                              sample_2d(walk, 2, seed));
+    float launched = (float)all_walks;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        const float launched = walks_at_depth[bounce];
         const float2 choice = sample_2d(walk, 3 + WALK_PAIRS_PER_STEP * bounce, seed);
         Landing at;
         if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) ||
@@ -58,6 +70,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
                 &scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
             flags[index * bounce_count + bounce] = 1;
         }
-        scatter(&scene, &particle, &at, choice.y, sample_2d(walk, 4 + WALK_PAIRS_PER_STEP * bounce, seed));
+        launched *= survival(&scene, &particle, &at, min_survival, max_survival);
+        scatter(&scene, &particle, &at, aim, choice.y,
+                sample_2d(walk, 4 + WALK_PAIRS_PER_STEP * bounce, seed));
     }
 }

@@ -65,7 +65,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
         if (step == last) {
             reflected = reflected_flux(&scene, &particle, &at);
         } else {
-            scatter(&scene, &particle, &at, choice.y, numbers[(pair + 1) * count + index]);
+            scatter(&scene, &particle, &at, aim, choice.y, numbers[(pair + 1) * count + index]);
         }
     }
     if (is_black(reflected)) {

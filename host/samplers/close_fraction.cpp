@@ -20,7 +20,6 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
     // apart.
     const LightWalks walks{.walk_count = kPilotWalks,
                            .bounce_count = task.bounce_count,
-                           .survival = task.scene.mean_albedo,
                            .seed = task.seed ^ kPilotSeed,
                            .aim = walk_aim(task)};
     const auto root_sum_of_squares = [&](KeepDeposits keep) {

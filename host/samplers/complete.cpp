@@ -31,7 +31,9 @@
 // picture.
 //
 // Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
-// larger sparse set, and short paths for what the bounded gather leaves out.
+// larger sparse set, and short paths for what the bounded gather leaves out. This sparse set is a draw among
+// the deposits that are candidates too, which leaves no bias: the choice keeps the expectation of any sum over
+// the candidates, whatever light they are given, and their shares do not depend on the deposits.
 #include "host/samplers/complete.h"
 
 #include <algorithm>
@@ -61,8 +63,8 @@ constexpr uint kMaxDeposits = 1u << 22u;
 constexpr uint kRoughSparseVpls = 128;
 constexpr IncidentQuality kRough{.direct_samples = 4, .paths = 1};
 constexpr IncidentQuality kFull{.direct_samples = 64, .paths = 4};
-/// The constant part of rough irradiance, as a part of the mean that the lights would give to all surfaces.
-constexpr float kAmbientShare = 0.3f;
+/// The constant part of rough irradiance, as a part of what is usual on the patches.
+constexpr double kAmbientShare = 0.3;
 /// The weight of the error that a VPL leaves in its own neighbourhood if that is in view and faces the VPL.
 /// Importons are too few to lie in every neighbourhood.
 constexpr double kNeighbourhoodFloor = 0.1;
@@ -80,6 +82,7 @@ struct Candidates {
     std::size_t patch_count = 0;
     double patch_density = 0;      ///< points / m²
     double expected_deposits = 0;  ///< number of close deposits to expect before the screening
+    SparseSet sparse;              ///< a sparse set of the deposits, for the light of the chosen patches
 };
 
 /// The error that a VPL of 1 W leaves around it, in the measure of GroupContribution::errors. It counts those
@@ -119,14 +122,23 @@ uint deposit_count(const SamplingTask& task) {
     return std::max(task.vpl_count, ample);
 }
 
+/// Deposits in their order along the Morton curve, and the weights in proportion to which they are screened.
+struct WeighedDeposits {
+    std::vector<Vpl> vpls;
+    std::vector<float> weights;
+};
+
+WeighedDeposits weigh(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits) {
+    WeighedDeposits weighed{.vpls = stages.vpl_order.sorted(deposits), .weights = {}};
+    weighed.weights = choice_weights(stages, task, weighed.vpls, ContributionNorm::rough_mean_square);
+    add_neighbourhood_errors(task, weighed.vpls, task.view.few_squared_importons.count, weighed.weights);
+    return weighed;
+}
+
 /// Returns about `wanted` deposits that pass the screening, in their order along the Morton curve.
-std::vector<Vpl> screened_deposits(SamplerStages& stages, const SamplingTask& task,
-                                   std::span<const Vpl> deposits, std::size_t wanted) {
-    const std::vector<Vpl> sorted = stages.vpl_order.sorted(deposits);
-    std::vector<float> weights = choice_weights(stages, task, sorted, ContributionNorm::rough_mean_square);
-    add_neighbourhood_errors(task, sorted, task.view.few_squared_importons.count, weights);
+std::vector<Vpl> screened(const SamplingTask& task, const WeighedDeposits& deposits, std::size_t wanted) {
     Pcg32 random(task.seed, kScreeningStream);
-    return take(resample(weights, wanted, random.uniform()), sorted);
+    return take(resample(deposits.weights, wanted, random.uniform()), deposits.vpls);
 }
 
 Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
@@ -140,9 +152,11 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     const Deposits deposits =
         trace_about(stages, task, surface.region(), KeepDeposits::all, deposit_count(task));
     candidates.expected_deposits = deposits.expected_close;
-    const std::vector<Vpl> screened =
-        screened_deposits(stages, task, deposits.vpls, std::size_t{task.vpl_count} * kScreenedPerVpl);
-    candidates.vpls.insert(candidates.vpls.end(), screened.begin(), screened.end());
+    const WeighedDeposits weighed = weigh(stages, task, deposits.vpls);
+    const std::vector<Vpl> passed = screened(task, weighed, std::size_t{task.vpl_count} * kScreenedPerVpl);
+    candidates.vpls.insert(candidates.vpls.end(), passed.begin(), passed.end());
+    candidates.sparse =
+        draw_sparse_set(stages, task, weighed.vpls, weighed.weights, task.vpl_count, task.seed);
     return candidates;
 }
 
@@ -223,15 +237,30 @@ std::vector<Vpl> chosen_vpls(const Candidates& candidates, std::span<const float
     return vpls;
 }
 
+/// What is usual of irradiances: the square of the mean root of their luminances. The few bright ones, in the
+/// sun or beside a lamp, weigh less in it than in the mean.
+double usual_luminance(std::span<const Vec3> irradiances) {
+    double roots = 0;
+    for (const Vec3 e : irradiances) {
+        roots += std::sqrt(luminance(e));
+    }
+    const double root = roots / static_cast<double>(std::max<std::size_t>(irradiances.size(), 1));
+    return root * root;
+}
+
 /// Estimates the irradiance at each candidate of the close range roughly, and never as 0. Elsewhere it is not
 /// needed, and is 0.
 std::vector<Vec3> rough_light(SamplerStages& stages, const SamplingTask& task, const SparseSet& sparse,
-                              std::span<const Vpl> candidates) {
+                              const Candidates& all) {
+    const std::span candidates(all.vpls);
     std::vector<Vpl> close;
     std::ranges::copy_if(candidates, std::back_inserter(close), is_close);
     const std::vector<Vec3> arriving =
         incident_light_at(stages, task, sparse, close, kRough, task.seed ^ kRoughSeed);
-    const auto ambient = static_cast<float>(kAmbientShare * task.scene.total_power / task.scene.total_area);
+    const double usual = usual_luminance(std::span(arriving).first(all.patch_count));
+    // Where no patch seems lit, the mean that the lights would give to all surfaces stands in.
+    const double mean = task.scene.total_power / task.scene.total_area;
+    const auto ambient = static_cast<float>(kAmbientShare * (usual > 0 ? usual : mean));
     std::vector<Vec3> light(candidates.size());
     auto next = arriving.begin();
     for (std::size_t i = 0; i < light.size(); ++i) {
@@ -256,7 +285,7 @@ std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3>
 VplSet sample_for_cuts(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     const std::vector<Vpl> deposits =
         trace_about(stages, task, region, KeepDeposits::all, deposit_count(task)).vpls;
-    const std::vector<Vpl> vpls = screened_deposits(stages, task, deposits, task.vpl_count);
+    const std::vector<Vpl> vpls = screened(task, weigh(stages, task, deposits), task.vpl_count);
     VplSet set;
     set.vpls = VplBuffer(stages.device, vpls);
     set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
@@ -278,7 +307,7 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     }
     const Candidates candidates = make_candidates(stages, task, surface);
     const SparseSet rough_sparse = trace_sparse_set(stages, task, kRoughSparseVpls, task.seed ^ kRoughSeed);
-    const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates.vpls);
+    const std::vector<Vec3> rough = rough_light(stages, task, rough_sparse, candidates);
     const std::vector<float> share = shares(candidates, rough);
     const std::vector<Vpl> lit = roughly_lit(candidates, rough, share);
     const Choice choice = choose(stages, task, lit);
@@ -287,14 +316,13 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     const auto patch_count = static_cast<std::size_t>(
         std::ranges::lower_bound(choice.indices, static_cast<uint>(candidates.patch_count)) -
         choice.indices.begin());
-    const SparseSet sparse = trace_sparse_set(stages, task, task.vpl_count, task.seed);
     const std::span patches = std::span(vpls).first(patch_count);
-    illuminate(patches, incident_light_at(stages, task, sparse, patches, kFull, task.seed));
+    illuminate(patches, incident_light_at(stages, task, candidates.sparse, patches, kFull, task.seed));
     VplSet set;
     set.vpls = stages.vpl_order.sort(vpls);
     set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
     set.distant_count = vpls.size() - set.close_count;
-    set.sparse_count = sparse.vpls.count() + rough_sparse.vpls.count();
+    set.sparse_count = candidates.sparse.vpls.count() + rough_sparse.vpls.count();
     set.candidate_count = candidates.vpls.size();
     set.close_triangles = surface.triangle_count();
     set.close_fraction =

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/incident_light.h"
 
+#include <algorithm>
 #include <span>
 
 #include "host/base/math.h"
+#include "host/base/random.h"
 #include "host/base/receivers.h"
+#include "host/samplers/candidates.h"
 #include "host/samplers/sparse_walks.h"
 
 namespace nearlight::core {
 namespace {
 
 constexpr uint kSparseSeed = 0x5ba5e5u;
+constexpr uint kSparseStream = 0xd4a3u;
+constexpr uint kDepositsPerSparseVpl = 64;
+/// Bounds of the number of deposits. For more VPLs than the maximum allows, there are fewer deposits per VPL.
+constexpr uint kMinSparseDeposits = 1u << 15u;
+constexpr uint kMaxSparseDeposits = 1u << 20u;
 /// The clamp radius that the sparse set is gathered with, as a part of the range. It is large because a
 /// strong VPL beside a point would make that point's power an outlier, and the paths that supply the missing
 /// light are cheap.
@@ -29,18 +37,38 @@ std::vector<Vec3> first_lanes(const Buffer<Packet>& buffer, std::size_t count) {
 
 }  // namespace
 
-SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed) {
+SparseSet draw_sparse_set(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits,
+                          std::span<const float> weights, std::size_t wanted, uint seed) {
     SparseSet sparse;
     sparse.clamp_radius = kClampRadiusToRange * task.close_range.range;
     if (task.bounce_count > 1) {
-        SamplingTask walks = task;
-        walks.bounce_count = task.bounce_count - 1;
-        walks.seed = seed ^ kSparseSeed;
-        const std::vector<Vpl> vpls =
-            trace_about(stages, walks, empty_region(stages, task.scene), KeepDeposits::all, wanted).vpls;
-        sparse.vpls = stages.vpl_order.sort(vpls);
+        std::vector<float> usable(weights.begin(), weights.end());
+        for (std::size_t i = 0; i < usable.size(); ++i) {
+            usable[i] = deposits[i].depth < task.bounce_count ? usable[i] : 0.0f;
+        }
+        const double shift = Pcg32(seed, kSparseStream).uniform();
+        sparse.vpls = stages.vpl_order.sort(take(resample(usable, wanted, shift), deposits));
     }
     return sparse;
+}
+
+SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed) {
+    if (task.bounce_count <= 1) {
+        return draw_sparse_set(stages, task, {}, {}, 0, seed);
+    }
+    SamplingTask walks = task;
+    walks.bounce_count = task.bounce_count - 1;
+    walks.seed = seed ^ kSparseSeed;
+    const uint wanted_deposits = std::clamp(wanted, kMinSparseDeposits / kDepositsPerSparseVpl,
+                                            kMaxSparseDeposits / kDepositsPerSparseVpl) *
+                                 kDepositsPerSparseVpl;
+    const std::vector<Vpl> deposits =
+        stages.vpl_order.sorted(trace_about(stages, walks, empty_region(stages, task.scene),
+                                            KeepDeposits::all, std::max(wanted, wanted_deposits))
+                                    .vpls);
+    const std::vector<float> weights =
+        choice_weights(stages, task, deposits, ContributionNorm::rough_mean_square);
+    return draw_sparse_set(stages, task, deposits, weights, wanted, seed);
 }
 
 void gather_incident_light(SamplerStages& stages, const IncidentSources& sources,

@@ -12,8 +12,15 @@ struct SparseSet {
     float clamp_radius = 0.0f;  ///< for gathering `vpls`, m; short paths supply what it takes away
 };
 
-/// Traces about `wanted` VPLs of up to task.bounce_count − 1 bounces. The set is empty if task.bounce_count
-/// allows no further bounce.
+/// Draws about `wanted` VPLs of up to task.bounce_count − 1 bounces among deposits of light walks, which are
+/// in their order along the Morton curve, in proportion to `weights`. The set is empty if task.bounce_count
+/// allows no further bounce. Where most light falls outside what the camera sees, as on the grounds around a
+/// house, hardly any VPL would otherwise be where the picture is, and that one would stand for all light
+/// there.
+SparseSet draw_sparse_set(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits,
+                          std::span<const float> weights, std::size_t wanted, uint seed);
+
+/// As draw_sparse_set(), among deposits of its own, by what these bring to the camera.
 SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed);
 
 /// How many samples each point takes.

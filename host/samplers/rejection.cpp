@@ -71,7 +71,6 @@ WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const B
 LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
     return {.walk_count = walk_count,
             .bounce_count = task.bounce_count,
-            .survival = task.scene.mean_albedo,
             .seed = seed,
             .aim = walk_aim(task)};
 }

@@ -71,7 +71,7 @@ void check_light_tracing(Device& device, CheckResult& result) {
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&nothing, 1));
     region.triangles = Buffer<uint>(device, std::vector<uint>(scene.triangles.size(), 0));
-    const LightWalks walks{.walk_count = 20'000, .bounce_count = 4, .survival = 0.6f, .seed = 3};
+    const LightWalks walks{.walk_count = 20'000, .bounce_count = 4, .min_survival = 0.6f, .max_survival = 0.6f, .seed = 3};
     std::array<std::array<double, 3>, 4> power{};
     for (const Vpl& vpl : LightTracer(device).run(on_device, region, KeepDeposits::all, walks)) {
         power.at(vpl.depth - 1)[0] += vpl.power.x;
@@ -80,7 +80,7 @@ void check_light_tracing(Device& device, CheckResult& result) {
     }
     double launched = walks.walk_count;
     std::array<double, 3> expected{flux, flux, flux};
-    for (std::size_t depth = 0; depth < power.size(); ++depth, launched *= walks.survival) {
+    for (std::size_t depth = 0; depth < power.size(); ++depth, launched *= walks.max_survival) {
         for (std::size_t c = 0; c < 3; ++c) {
             expected[c] *= c == 0 ? albedo.x : (c == 1 ? albedo.y : albedo.z);
             // The number of walks that continue is rounded, and a few walks meet a crack between triangles.

@@ -13,21 +13,6 @@ constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
 }  // namespace
 
-float bounded_survival(float survival) {
-    return std::clamp(survival, 0.2f, 0.95f);
-}
-
-// This is Keller's fractional absorption: ρ^(j−1)·N walks go on to depth j.
-std::vector<float> walks_at_each_depth(const LightWalks& walks) {
-    const float survival = bounded_survival(walks.survival);
-    std::vector<float> launched;
-    float count = static_cast<float>(walks.walk_count);
-    for (uint depth = 1; depth <= walks.bounce_count; ++depth, count *= survival) {
-        launched.push_back(count);
-    }
-    return launched;
-}
-
 LightTracer::LightTracer(Device& device)
     : device_(&device),
       program_(device, "light_tracer.cl", kWalksProgram),
@@ -49,7 +34,6 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
     if (scene.host_info.emitter_count == 0 || walks.bounce_count == 0) {
         return;
     }
-    const Buffer<float> walks_at_depth(*device_, walks_at_each_depth(walks));
     const float absorption_shift = Pcg32(walks.seed, 0xab5).uniform();
     const auto slots_per_batch = static_cast<uint>(
         std::min<std::size_t>(kSlotsPerBatch, device_->entry().max_allocation_bytes / sizeof(Vpl)));
@@ -63,8 +47,8 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
         const uint count = std::min(batch_size, walks.walk_count - first);
         light_tracer_.launch_items(count, scene, region.range, region.triangles,
                                    region.whole_triangles ? 1u : 0u, static_cast<uint>(keep), first, count,
-                                   walks.bounce_count, walks_at_depth, absorption_shift, walks.aim,
-                                   walks.seed, slots, flags);
+                                   walks.bounce_count, walks.walk_count, walks.min_survival,
+                                   walks.max_survival, absorption_shift, walks.aim, walks.seed, slots, flags);
         const std::size_t kept_count =
             compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
         compaction_.gather(slots, indices, kept_count, kept);

@@ -21,20 +21,18 @@ struct CloseRegion {
     bool whole_triangles = false;  ///< whether selected triangles lie in it as a whole (policy `paper`)
 };
 
-/// How walks are launched. The result is unbiased for any `survival` above 0 and any aim.
+/// How walks are launched. The result is unbiased for any aim and any survival above 0.
 struct LightWalks {
     uint walk_count = 0;
     uint bounce_count = 1;  ///< maximum number of VPLs that a walk deposits
-    float survival = 0.5f;  ///< of the walks that go on to a depth, the part that goes on to the next
+    /// Bounds of the part of the walks that a surface sends on, in (0, 1], which otherwise follows what it
+    /// reflects. They keep deep light from costing as much as all other light in bright rooms, and from having
+    /// hardly any walks in dark rooms.
+    float min_survival = 0.2f;
+    float max_survival = 0.95f;
     uint seed = 0;
     WalkAim aim{};  ///< of walks from infinitely far away
 };
-
-/// A survival within the bounds that walks have. They keep deep light from costing as much as all other light
-/// in bright rooms, and from having hardly any walks in dark rooms.
-float bounded_survival(float survival);
-/// How many walks, a real number, go on to each depth from 1 to bounce_count.
-std::vector<float> walks_at_each_depth(const LightWalks& walks);
 
 /// Takes deposits while they are on the device: the first `count` ≥ 1 elements of `vpls`, which the next
 /// batch overwrites.

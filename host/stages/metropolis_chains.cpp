@@ -14,6 +14,10 @@ namespace {
 // (WALK_PAIRS_PER_STEP in kernels/lib/light_walk.cl).
 constexpr uint kPairsOnLight = 3;
 constexpr uint kPairsPerSurface = 2;
+/// Bounds of the part of the states of a depth that the next depth has. They keep deep light from having as
+/// many as all other light in bright rooms, and hardly any in dark rooms.
+constexpr float kMinSurvival = 0.2f;
+constexpr float kMaxSurvival = 0.95f;
 
 }  // namespace
 
@@ -25,7 +29,7 @@ PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_coun
       targets(device, state_count) {}
 
 Buffer<float> make_depth_cdf(Device& device, uint bounce_count, float mean_albedo) {
-    const float survival = bounded_survival(mean_albedo);
+    const float survival = std::clamp(mean_albedo, kMinSurvival, kMaxSurvival);
     std::vector<float> cdf;
     double sum = 0;
     double weight = 1;

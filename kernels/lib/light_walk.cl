@@ -9,6 +9,7 @@
 #ifndef NEARLIGHT_LIB_LIGHT_WALK
 #define NEARLIGHT_LIB_LIGHT_WALK
 
+#include "lib/aim_cone.cl"
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/emission.cl"
 #include "lib/vpl.cl"
@@ -67,13 +68,41 @@ static inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint d
                     at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
 }
 
+/// A direction in which a particle goes on from where it landed: one drawn from the BSDF, or one about the
+/// sphere at which walks aim. The density is that of all ways together (the balance heuristic).
+static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, WalkAim aim, float u,
+                                       float2 v) {
+    const AimCone cone = aim_cone(aim, at->hit.position, at->hit.geometric);
+    if (!cone.is_used) {
+        return bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
+    }
+    const float part_aimed = PART_IN_CONE + PART_AROUND_CONE;
+    BsdfSample sample = no_bsdf_sample();
+    float3 value;
+    if (u < part_aimed) {
+        sample.wi = aim_cone_sample(&cone, u, v);
+        value = bsdf_eval(scene, &at->surface, sample.wi, BSDF_D | BSDF_S, &sample.pdf);
+    } else {
+        const float rest = 1.0f - part_aimed;
+        sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, (u - part_aimed) / rest, v);
+        if (sample.is_delta) {
+            sample.weight /= rest;
+            return sample;
+        }
+        value = sample.weight * sample.pdf;
+    }
+    const float pdf = (1.0f - part_aimed) * sample.pdf + aim_cone_pdf(&cone, sample.wi);
+    sample.weight = pdf > 0.0f ? value / pdf : (float3)(0.0f);
+    return sample;
+}
+
 /// Sends the particle on from where it landed. Light of a point or a direction that mirrors and glass send on
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
 /// straight through veils.
-static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, float u,
-                           float2 v) {
-    const BsdfSample sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
+static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, WalkAim aim,
+                           float u, float2 v) {
+    const BsdfSample sample = sample_way_on(scene, at, aim, u, v);
     const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;

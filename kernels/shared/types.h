@@ -343,9 +343,10 @@ typedef struct CloseRange {
     float range;  // m
 } CloseRange;
 
-/// A sphere at which walks from infinitely far away aim: what the camera sees lies in it. Without this,
-/// nearly all walks from the sky would land on the grounds around a house (lib/light/emission.cl). 0 as
-/// radius, or a sphere that is about as large as the scene: no walk aims.
+/// A sphere at which walks from far away aim: what the camera sees lies in it. Without this, nearly all walks
+/// from the sky would land on the grounds around a house and stay there (lib/light/emission.cl for those that
+/// enter the scene, lib/aim_cone.cl for those on surfaces). No walk aims if the radius is 0, and none enters by
+/// aim if the sphere is about as large as the scene.
 typedef struct WalkAim {
     Vec3 center;
     float radius;  // m

@@ -66,9 +66,12 @@ std::vector<Vpl> walk(Device& device, const Scene& scene, uint walk_count = 400'
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&nothing, 1));
     region.triangles = Buffer<uint>(device, std::vector<uint>(scene.triangles.size()));
-    return LightTracer(device).run(
-        on_device.buffers, region, KeepDeposits::all,
-        {.walk_count = walk_count, .bounce_count = bounce_count, .survival = 1.0f, .seed = 12});
+    return LightTracer(device).run(on_device.buffers, region, KeepDeposits::all,
+                                   {.walk_count = walk_count,
+                                    .bounce_count = bounce_count,
+                                    .min_survival = 1.0f,
+                                    .max_survival = 1.0f,
+                                    .seed = 12});
 }
 
 double power_at_depth(const std::vector<Vpl>& vpls, uint depth) {

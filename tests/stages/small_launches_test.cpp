@@ -185,9 +185,9 @@ TEST_F(SmallLaunchesTest, LightWalks) {
         CloseRegion region;
         region.range = Buffer<CloseRange>(device, std::span(&region_of_camera, 1));
         region.triangles = Buffer<uint>(device, std::vector<uint>(scene.scene.triangles.size(), 1));
-        return numbers_of(
-            LightTracer(device).run(scene.buffers, region, KeepDeposits::all,
-                                    {.walk_count = 24, .bounce_count = 2, .survival = 0.6f, .seed = 3}));
+        return numbers_of(LightTracer(device).run(
+            scene.buffers, region, KeepDeposits::all,
+            {.walk_count = 24, .bounce_count = 2, .min_survival = 0.6f, .max_survival = 0.6f, .seed = 3}));
     });
 }
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks that land far from the sphere at which walks aim, and go on towards it.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/stages/traced_walks.h"
+#include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace small_scenes;
+using test::trace_all;
+
+class AimConeTest : public test::DeviceTest {};
+
+constexpr float kPanelHeight = 10.0f;
+constexpr float kPanelAlbedo = 0.8f;
+
+/// A square plain about the origin, and above its middle a panel of 2 × 2 that faces it.
+Scene panel_above(float half_side, const Material& plain) {
+    Scene scene;
+    add_quad(scene, {-half_side, 0, -half_side}, {0, 0, 2 * half_side}, {2 * half_side, 0, 0},
+             add_material(scene, plain));
+    add_quad(scene, {-1, kPanelHeight, -1}, {2, 0, 0}, {0, 0, 2},
+             add_material(scene, lambertian({kPanelAlbedo, kPanelAlbedo, kPanelAlbedo})));
+    return scene;
+}
+
+/// The part of the hemisphere below a point of the panel that the plain fills, by cosine: four times that of
+/// a square whose corner is below the point.
+double plain_in_view(float half_side) {
+    const double a = half_side / kPanelHeight;
+    const double root = std::sqrt(1 + a * a);
+    return 4 * (2 * a / root * std::atan(a / root)) / (2 * kPi);
+}
+
+/// Deposits of depth 2 on the panel.
+struct OnPanel {
+    double power = 0;  // W, for each of the seeds
+    double count = 0;
+    double strongest = 0;
+};
+
+constexpr uint kSeeds = 8;
+
+OnPanel on_panel(Device& device, const Scene& scene, const WalkAim& aim) {
+    OnPanel panel;
+    for (uint seed = 0; seed < kSeeds; ++seed) {
+        const LightWalks walks{.walk_count = 400'000, .bounce_count = 2, .seed = seed, .aim = aim};
+        for (const Vpl& vpl : trace_all(device, scene, walks)) {
+            if (vpl.depth == 2 && vpl.position.y > 0.5f * kPanelHeight) {
+                panel.power += vpl.power.y / kSeeds;
+                panel.count += 1;
+                panel.strongest = std::max(panel.strongest, static_cast<double>(vpl.power.y));
+            }
+        }
+    }
+    return panel;
+}
+
+/// The panel gets the same light from a plain whether walks aim at it, past it or not at all, and without
+/// VPLs that stand for much of it where they aim.
+TEST_F(AimConeTest, FarWalksBringTheSameLightByMoreVpls) {
+    constexpr float kHalfSide = 100.0f;
+    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
+    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
+    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    on_each_ray_tree([&](Device& device) {
+        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        EXPECT_NEAR(aimed.power, expected, 0.02 * expected);
+        EXPECT_LT(aimed.strongest, 0.004 * expected);
+        const OnPanel beside = on_panel(device, scene, {.center = {0, kPanelHeight, 6}, .radius = 3.0f});
+        EXPECT_NEAR(beside.power, expected, 0.05 * expected);
+        const OnPanel spread = on_panel(device, scene, {});
+        EXPECT_GT(aimed.count, 20 * spread.count);
+        EXPECT_GT(beside.count, 5 * spread.count);
+    });
+}
+
+/// A mirror sends light on in one direction only, which no cone finds.
+TEST_F(AimConeTest, MirrorsSendOnTheirLight) {
+    constexpr float kHalfSide = 10.0f;
+    Scene scene = panel_above(kHalfSide, conductor_material({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
+    scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
+    const double expected = kPanelAlbedo * kPi * plain_in_view(kHalfSide) * 4;
+    on_each_ray_tree([&](Device& device) {
+        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        EXPECT_NEAR(aimed.power, expected, 0.08 * expected);
+    });
+}
+
+}  // namespace
+}  // namespace nearlight::core
