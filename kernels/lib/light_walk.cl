@@ -68,12 +68,18 @@ static inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint d
                     at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
 }
 
+/// Whether light that arrives at a surface leaves it in more than a few single directions, so that a walk can
+/// aim there.
+static inline bool scatters_widely(const Bsdf* bsdf) {
+    return !is_black(bsdf->diffuse) || !is_delta_only(bsdf);
+}
+
 /// A direction in which a particle goes on from where it landed: one drawn from the BSDF, or one about the
 /// sphere at which walks aim. The density is that of all ways together (the balance heuristic).
 static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, WalkAim aim, float u,
                                        float2 v) {
     const AimCone cone = aim_cone(aim, at->hit.position, at->hit.geometric);
-    if (!cone.is_used) {
+    if (!cone.is_used || !scatters_widely(&at->surface.bsdf)) {
         return bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
     }
     const float part_aimed = PART_IN_CONE + PART_AROUND_CONE;

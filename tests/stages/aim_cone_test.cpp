@@ -43,7 +43,7 @@ struct OnPanel {
     double strongest = 0;
 };
 
-constexpr uint kSeeds = 8;
+constexpr uint kSeeds = 4;
 
 OnPanel on_panel(Device& device, const Scene& scene, const WalkAim& aim) {
     OnPanel panel;
@@ -69,25 +69,37 @@ TEST_F(AimConeTest, FarWalksBringTheSameLightByMoreVpls) {
     const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
     on_each_ray_tree([&](Device& device) {
         const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
-        EXPECT_NEAR(aimed.power, expected, 0.02 * expected);
+        EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
         EXPECT_LT(aimed.strongest, 0.004 * expected);
         const OnPanel beside = on_panel(device, scene, {.center = {0, kPanelHeight, 6}, .radius = 3.0f});
-        EXPECT_NEAR(beside.power, expected, 0.05 * expected);
+        EXPECT_NEAR(beside.power, expected, 0.08 * expected);
         const OnPanel spread = on_panel(device, scene, {});
         EXPECT_GT(aimed.count, 20 * spread.count);
         EXPECT_GT(beside.count, 5 * spread.count);
     });
 }
 
-/// A mirror sends light on in one direction only, which no cone finds.
-TEST_F(AimConeTest, MirrorsSendOnTheirLight) {
+/// A mirror sends light on in one direction only, which no walk can aim.
+TEST_F(AimConeTest, WalksDoNotAimOffMirrors) {
     constexpr float kHalfSide = 10.0f;
     Scene scene = panel_above(kHalfSide, conductor_material({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
-    scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
+    set_constant_sky(scene, {1, 1, 1});
     const double expected = kPanelAlbedo * kPi * plain_in_view(kHalfSide) * 4;
     on_each_ray_tree([&](Device& device) {
         const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
-        EXPECT_NEAR(aimed.power, expected, 0.08 * expected);
+        EXPECT_NEAR(aimed.power, expected, 0.1 * expected);
+    });
+}
+
+/// A thick coat mirrors part of the light, and what lies below it scatters the rest.
+TEST_F(AimConeTest, CoatsSendOnTheirMirrorImages) {
+    Scene scene = panel_above(10.0f, {});
+    scene.materials[scene.triangles[0].material] = coated(scene, {0.5f, 0.5f, 0.5f}, {.eta = 2.5});
+    set_constant_sky(scene, {1, 1, 1});
+    on_each_ray_tree([&](Device& device) {
+        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        const OnPanel spread = on_panel(device, scene, {});
+        EXPECT_NEAR(aimed.power, spread.power, 0.03 * spread.power);
     });
 }
 
