@@ -75,6 +75,34 @@ TEST_F(BsdfSmoothTest, GlassReflectsAndRefractsOnBothSides) {
     });
 }
 
+/// They reflect every draw, with Fresnel's reflectance of the boundary as the weight.
+TEST_F(BsdfSmoothTest, MetalsAndCoatsMirror) {
+    constexpr float kEta = 0.92f;
+    constexpr float kExtinction = 2.45f;
+    const Material metal =
+        tinted(make_metal(0, 0, 0, Vec3{kEta, kEta, kEta}, Vec3{kExtinction, kExtinction, kExtinction}));
+    const Material coat = tinted(make_plastic(0, 0));
+    on_each_device([&](Device& device) {
+        BsdfProbe probe(device);
+        for (const float degrees : {10.0f, 50.0f, 80.0f}) {
+            SCOPED_TRACE(degrees);
+            const Vec3 wo = direction_at(degrees);
+            const Vec3 mirrored{-wo.x, -wo.y, wo.z};
+            const auto expect_mirrored = [&](const Material& material, double reflectance) {
+                const BsdfAnswer answer =
+                    probe.ask(scene_of(material), make_query(wo, {0, 0, 1}, kPartS, kRadiance));
+                EXPECT_EQ(answer.is_delta, 1u);
+                EXPECT_LT(length(answer.wi - mirrored), 1e-5f);
+                EXPECT_NEAR(answer.weight.y, kMirrorTint * reflectance, 1e-5);
+            };
+            const auto cosine = static_cast<double>(wo.z);
+            expect_mirrored(metal, conductor_reflectance(cosine, static_cast<double>(kEta),
+                                                         static_cast<double>(kExtinction)));
+            expect_mirrored(coat, dielectric_reflectance(cosine, 1.5));
+        }
+    });
+}
+
 TEST_F(BsdfSmoothTest, PanesReflectBetweenTheirFaces) {
     const Material pane = tinted(make_material(NEARLIGHT_BSDF_THIN_DIELECTRIC));
     on_each_device([&](Device& device) {

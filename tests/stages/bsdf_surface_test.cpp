@@ -222,6 +222,32 @@ TEST_F(BsdfSurfaceTest, MasksAndBlendsHaveTheirProbabilities) {
     });
 }
 
+/// Blends whose first or second material is a blend again: each choice among them is independent of the one
+/// before, so that both parts of the inner one have half of its share.
+TEST_F(BsdfSurfaceTest, BlendsInBlendsHaveTheirProbabilities) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        for (const bool inner_is_second : {false, true}) {
+            BsdfScene scene;
+            scene.materials = {inner_is_second ? make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.6f), 2, 1)
+                                               : make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.4f), 1, 2),
+                               make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.5f), 3, 4),
+                               make_diffuse(constant(0.0f)), make_diffuse(constant(0.2f)),
+                               make_diffuse(constant(0.9f))};
+            constexpr int kCount = 4000;
+            std::vector<BsdfQuery> queries(kCount, make_query(direction_at(20), direction_at(0), kBothParts));
+            for (int i = 0; i < kCount; ++i) {
+                queries[static_cast<std::size_t>(i)].choice = (static_cast<float>(i) + 0.5f) / kCount;
+            }
+            double value = 0;
+            for (const BsdfAnswer& answer : probe.ask(scene, queries)) {
+                value += answer.value.x / kCount;
+            }
+            EXPECT_NEAR(value, 0.6 * (0.5 * 0.2 + 0.5 * 0.9) / kPi, 2e-4) << inner_is_second;
+        }
+    });
+}
+
 /// What a mask lets through goes straight on from either side, also where the surface behind it is one-sided.
 TEST_F(BsdfSurfaceTest, MasksLetLightThroughFromBothSides) {
     on_each_device([](Device& device) {
