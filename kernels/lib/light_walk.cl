@@ -79,10 +79,8 @@ static inline bool scatters_widely(const Bsdf* bsdf) {
 static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, WalkAim aim, float u,
                                        float2 v) {
     const AimCone cone = aim_cone(aim, at->hit.position, at->hit.geometric);
-    if (!cone.is_used || !scatters_widely(&at->surface.bsdf)) {
-        return bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
-    }
-    const float part_aimed = PART_IN_CONE + PART_AROUND_CONE;
+    const bool may_aim = cone.is_used && scatters_widely(&at->surface.bsdf);
+    const float part_aimed = may_aim ? PART_IN_CONE + PART_AROUND_CONE : 0.0f;
     BsdfSample sample = no_bsdf_sample();
     float3 value;
     if (u < part_aimed) {
@@ -91,7 +89,7 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at
     } else {
         const float rest = 1.0f - part_aimed;
         sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, (u - part_aimed) / rest, v);
-        if (sample.is_delta) {
+        if (sample.is_delta || !may_aim) {
             sample.weight /= rest;
             return sample;
         }
