@@ -21,17 +21,21 @@ struct CloseRegion {
     bool whole_triangles = false;  ///< whether selected triangles lie in it as a whole (policy `paper`)
 };
 
+/// Bounds of the part of the walks that go on from a surface, or to the next depth. They keep deep light from
+/// costing as much as all other light in bright rooms, and from having hardly any walks in dark rooms.
+inline constexpr float kMinSurvival = 0.2f;
+inline constexpr float kMaxSurvival = 0.95f;
+
 /// How walks are launched. The result is unbiased for any aim and any survival above 0.
 struct LightWalks {
     uint walk_count = 0;
     uint bounce_count = 1;  ///< maximum number of VPLs that a walk deposits
-    /// Bounds of the part of the walks that a surface sends on, in (0, 1], which otherwise follows what it
-    /// reflects. They keep deep light from costing as much as all other light in bright rooms, and from having
-    /// hardly any walks in dark rooms.
-    float min_survival = 0.2f;
-    float max_survival = 0.95f;
+    /// Bounds, in (0, 1], of the part of the walks that a surface sends on, which otherwise follows what it
+    /// reflects.
+    float min_survival = kMinSurvival;
+    float max_survival = kMaxSurvival;
     uint seed = 0;
-    WalkAim aim{};  ///< of walks from infinitely far away
+    WalkAim aim{};  ///< of walks from far away
 };
 
 /// Takes deposits while they are on the device: the first `count` ≥ 1 elements of `vpls`, which the next

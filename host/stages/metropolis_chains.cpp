@@ -14,10 +14,6 @@ namespace {
 // (WALK_PAIRS_PER_STEP in kernels/lib/light_walk.cl).
 constexpr uint kPairsOnLight = 3;
 constexpr uint kPairsPerSurface = 2;
-/// Bounds of the part of the states of a depth that the next depth has. They keep deep light from having as
-/// many as all other light in bright rooms, and hardly any in dark rooms.
-constexpr float kMinSurvival = 0.2f;
-constexpr float kMaxSurvival = 0.95f;
 
 }  // namespace
 

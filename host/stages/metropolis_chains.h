@@ -31,7 +31,7 @@ struct PathSpace {
     float blind_target = 1.0f;  ///< added to the target for each watt (luminance) of a VPL
     uint seed = 0;
     uint bounce_count = 1;
-    WalkAim aim{};            ///< of walks from infinitely far away
+    WalkAim aim{};            ///< of walks from far away
     Buffer<float> depth_cdf;  ///< bounce_count values, the last 1; every depth has a positive probability
 };
 

@@ -9,10 +9,9 @@
 #ifndef NEARLIGHT_LIB_AIM_CONE
 #define NEARLIGHT_LIB_AIM_CONE
 
+#include "lib/light/emission.cl"
 #include "lib/sampling.cl"
 
-#define PART_IN_CONE (1.0f / 3.0f)
-#define PART_AROUND_CONE (1.0f / 3.0f)
 /// From which distance on, in radii of the sphere, a surface is far.
 #define FAR_IN_RADII 2.0f
 
@@ -40,23 +39,23 @@ static inline AimCone aim_cone(WalkAim aim, float3 x, float3 normal) {
     return cone;
 }
 
-/// The direction that the numbers choose, where u < PART_IN_CONE + PART_AROUND_CONE.
+/// The direction that the numbers choose, where u < PART_AIMED + PART_AROUND.
 static inline float3 aim_cone_sample(const AimCone* cone, float u, float2 v) {
-    const float height = u < PART_IN_CONE ? v.x * cone->height : pow(cone->height, v.x);
+    const float height = u < PART_AIMED ? v.x * cone->height : pow(cone->height, v.x);
     const float across = sqrt(height * (2.0f - height));
     return to_world_frame((float3)(across * circle_point(v.y), 1.0f - height), cone->axis);
 }
 
-/// The density per steradian of the directions that aim_cone_sample() takes, of which there are PART_IN_CONE
-/// + PART_AROUND_CONE.
+/// The density per steradian of the directions that aim_cone_sample() takes, of which there are PART_AIMED
+/// + PART_AROUND.
 static inline float aim_cone_pdf(const AimCone* cone, float3 direction) {
     if (!(dot(direction, cone->axis) > 0.0f)) {
         return 0.0f;
     }
     const float3 across = cross(direction, cone->axis);
     const float height = cone_height(dot(across, across));
-    const float part = height <= cone->height ? PART_IN_CONE / cone->height
-                                              : PART_AROUND_CONE / (height * -log(cone->height));
+    const float part =
+        height <= cone->height ? PART_AIMED / cone->height : PART_AROUND / (height * -log(cone->height));
     return part / (2.0f * M_PI_F);
 }
 

@@ -80,7 +80,7 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at
                                        float2 v) {
     const AimCone cone = aim_cone(aim, at->hit.position, at->hit.geometric);
     const bool may_aim = cone.is_used && scatters_widely(&at->surface.bsdf);
-    const float part_aimed = may_aim ? PART_IN_CONE + PART_AROUND_CONE : 0.0f;
+    const float part_aimed = may_aim ? PART_AIMED + PART_AROUND : 0.0f;
     BsdfSample sample = no_bsdf_sample();
     float3 value;
     if (u < part_aimed) {

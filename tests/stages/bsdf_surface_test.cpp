@@ -56,23 +56,9 @@ Texture add_picture(BsdfScene& scene, bool red_only = false) {
     return texture;
 }
 
-Material make_wrapper(uint model, Parameter parameter, uint child0, uint child1) {
-    Material material = make_material(model);
-    material.reflectance = parameter;
-    material.child[0] = child0;
-    material.child[1] = child1;
-    return material;
-}
-
 Material make_map(uint model, float value) {
     Material material = make_wrapper(model, {{value, value, value}, 0}, 1, 1);
     material.flags = NEARLIGHT_MATERIAL_TANGENT;
-    return material;
-}
-
-Material make_diffuse(Parameter reflectance) {
-    Material material = make_material(NEARLIGHT_BSDF_DIFFUSE);
-    material.reflectance = reflectance;
     return material;
 }
 
@@ -185,84 +171,6 @@ TEST_F(BsdfSurfaceTest, SidesFollowTheShadingNormal) {
                            make_diffuse(constant(0.2f)), make_diffuse(constant(0.7f))};
         EXPECT_NEAR(probe.ask(scene, make_query(up, up, kBothParts)).value.x, 0.7f / kPi * up.z, 1e-6f);
         EXPECT_NEAR(probe.ask(scene, make_query(-up, -up, kBothParts)).value.x, 0.2f / kPi * up.z, 1e-6f);
-    });
-}
-
-/// A mask of 0.7 over a blend of which 0.25 is the second material.
-TEST_F(BsdfSurfaceTest, MasksAndBlendsHaveTheirProbabilities) {
-    on_each_device([](Device& device) {
-        BsdfProbe probe(device);
-        BsdfScene scene;
-        scene.materials = {make_wrapper(NEARLIGHT_BSDF_MASK, constant(0.7f), 1, 1),
-                           make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.25f), 2, 3),
-                           make_diffuse(constant(0.2f)), make_diffuse(constant(0.9f))};
-        constexpr int kCount = 4000;
-        std::vector<BsdfQuery> queries(kCount, make_query(direction_at(20), direction_at(0), kBothParts));
-        for (int i = 0; i < kCount; ++i) {
-            queries[static_cast<std::size_t>(i)].choice = (static_cast<float>(i) + 0.5f) / kCount;
-        }
-        int passed = 0;
-        double value = 0;
-        for (const BsdfAnswer& answer : probe.ask(scene, queries)) {
-            passed += answer.is_delta != 0 ? 1 : 0;
-            value += answer.value.x / kCount;
-            if (answer.is_delta != 0) {
-                EXPECT_NEAR(answer.wi.z, -queries[0].wo.z, 1e-6f);
-                EXPECT_EQ(answer.weight.x, 1.0f);
-            }
-        }
-        EXPECT_NEAR(passed, 0.3 * kCount, 1.5);
-        EXPECT_NEAR(value, 0.7 * (0.75 * 0.2 + 0.25 * 0.9) / kPi, 2e-4);
-        for (const float opacity : {0.0f, 1.0f}) {
-            scene.materials[0].reflectance = constant(opacity);
-            for (const BsdfAnswer& answer : probe.ask(scene, queries)) {
-                EXPECT_EQ(answer.is_delta, opacity == 0 ? 1u : 0u);
-            }
-        }
-    });
-}
-
-/// Blends whose first or second material is a blend again: each choice among them is independent of the one
-/// before, so that both parts of the inner one have half of its share.
-TEST_F(BsdfSurfaceTest, BlendsInBlendsHaveTheirProbabilities) {
-    on_each_device([](Device& device) {
-        BsdfProbe probe(device);
-        for (const bool inner_is_second : {false, true}) {
-            BsdfScene scene;
-            scene.materials = {inner_is_second ? make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.6f), 2, 1)
-                                               : make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.4f), 1, 2),
-                               make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.5f), 3, 4),
-                               make_diffuse(constant(0.0f)), make_diffuse(constant(0.2f)),
-                               make_diffuse(constant(0.9f))};
-            constexpr int kCount = 4000;
-            std::vector<BsdfQuery> queries(kCount, make_query(direction_at(20), direction_at(0), kBothParts));
-            for (int i = 0; i < kCount; ++i) {
-                queries[static_cast<std::size_t>(i)].choice = (static_cast<float>(i) + 0.5f) / kCount;
-            }
-            double value = 0;
-            for (const BsdfAnswer& answer : probe.ask(scene, queries)) {
-                value += answer.value.x / kCount;
-            }
-            EXPECT_NEAR(value, 0.6 * (0.5 * 0.2 + 0.5 * 0.9) / kPi, 2e-4) << inner_is_second;
-        }
-    });
-}
-
-/// What a mask lets through goes straight on from either side, also where the surface behind it is one-sided.
-TEST_F(BsdfSurfaceTest, MasksLetLightThroughFromBothSides) {
-    on_each_device([](Device& device) {
-        BsdfProbe probe(device);
-        BsdfScene scene;
-        scene.materials = {make_wrapper(NEARLIGHT_BSDF_MASK, constant(0.0f), 1, 1),
-                           make_diffuse(constant(0.2f))};
-        for (const uint mode : {kRadiance, kFlux}) {
-            for (const Vec3 wo : {direction_at(20), direction_at(160)}) {
-                const BsdfAnswer answer = probe.ask(scene, make_query(wo, direction_at(0), kBothParts, mode));
-                EXPECT_EQ(answer.is_delta, 1u);
-                EXPECT_NEAR(dot(answer.wi, -wo), 1.0f, 1e-5f);
-                EXPECT_NEAR(answer.weight.x, 1.0f, 1e-5f);
-            }
-        }
     });
 }
 

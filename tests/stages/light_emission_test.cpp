@@ -23,9 +23,7 @@ class LightEmissionTest : public test::DeviceTest {};
 Power emitted_powers(Device& device, Scene scene) {
     scene.materials.resize(std::max<std::size_t>(scene.materials.size(), 1));
     add_inward_sphere(scene, 3.0f, 2, add_material(scene, lambertian({1, 1, 1})));
-    const auto vpls = trace_all(
-        device, scene,
-        {.walk_count = 30'000, .bounce_count = 1, .min_survival = 0.5f, .max_survival = 0.5f, .seed = 6});
+    const auto vpls = trace_all(device, scene, {.walk_count = 30'000, .bounce_count = 1, .seed = 6});
     return power_by_depth(vpls, 1)[0];
 }
 double emitted_power(Device& device, const Scene& scene) {
@@ -90,12 +88,8 @@ TEST_F(LightEmissionTest, ATexturedLampEmitsEachTexelAtItsPlace) {
     const double green[2][2] = {{0, 1}, {0.0512695, 0.2158605}};  // rows from the top
     on_each_ray_tree([&](Device& device) {
         double power[2][2] = {};
-        for (const Vpl& vpl : trace_all(device, scene,
-                                        {.walk_count = 100'000,
-                                        .bounce_count = 1,
-                                        .min_survival = 0.5f,
-                                        .max_survival = 0.5f,
-                                        .seed = 7})) {
+        for (const Vpl& vpl :
+             trace_all(device, scene, {.walk_count = 100'000, .bounce_count = 1, .seed = 7})) {
             power[vpl.position.y < 0.5f ? 1 : 0][vpl.position.x < 0.5f ? 0 : 1] += vpl.power.y;
         }
         for (int row = 0; row < 2; ++row) {
@@ -115,9 +109,7 @@ TEST_F(LightEmissionTest, AProjectorFillsItsImagePlaneEvenly) {
     add_projector(scene, {0, 0, 0}, {0, 0, 1}, 0.6f, 0.3f, {1, 1, 1}, -1);
     const auto [x_axis, y_axis] = orthonormal_basis(Vec3{0, 0, 1});
     on_each_ray_tree([&](Device& device) {
-        const auto vpls = trace_all(
-            device, scene,
-            {.walk_count = 20'000, .bounce_count = 1, .min_survival = 0.5f, .max_survival = 0.5f, .seed = 7});
+        const auto vpls = trace_all(device, scene, {.walk_count = 20'000, .bounce_count = 1, .seed = 7});
         ASSERT_EQ(vpls.size(), 20'000u);
         double x_squared = 0;
         double y_squared = 0;
@@ -139,12 +131,7 @@ TEST_F(LightEmissionTest, SkyLightsBothSidesOfASquare) {
     add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 3, 0}, add_two_sided(scene, lambertian({1, 1, 1})));
     scene.environment = {.width = 2, .height = 1, .radiance = {{3, 2, 1}, {3, 2, 1}}, .to_world = {}};
     on_each_ray_tree([&](Device& device) {
-        const auto vpls = trace_all(device, scene,
-                                    {.walk_count = 100'000,
-                                     .bounce_count = 1,
-                                     .min_survival = 0.5f,
-                                     .max_survival = 0.5f,
-                                     .seed = 7});
+        const auto vpls = trace_all(device, scene, {.walk_count = 100'000, .bounce_count = 1, .seed = 7});
         double up = 0;
         double down = 0;
         for (const Vpl& vpl : vpls) {
@@ -161,12 +148,8 @@ TEST_F(LightEmissionTest, DirectionalLightIsWhatMeetsASquare) {
     add_directional_light(scene, {3, 0, -4}, {1, 5, 2});
     on_each_ray_tree([&](Device& device) {
         double power = 0;
-        for (const Vpl& vpl : trace_all(device, scene,
-                                        {.walk_count = 100'000,
-                                        .bounce_count = 1,
-                                        .min_survival = 0.5f,
-                                        .max_survival = 0.5f,
-                                        .seed = 7})) {
+        for (const Vpl& vpl :
+             trace_all(device, scene, {.walk_count = 100'000, .bounce_count = 1, .seed = 7})) {
             power += vpl.power.y;
         }
         EXPECT_NEAR(power, 5 * 6 * 0.8, 0.01 * 5 * 6);
@@ -185,12 +168,8 @@ TEST_F(LightEmissionTest, SunIsWhatMeetsASquare) {
                          .sun_radiance = {1000, 5000, 2000}};
     on_each_ray_tree([&](Device& device) {
         double power = 0;
-        for (const Vpl& vpl : trace_all(device, scene,
-                                        {.walk_count = 100'000,
-                                        .bounce_count = 1,
-                                        .min_survival = 0.5f,
-                                        .max_survival = 0.5f,
-                                        .seed = 7})) {
+        for (const Vpl& vpl :
+             trace_all(device, scene, {.walk_count = 100'000, .bounce_count = 1, .seed = 7})) {
             power += vpl.power.y;
         }
         const double irradiance = 5000 * std::numbers::pi * 1e-4;

@@ -24,6 +24,21 @@ inline std::vector<float> make_curves() {
     return curves;
 }
 
+inline Material make_diffuse(Parameter reflectance) {
+    Material material = make_material(NEARLIGHT_BSDF_DIFFUSE);
+    material.reflectance = reflectance;
+    return material;
+}
+
+/// A mask, a blend, a map or another material that stands for its children.
+inline Material make_wrapper(uint model, Parameter parameter, uint child0, uint child1) {
+    Material material = make_material(model);
+    material.reflectance = parameter;
+    material.child[0] = child0;
+    material.child[1] = child1;
+    return material;
+}
+
 inline Material make_metal(float alpha_x, float alpha_y, uint flags, Vec3 eta, Vec3 k) {
     Material material = make_material(NEARLIGHT_BSDF_CONDUCTOR);
     material.roughness = constant(Vec3{alpha_x, alpha_y, 0});
@@ -78,9 +93,7 @@ inline std::map<std::string, Material> make_materials() {
     const Vec3 eta{0.2f, 0.92f, 1.1f};
     const Vec3 k{3.9f, 2.45f, 2.1f};
     std::map<std::string, Material> materials;
-    Material diffuse = make_material(NEARLIGHT_BSDF_DIFFUSE);
-    diffuse.reflectance = constant(kBase);
-    materials["diffuse"] = diffuse;
+    materials["diffuse"] = make_diffuse(constant(kBase));
     materials["conductor_ggx"] = make_metal(0.15f, 0.4f, 0, eta, k);
     materials["conductor_ggx"].specular = constant(Vec3{0.9f, 0.8f, 0.7f});
     materials["conductor_beckmann"] = make_metal(0.15f, 0.4f, kBeckmann, eta, k);

@@ -57,7 +57,8 @@ static inline EmittedParticle emit_from_round_light(const SceneView* scene, cons
 }
 
 /// A third each of the walks from infinitely far away enter across the shadow of the sphere at which they
-/// aim, around this shadow, and across the whole scene.
+/// aim, around this shadow, and across the whole scene. Walks on far surfaces go on in the same parts
+/// (lib/aim_cone.cl).
 #define PART_AIMED (1.0f / 3.0f)
 #define PART_AROUND (1.0f / 3.0f)
 #define PART_SPREAD (1.0f - PART_AIMED - PART_AROUND)
