@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "host/base/math.h"
 #include "host/samplers/balanced_choice.h"
@@ -10,8 +11,12 @@
 namespace nearlight::core {
 namespace {
 
-/// The part of the weights that follows power alone.
-constexpr double kBlindPart = 0.1;
+/// The parts of the weights that follow what candidates would leave if nothing were in the way, and power
+/// alone. Few importons see a candidate that lights the picture through a window at an angle. Where most
+/// power is elsewhere, as on the grounds around a house, power alone would choose it too seldom, and it would
+/// outshine all others.
+constexpr double kUnoccludedPart = 0.1;
+constexpr double kPowerPart = 0.01;
 /// The maximum number of candidates on the device at a time, which bounds device memory.
 constexpr std::size_t kMaxInChunk = std::size_t{1} << 18u;
 /// The maximum number of candidates on the device at a time if their rows of numbers are computed.
@@ -47,21 +52,26 @@ void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std:
     }
 }
 
-/// Adds to the weights of candidates the part that follows power alone. If all weights are 0, because the
-/// view sees no candidate, weights follow power alone.
-void add_blind_part(std::span<const Vpl> candidates, std::span<float> weights) {
-    double seen = 0;
-    double power = 0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        seen += weights[i];
-        power += luminance(candidates[i].power);
-    }
-    if (power > 0) {
-        const auto per_watt = static_cast<float>((seen > 0 ? kBlindPart * seen : 1.0) / power);
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            weights[i] += per_watt * luminance(candidates[i].power);
+/// Adds `part` of all weights to those of candidates, in proportion to `shares`.
+void add_part(double part, std::span<const float> shares, std::span<float> weights) {
+    const double seen = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+    if (all > 0) {
+        const auto scale = static_cast<float>((seen > 0 ? part * seen : 1.0) / all);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            weights[i] += scale * shares[i];
         }
     }
+}
+
+/// Adds the parts of the weights that do not know what hides candidates. If all weights are 0, because the
+/// view sees no candidate, these parts are all.
+void add_blind_parts(std::span<const Vpl> candidates, std::span<const float> unoccluded,
+                     std::span<float> weights) {
+    add_part(kUnoccludedPart, unoccluded, weights);
+    std::vector<float> power(candidates.size());
+    std::ranges::transform(candidates, power.begin(), [](const Vpl& vpl) { return luminance(vpl.power); });
+    add_part(kPowerPart, power, weights);
 }
 
 }  // namespace
@@ -70,6 +80,8 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
                                   std::span<const Vpl> candidates, ContributionNorm norm) {
     std::vector<float> weights;
     weights.reserve(candidates.size());
+    std::vector<float> unoccluded;
+    unoccluded.reserve(candidates.size());
     const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMaxInChunk, sizeof(Vpl));
     for (std::size_t first = 0; first < candidates.size(); first += chunk) {
         const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
@@ -78,8 +90,11 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
         stages.vpl_contribution.run(task.scene, vpls, part.size(), task.view, task.clamp_radius, contribution,
                                     norm);
         std::ranges::copy(contribution.download(), std::back_inserter(weights));
+        std::ranges::copy(
+            stages.vpl_contribution.unoccluded_errors(vpls, part.size(), task.view, task.clamp_radius),
+            std::back_inserter(unoccluded));
     }
-    add_blind_part(candidates, weights);
+    add_blind_parts(candidates, unoccluded, weights);
     return weights;
 }
 
@@ -88,13 +103,16 @@ JudgedCandidates judge(SamplerStages& stages, const SamplingTask& task, std::spa
     const bool keep = candidates.size() <= kMaxRowsKept;
     judged.weights.reserve(candidates.size());
     judged.rows.reserve(keep ? candidates.size() * 3 * task.view.importon_groups.group_count : 0);
+    std::vector<float> unoccluded;
+    unoccluded.reserve(candidates.size());
     for_each_contribution(stages, task, candidates, [&](std::size_t, const GroupContribution& part) {
         judged.weights.insert(judged.weights.end(), part.errors.begin(), part.errors.end());
+        unoccluded.insert(unoccluded.end(), part.unoccluded.begin(), part.unoccluded.end());
         if (keep) {
             judged.rows.insert(judged.rows.end(), part.rows.begin(), part.rows.end());
         }
     });
-    add_blind_part(candidates, judged.weights);
+    add_blind_parts(candidates, unoccluded, judged.weights);
     return judged;
 }
 

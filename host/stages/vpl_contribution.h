@@ -17,6 +17,8 @@ struct GroupContribution {
     /// The R, G and B that each VPL brings to each part: 3 · groups numbers per VPL. The root of the sum of
     /// their squares is the VPL's error, apart from differences within a group.
     std::vector<float> rows;
+    /// For each VPL, what unoccluded_errors() would find with the same importons.
+    std::vector<float> unoccluded;
 };
 
 class VplContribution {
@@ -33,12 +35,23 @@ class VplContribution {
     void run(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count, const PilotView& view,
              float clamp_radius, Buffer<float>& contribution, ContributionNorm norm = ContributionNorm::mean);
 
+    /// Returns for each of the first `vpl_count` VPLs about what it would add to the picture's error if
+    /// nothing were in the way, by the view's few importons. The unit is another than that of other errors.
+    std::vector<float> unoccluded_errors(const Buffer<Vpl>& vpls, std::size_t vpl_count,
+                                         const PilotView& view, float clamp_radius);
+
     /// Estimates contributions by the importons of the view's groups. For each VPL, an importon is skipped if
     /// its squared unoccluded importance is below kNegligiblePart of the mean over all importons.
     GroupContribution by_group(const DeviceScene& scene, const Buffer<Vpl>& vpls, std::size_t vpl_count,
                                const PilotView& view, float clamp_radius);
 
   private:
+    /// Writes, for each receiver, `part` times the mean square of the importance that would arrive from the
+    /// importons if nothing were in the way.
+    void find_mean_squares(const Buffer<Importon>& importons, std::size_t importon_count,
+                           const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
+                           float clamp_radius, float part, Buffer<float>& mean_squares);
+
     Device* device_;
     Gatherer* gatherer_;
     VplLight vpl_light_;

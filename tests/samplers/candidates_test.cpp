@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "host/base/packed_direction.h"
 #include "tests/samplers/divided_room.h"
 #include "tests/support/device_fixture.h"
 
@@ -41,6 +42,35 @@ TEST_F(CandidatesTest, ErrorsAreNotBelowThoseOfThePartsOfThePicture) {
             EXPECT_GT(judged.weights[i], 0.0f) << "candidate " << i << " could never be chosen";
         }
         EXPECT_GT(seen, vpls.size() / 4);
+    });
+}
+
+/// Importons may have overlooked a gap through which a candidate near the camera lights the picture. One far
+/// away that faces away does nothing for it, however strong it is.
+TEST_F(CandidatesTest, HiddenCandidatesCountByWhatTheyWouldBring) {
+    const auto vpl_at = [](Vec3 position, Vec3 normal, float power) {
+        Vpl vpl{};
+        vpl.position = position;
+        vpl.normal = normal;
+        vpl.shading = pack_direction(normal);
+        vpl.power = {power, power, power};
+        return vpl;
+    };
+    const std::vector<Vpl> vpls{vpl_at({0, 0.9f, 1}, {0, -1, 0}, 1),      // in the camera's half of the room
+                                vpl_at({-0.5f, 0, -0.1f}, {0, 0, 1}, 1),  // behind the divider, facing it
+                                vpl_at({0, 0, -50}, {0, 0, -1}, 100)};
+    on_each_device([&](Device& device) {
+        SamplingBench bench(device, divided_room());
+        const SamplingTask task = bench.task(SamplerKind::close_range, kWanted, 1);
+        for (const std::vector<float>& weights :
+             {choice_weights(bench.stages(), task, vpls, ContributionNorm::rough_mean_square),
+              judge(bench.stages(), task, vpls).weights}) {
+            ASSERT_EQ(weights.size(), vpls.size());
+            EXPECT_GT(weights[0], weights[1]);
+            EXPECT_GT(weights[1], 0.02f * weights[0]);
+            EXPECT_GT(weights[1], 2 * weights[2]) << "for a hundredth of the power";
+            EXPECT_GT(weights[2], 0.0f);
+        }
     });
 }
 

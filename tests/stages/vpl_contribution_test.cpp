@@ -147,9 +147,39 @@ TEST_F(VplContributionTest, ErrorsAreRootsOfSumsOfSquaresAndGroupsAddUpToThePict
             const double all =
                 expected_contribution(data, vertices, data.vpls[v], ContributionNorm::rough_mean_square);
             max_left_out = std::max(max_left_out, 1 - error / all);
+            const double unoccluded = std::sqrt(threshold) / M_PI * luminance(data.vpls[v].power);
+            EXPECT_NEAR(found.unoccluded[v], unoccluded, 1e-4 * unoccluded) << "VPL " << v;
         }
         EXPECT_GT(max_left_out, 0.0);
         EXPECT_LT(max_left_out, 0.5);
+    });
+}
+
+TEST_F(VplContributionTest, UnoccludedErrorsAreThoseOfFewImportonsWithoutRays) {
+    const test::GatherCase data = small_case();
+    const std::vector<CameraVertex> vertices = random_vertices(data.receivers.size() * NEARLIGHT_PACKET_SIZE);
+    on_each_device([&](Device& device) {
+        PilotView view;
+        set_importons(device, view, make_importons(data.receivers, vertices));
+        const std::size_t few = view.few_squared_importons.count;
+        ASSERT_LT(few, vertices.size());
+        Gatherer gatherer(device);
+        const std::vector<float> found =
+            VplContribution(device, gatherer)
+                .unoccluded_errors(Buffer<Vpl>(device, data.vpls), data.vpls.size(), view, data.clamp_radius);
+        ASSERT_EQ(found.size(), data.vpls.size());
+        for (std::size_t v = 0; v < found.size(); ++v) {
+            double sum = 0;
+            for (std::size_t i = 0; i < few; ++i) {
+                const std::size_t importon = i * vertices.size() / few;
+                const ReceiverPoint receiver = receiver_at(data.receivers, importon);
+                sum += squared_importance(vertices[importon],
+                                          test::pair_term(data.vpls[v], receiver, data.clamp_radius).value);
+            }
+            const double expected =
+                std::sqrt(sum / static_cast<double>(few)) / M_PI * luminance(data.vpls[v].power);
+            EXPECT_NEAR(found[v], expected, 1e-4 * expected) << "VPL " << v;
+        }
     });
 }
 
@@ -160,6 +190,7 @@ TEST_F(VplContributionTest, WithoutImportonsNothingIsBrought) {
         set_importons(device, view, {});
         const GroupContribution found = found_by_group(device, data, view);
         EXPECT_EQ(found.errors, std::vector<float>(data.vpls.size(), 0.0f));
+        EXPECT_EQ(found.unoccluded, std::vector<float>(data.vpls.size(), 0.0f));
         EXPECT_TRUE(found.rows.empty());
     });
 }
