@@ -51,7 +51,7 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         flags[index * bounce_count + bounce] = 0;
     }
     const uint walk = first_walk + index;
-    EmittedParticle particle = emit_particle(&scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
+    EmittedParticle particle = emit_particle(&scene, &aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
                                              sample_2d(walk, 2, seed));
     float launched = (float)all_walks;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
@@ -71,7 +71,7 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
             flags[index * bounce_count + bounce] = 1;
         }
         launched *= survival(&scene, &particle, &at, min_survival, max_survival);
-        scatter(&scene, &particle, &at, aim, choice.y,
+        scatter(&scene, &particle, &at, &aim, choice.y,
                 sample_2d(walk, 4 + WALK_PAIRS_PER_STEP * bounce, seed));
     }
 }

@@ -52,7 +52,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
     const float2 choice = numbers[index];
     const uint last = search_cdf(depth_cdf, bounce_count, choice.x);
     const float probability = depth_cdf[last] - (last == 0 ? 0.0f : depth_cdf[last - 1]);
-    EmittedParticle particle = emit_particle(&scene, aim, (float2)(choice.y, 0.0f), numbers[count + index],
+    EmittedParticle particle = emit_particle(&scene, &aim, (float2)(choice.y, 0.0f), numbers[count + index],
                                              numbers[2 * count + index]);
     Landing at;
     float3 reflected = (float3)(0.0f);
@@ -65,7 +65,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
         if (step == last) {
             reflected = reflected_flux(&scene, &particle, &at);
         } else {
-            scatter(&scene, &particle, &at, aim, choice.y, numbers[(pair + 1) * count + index]);
+            scatter(&scene, &particle, &at, &aim, choice.y, numbers[(pair + 1) * count + index]);
         }
     }
     if (is_black(reflected)) {

@@ -36,6 +36,7 @@ struct SamplingTask {
     /// The share of vpl_count for the close range, in [0, 1]; if it is empty, a pilot chooses it.
     std::optional<float> close_fraction;
     CloseRange close_range{};
+    std::span<const Opening> openings{};  ///< through which walks from outside come in
     float clamp_radius = 0.0f;
     uint seed = 0;
 };

@@ -28,7 +28,12 @@ CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene) {
 }
 
 WalkAim walk_aim(const SamplingTask& task) {
-    return {.center = task.close_range.origin, .radius = task.close_range.range};
+    WalkAim aim{.center = task.close_range.origin,
+                .radius = task.close_range.range,
+                .openings = {},
+                .opening_count = static_cast<uint>(task.openings.size())};
+    std::ranges::copy(task.openings, aim.openings);
+    return aim;
 }
 
 Deposits trace_about(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region,

@@ -14,6 +14,7 @@
 #include "host/scene/ray_epsilon.h"
 #include "host/session/key_vpls.h"
 #include "host/session/light_shares.h"
+#include "host/session/openings.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
 #include "host/session/sky_part.h"
@@ -45,6 +46,7 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
             .bounce_count = view.bounce_count(),
             .close_fraction = settings.close_fraction,
             .close_range = view.close_range,
+            .openings = view.openings,
             .clamp_radius = view.clamp_radius,
             .seed = seed};
 }
@@ -102,6 +104,8 @@ View Session::look(const SceneCamera& camera, const ViewSettings& settings, uint
     return pool_.on_leader([&](PoolDevice& leader) {
         View view = choose_view(leader.device(), leader.bands.camera_pass, leader.scene, scene_, camera,
                                 settings, seed);
+        view.openings =
+            find_openings(leader.device(), leader.scene, scene_, view.pilot, view.close_range, seed);
         view.sky_part =
             sky_part(leader.device(), leader.bands.receiver_paths, leader.scene, view.pilot, seed);
         return view;

@@ -12,8 +12,9 @@ struct View {
     SceneCamera scene_camera;  ///< at the size to render
     Camera camera{};
     CloseRange close_range{};
-    PilotView pilot;            ///< in the memory of the device that led when the view was chosen
-    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
+    std::vector<Opening> openings{};  ///< at which walks aim, at most NEARLIGHT_MAX_OPENINGS
+    PilotView pilot;                  ///< in the memory of the device that led when the view was chosen
+    float clamp_radius = 0.0f;        ///< R of the bounded geometry term, m
     /// Whether the settings left the clamp radius open. VPLs may then be gathered with a radius of their own
     /// (VplSet::ray_budget).
     bool clamp_radius_is_open = false;

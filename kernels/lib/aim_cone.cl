@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions from a surface to the sphere at which walks aim, and around it.
+// Directions from a surface to the spheres at which walks aim (lib/walk_aim.cl), and around them.
 //
-// A walk that lands far from this sphere seldom finds it by chance, and one that does stands for much light:
-// the farther it comes from, the more. Such a VPL would outshine all others. So walks that land far away do
-// as those that enter the scene (lib/light/emission.cl): a third goes on towards the sphere, evenly over the
-// cone that it fills; a third goes around it, where there may be a window through which its light comes, and
-// each doubling of the cone gets as many; a third follows the BSDF.
+// A walk that lands far from such a sphere seldom finds it by chance, and one that does stands for much light:
+// the farther it comes from, the more. Such a VPL would outshine all others.
 #ifndef NEARLIGHT_LIB_AIM_CONE
 #define NEARLIGHT_LIB_AIM_CONE
 
-#include "lib/light/emission.cl"
 #include "lib/sampling.cl"
+#include "lib/walk_aim.cl"
 
-/// From which distance on, in radii of the sphere, a surface is far.
+/// From which distance on, in radii of a sphere, a surface is far from it.
 #define FAR_IN_RADII 2.0f
 
+/// The cone in which a point sees a target.
 typedef struct AimCone {
     float3 axis;
     float height;  // 1 − cosine of half the angle of the cone
-    uint is_used;  // 0: the sphere is near, or behind the surface
 } AimCone;
 
 /// 1 − cosine of the angle of this sine, which is below 90°, without the loss of digits that small angles
@@ -27,36 +24,65 @@ static inline float cone_height(float squared_sine) {
     return squared_sine / (1.0f + sqrt(fmax(1.0f - squared_sine, 0.0f)));
 }
 
-static inline AimCone aim_cone(WalkAim aim, float3 x, float3 normal) {
-    const float3 way = load3(aim.center) - x;
+static inline AimCone aim_cone(const AimTarget* target, float3 x) {
+    const float3 way = target->center - x;
     const float distance = length(way);
-    const float sine = aim.radius / distance;
+    const float sine = target->radius / distance;
     AimCone cone;
-    cone.is_used =
-        aim.radius > 0.0f && distance > FAR_IN_RADII * aim.radius && dot(way, normal) > -aim.radius;
-    cone.axis = cone.is_used ? way / distance : normal;
-    cone.height = cone.is_used ? cone_height(sine * sine) : 1.0f;
+    cone.axis = way / distance;
+    cone.height = cone_height(sine * sine);
     return cone;
 }
 
-/// The direction that the numbers choose, where u < PART_AIMED + PART_AROUND.
+/// A direction towards the target, evenly over its cone, or around it in a cone of up to a hemisphere.
 static inline float3 aim_cone_sample(const AimCone* cone, float u, float2 v) {
-    const float height = u < PART_AIMED ? v.x * cone->height : pow(cone->height, v.x);
+    const float height =
+        u < PART_TOWARDS ? v.x * cone->height : cover_around(cone->height, 1.0f, v.x);
     const float across = sqrt(height * (2.0f - height));
     return to_world_frame((float3)(across * circle_point(v.y), 1.0f - height), cone->axis);
 }
 
-/// The density per steradian of the directions that aim_cone_sample() takes, of which there are PART_AIMED
-/// + PART_AROUND.
+/// The density of these directions per steradian.
 static inline float aim_cone_pdf(const AimCone* cone, float3 direction) {
     if (!(dot(direction, cone->axis) > 0.0f)) {
         return 0.0f;
     }
     const float3 across = cross(direction, cone->axis);
     const float height = cone_height(dot(across, across));
-    const float part =
-        height <= cone->height ? PART_AIMED / cone->height : PART_AROUND / (height * -log(cone->height));
-    return part / (2.0f * M_PI_F);
+    const float density = height <= cone->height
+                              ? PART_TOWARDS / cone->height
+                              : (1.0f - PART_TOWARDS) * density_around(cone->height, 1.0f, height);
+    return density / (2.0f * M_PI_F);
+}
+
+/// The targets that are of use to a walk which landed at x on a surface with this normal: those that are far,
+/// partly above its horizon, and, if they are openings, seen from outside.
+static inline uint targets_for_surface(const WalkAim* aim, float3 x, float3 normal) {
+    uint useful = 0;
+    for (uint number = 0; number < aim_target_count(aim); ++number) {
+        const AimTarget target = aim_target(aim, number);
+        const float3 way = target.center - x;
+        const float far = FAR_IN_RADII * target.radius;
+        const bool is_outside = number == 0 || -dot(way, target.outwards) > target.radius;
+        if (target.radius > 0.0f && dot(way, way) > far * far && dot(way, normal) > -target.radius &&
+            is_outside) {
+            useful |= 1u << number;
+        }
+    }
+    return useful;
+}
+
+/// The density per steradian with which walks at x choose a direction by aim.
+static inline float aim_pdf(const WalkAim* aim, const AimParts* parts, float3 x, float3 direction) {
+    float pdf = 0.0f;
+    for (uint number = 0; number < aim_target_count(aim); ++number) {
+        if (parts->of[number] > 0.0f) {
+            const AimTarget target = aim_target(aim, number);
+            const AimCone cone = aim_cone(&target, x);
+            pdf += parts->of[number] * aim_cone_pdf(&cone, direction);
+        }
+    }
+    return pdf;
 }
 
 #endif

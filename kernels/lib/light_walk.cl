@@ -74,28 +74,30 @@ static inline bool scatters_widely(const Bsdf* bsdf) {
     return !is_black(bsdf->diffuse) || !is_delta_only(bsdf);
 }
 
-/// A direction in which a particle goes on from where it landed: one drawn from the BSDF, or one about the
+/// A direction in which a particle goes on from where it landed: one drawn from the BSDF, or one about a
 /// sphere at which walks aim. The density is that of all ways together (the balance heuristic).
-static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, WalkAim aim, float u,
+static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, const WalkAim* aim, float u,
                                        float2 v) {
-    const AimCone cone = aim_cone(aim, at->hit.position, at->hit.geometric);
-    const bool may_aim = cone.is_used && scatters_widely(&at->surface.bsdf);
-    const float part_aimed = may_aim ? PART_AIMED + PART_AROUND : 0.0f;
+    const float3 x = at->hit.position;
+    const uint useful = targets_for_surface(aim, x, at->hit.geometric);
+    const AimParts parts = divide_aim(aim, scatters_widely(&at->surface.bsdf) ? useful : 0);
+    const uint chosen = choose_aim_target(&parts, aim_target_count(aim), &u);
     BsdfSample sample = no_bsdf_sample();
     float3 value;
-    if (u < part_aimed) {
+    if (chosen != NO_AIM_TARGET) {
+        const AimTarget target = aim_target(aim, chosen);
+        const AimCone cone = aim_cone(&target, x);
         sample.wi = aim_cone_sample(&cone, u, v);
         value = bsdf_eval(scene, &at->surface, sample.wi, BSDF_D | BSDF_S, &sample.pdf);
     } else {
-        const float rest = 1.0f - part_aimed;
-        sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, (u - part_aimed) / rest, v);
-        if (sample.is_delta || !may_aim) {
-            sample.weight /= rest;
+        sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);
+        if (sample.is_delta || parts.sum == 0.0f) {
+            sample.weight /= 1.0f - parts.sum;
             return sample;
         }
         value = sample.weight * sample.pdf;
     }
-    const float pdf = (1.0f - part_aimed) * sample.pdf + aim_cone_pdf(&cone, sample.wi);
+    const float pdf = (1.0f - parts.sum) * sample.pdf + aim_pdf(aim, &parts, x, sample.wi);
     sample.weight = pdf > 0.0f ? value / pdf : (float3)(0.0f);
     return sample;
 }
@@ -104,8 +106,8 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
 /// straight through veils.
-static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at, WalkAim aim,
-                           float u, float2 v) {
+static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at,
+                           const WalkAim* aim, float u, float2 v) {
     const BsdfSample sample = sample_way_on(scene, at, aim, u, v);
     const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;

@@ -94,8 +94,11 @@
     OFFSET(CameraVertex, traced)                    \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
+    SIZE(Opening)                                   \
+    OFFSET(Opening, share)                          \
     SIZE(WalkAim)                                   \
     OFFSET(WalkAim, radius)                         \
+    OFFSET(WalkAim, opening_count)                  \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
     OFFSET(SceneInfo, has_sky)                      \

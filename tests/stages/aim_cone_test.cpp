@@ -11,6 +11,7 @@ namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
+using test::aim_at;
 using test::trace_all;
 
 class AimConeTest : public test::DeviceTest {};
@@ -68,14 +69,73 @@ TEST_F(AimConeTest, FarWalksBringTheSameLightByMoreVpls) {
     add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
     const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
     on_each_ray_tree([&](Device& device) {
-        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        const OnPanel aimed = on_panel(device, scene, aim_at({0, kPanelHeight, 0}, 3.0f));
         EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
         EXPECT_LT(aimed.strongest, 0.004 * expected);
-        const OnPanel beside = on_panel(device, scene, {.center = {0, kPanelHeight, 6}, .radius = 3.0f});
+        const OnPanel beside = on_panel(device, scene, aim_at({0, kPanelHeight, 6}, 3.0f));
         EXPECT_NEAR(beside.power, expected, 0.08 * expected);
         const OnPanel spread = on_panel(device, scene, {});
         EXPECT_GT(aimed.count, 20 * spread.count);
         EXPECT_GT(beside.count, 5 * spread.count);
+    });
+}
+
+/// A sphere about the origin at which no walk aims, with an opening in the panel. Walks reach its outer side
+/// from below.
+WalkAim opening_in_panel(Vec3 outwards, float radius) {
+    return {
+        .center = {0, 0, 0},
+        .radius = 0.0f,
+        .openings = {{.center = {0, kPanelHeight, 0}, .radius = radius, .outwards = outwards, .share = 1}},
+        .opening_count = 1};
+}
+
+TEST_F(AimConeTest, WalksOutsideAimAtOpenings) {
+    constexpr float kHalfSide = 100.0f;
+    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
+    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
+    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    on_each_ray_tree([&](Device& device) {
+        const OnPanel aimed = on_panel(device, scene, opening_in_panel({0, -1, 0}, 1.1f));
+        EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
+        EXPECT_LT(aimed.strongest, 0.03 * expected);
+        EXPECT_GT(aimed.count, 20 * on_panel(device, scene, {}).count);
+    });
+}
+
+TEST_F(AimConeTest, WalksInsideDoNotAimAtOpenings) {
+    Scene scene = panel_above(10.0f, lambertian({0.5f, 0.5f, 0.5f}));
+    add_point_light(scene, {0, 5, 0}, {1, 1, 1});
+    on_each_ray_tree([&](Device& device) {
+        LightWalks walks{.walk_count = 20'000, .bounce_count = 3, .seed = 4};
+        const std::vector<Vpl> spread = trace_all(device, scene, walks);
+        walks.aim = opening_in_panel({0, 1, 0}, 1.1f);
+        const std::vector<Vpl> inside = trace_all(device, scene, walks);
+        EXPECT_TRUE(std::ranges::equal(inside, spread, test::same_deposit));
+        walks.aim = opening_in_panel({0, -1, 0}, 1.1f);
+        EXPECT_FALSE(std::ranges::equal(trace_all(device, scene, walks), spread, test::same_deposit));
+    });
+}
+
+/// Several openings share the walks that aim, besides those that aim at the sphere.
+TEST_F(AimConeTest, WalksAimAtAllOpenings) {
+    constexpr float kHalfSide = 100.0f;
+    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
+    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
+    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    WalkAim aim = opening_in_panel({0, -1, 0}, 0.6f);
+    aim.center = {2, kPanelHeight, 0};
+    aim.radius = 3.0f;
+    aim.openings[0].share = 0.25f;
+    aim.openings[1] = {.center = {0.5f, kPanelHeight, 0.5f},
+                       .radius = 0.5f,
+                       .outwards = normalize(Vec3{1, -1, 0}),
+                       .share = 0.75f};
+    aim.opening_count = 2;
+    on_each_ray_tree([&](Device& device) {
+        const OnPanel aimed = on_panel(device, scene, aim);
+        EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
+        EXPECT_LT(aimed.strongest, 0.006 * expected);
     });
 }
 
@@ -86,7 +146,7 @@ TEST_F(AimConeTest, WalksDoNotAimOffMirrors) {
     set_constant_sky(scene, {1, 1, 1});
     const double expected = kPanelAlbedo * kPi * plain_in_view(kHalfSide) * 4;
     on_each_ray_tree([&](Device& device) {
-        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        const OnPanel aimed = on_panel(device, scene, aim_at({0, kPanelHeight, 0}, 3.0f));
         EXPECT_NEAR(aimed.power, expected, 0.1 * expected);
     });
 }
@@ -97,7 +157,7 @@ TEST_F(AimConeTest, CoatsSendOnTheirMirrorImages) {
     scene.materials[scene.triangles[0].material] = coated(scene, {0.5f, 0.5f, 0.5f}, {.eta = 2.5});
     set_constant_sky(scene, {1, 1, 1});
     on_each_ray_tree([&](Device& device) {
-        const OnPanel aimed = on_panel(device, scene, {.center = {0, kPanelHeight, 0}, .radius = 3.0f});
+        const OnPanel aimed = on_panel(device, scene, aim_at({0, kPanelHeight, 0}, 3.0f));
         const OnPanel spread = on_panel(device, scene, {});
         EXPECT_NEAR(aimed.power, spread.power, 0.03 * spread.power);
     });

@@ -207,7 +207,7 @@ double power_within(const std::vector<Vpl>& vpls, Vec3 center, float inner, floa
 TEST_F(LightEmissionTest, AimedWalksBringTheSameLightEverywhere) {
     const Vec3 center{20, 0, -30};
     const LightWalks walks{
-        .walk_count = 200'000, .bounce_count = 1, .seed = 10, .aim = {.center = center, .radius = 30.0f}};
+        .walk_count = 200'000, .bounce_count = 1, .seed = 10, .aim = test::aim_at(center, 30.0f)};
     on_each_ray_tree([&](Device& device) {
         const std::vector<Vpl> vpls = trace_all(device, wide_plain(), walks);
         const auto expect_all = [&](float inner, float outer, double tolerance) {
@@ -228,12 +228,45 @@ TEST_F(LightEmissionTest, AimedWalksBringTheSameLightEverywhere) {
     });
 }
 
+/// Walks aim at openings if they come from their outer side.
+TEST_F(LightEmissionTest, WalksThroughOpeningsBringTheSameLightEverywhere) {
+    LightWalks walks{.walk_count = 200'000, .bounce_count = 1, .seed = 10};
+    walks.aim = {.center = {},
+                 .radius = 0,
+                 .openings = {{.center = {20, 0, -30}, .radius = 10, .outwards = {0, 1, 0}, .share = 0.4f},
+                              {.center = {-20, 0, 30}, .radius = 5, .outwards = {0, 1, 0}, .share = 0.4f},
+                              {.center = {50, 0, 30}, .radius = 5, .outwards = {0, -1, 0}, .share = 0.2f}},
+                 .opening_count = 3};
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<Vpl> vpls = trace_all(device, wide_plain(), walks);
+        const std::vector<Vpl> spread =
+            trace_all(device, wide_plain(), {.walk_count = 200'000, .bounce_count = 1, .seed = 10});
+        const auto hits = [&](const std::vector<Vpl>& deposits, const Opening& opening) {
+            return std::ranges::count_if(deposits, [&](const Vpl& vpl) {
+                return length(vpl.position - opening.center) < opening.radius;
+            });
+        };
+        for (const Opening& opening : std::span(walks.aim.openings).first(2)) {
+            const auto expect_all = [&](float inner, float outer, double tolerance) {
+                const double expected = 0.5 * kPlainIrradiance * kPi * (outer * outer - inner * inner);
+                EXPECT_NEAR(power_within(vpls, opening.center, inner, outer), expected, tolerance * expected)
+                    << "from " << inner << " to " << outer << " of radius " << opening.radius;
+            };
+            expect_all(0, opening.radius, 0.01);
+            expect_all(opening.radius, 1.5f * opening.radius, 0.02);
+            expect_all(1.5f * opening.radius, 4 * opening.radius, 0.03);
+            EXPECT_GT(hits(vpls, opening), 10 * hits(spread, opening));
+        }
+        EXPECT_LT(hits(vpls, walks.aim.openings[2]), 2 * hits(spread, walks.aim.openings[2]));
+    });
+}
+
 /// Where the sphere is about as large as the scene, or there is none, all walks are spread over the scene.
 TEST_F(LightEmissionTest, NoWalkAimsAtMostOfTheScene) {
     on_each_ray_tree([&](Device& device) {
         LightWalks walks{.walk_count = 20'000, .bounce_count = 1, .seed = 10};
         const std::vector<Vpl> spread = trace_all(device, wide_plain(), walks);
-        walks.aim = {.center = {20, 0, -30}, .radius = 0.51f * 100.0f * std::sqrt(2.0f)};
+        walks.aim = test::aim_at({20, 0, -30}, 0.51f * 100.0f * std::sqrt(2.0f));
         const std::vector<Vpl> wide = trace_all(device, wide_plain(), walks);
         ASSERT_EQ(wide.size(), spread.size());
         for (std::size_t i = 0; i < wide.size(); ++i) {

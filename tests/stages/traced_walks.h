@@ -25,6 +25,14 @@ inline std::vector<Vpl> trace_all(Device& device, const Scene& scene, const Ligh
                                    KeepDeposits::all, walks);
 }
 
+/// Walks aim at a sphere alone.
+inline WalkAim aim_at(Vec3 center, float radius) {
+    WalkAim aim{};
+    aim.center = center;
+    aim.radius = radius;
+    return aim;
+}
+
 /// Power of the deposits of each depth, W; entry 0 is depth 1.
 struct Power {
     double x = 0, y = 0, z = 0;

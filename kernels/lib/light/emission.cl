@@ -8,6 +8,7 @@
 #include "lib/light/environment.cl"
 #include "lib/light/triangle.cl"
 #include "lib/outlined.cl"
+#include "lib/walk_aim.cl"
 
 /// A particle that leaves a light.
 typedef struct EmittedParticle {
@@ -56,67 +57,97 @@ static inline EmittedParticle emit_from_round_light(const SceneView* scene, cons
     return particle;
 }
 
-/// A third each of the walks from infinitely far away enter across the shadow of the sphere at which they
-/// aim, around this shadow, and across the whole scene. Walks on far surfaces go on in the same parts
-/// (lib/aim_cone.cl).
-#define PART_AIMED (1.0f / 3.0f)
-#define PART_AROUND (1.0f / 3.0f)
-#define PART_SPREAD (1.0f - PART_AIMED - PART_AROUND)
-
 /// Where light from infinitely far away enters the scene.
 typedef struct EntryPoint {
     float3 position;
     float area;  // 1 over the density across the light, m²
 } EntryPoint;
 
-/// An entry point on the disk of the scene's size that faces the light.
-static inline EntryPoint spread_entry(float3 center, float radius, float3 from, float2 u) {
-    EntryPoint entry;
-    entry.position =
-        center + radius * from + to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
-    entry.area = M_PI_F * radius * radius;
-    return entry;
+/// A place on the disk of the given radius that lies across light which travels along −`from`, from its
+/// middle.
+static inline float3 place_on_disk(float radius, float3 from, float2 u) {
+    return to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
 }
 
-/// The place across light that travels along −`from`, from the middle of the sphere's shadow, of a walk that
-/// aims (u.x < PART_AIMED) or lands around (u.x < PART_AIMED + PART_AROUND). Around the shadow, each doubling
-/// of the distance up to radius · e^`log_reach` gets as many walks.
-static inline float3 place_about(float radius, float log_reach, float3 from, float2 u) {
-    const float distance = u.x < PART_AIMED ? radius * sqrt(u.x / PART_AIMED)
-                                            : radius * exp(log_reach * (u.x - PART_AIMED) / PART_AROUND);
-    return to_world_frame((float3)(distance * circle_point(u.y), 0.0f), from);
+/// The shadow of a target across light that travels along −`from`. Places there are vectors from the middle of
+/// the scene that are perpendicular to `from`.
+typedef struct AimShadow {
+    float3 middle;
+    float least, most;  // squares of the distances from the middle between which walks pass around it, m²
+} AimShadow;
+
+static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* target, float3 from) {
+    const float3 to_target = target->center - load3(scene->environment->scene_center);
+    AimShadow shadow;
+    shadow.middle = to_target - dot(to_target, from) * from;
+    const float reach = scene->environment->scene_radius + length(shadow.middle);
+    shadow.least = target->radius * target->radius;
+    shadow.most = reach * reach;
+    return shadow;
 }
 
-/// An entry point of light that travels along −`from`. The density is that of all three ways together, so
-/// that no walk counts for much only because it came by an unlikely way. Where the sphere at which walks aim
-/// is about as large as the scene, there is nothing to win, and all are spread.
-static inline EntryPoint entry_point(const SceneView* scene, WalkAim aim, float3 from, float2 u) {
-    const float3 center = load3(scene->environment->scene_center);
-    const float radius = scene->environment->scene_radius;
-    if (!(aim.radius > 0.0f && aim.radius < 0.5f * radius)) {
-        return spread_entry(center, radius, from, u);
-    }
-    const float3 to_aim = load3(aim.center) - center;
-    const float3 shadow = to_aim - dot(to_aim, from) * from;
-    const float log_reach = log((radius + length(shadow)) / aim.radius);
-    EntryPoint entry;
-    if (u.x < PART_AIMED + PART_AROUND) {
-        entry.position = center + radius * from + shadow + place_about(aim.radius, log_reach, from, u);
-    } else {
-        const float2 v = (float2)((u.x - PART_AIMED - PART_AROUND) / PART_SPREAD, u.y);
-        entry.position = spread_entry(center, radius, from, v).position;
-    }
-    const float3 place = entry.position - center - radius * from;
-    const float3 off = place - shadow;
+/// The place of a walk that aims at the target: within its shadow, or around it.
+static inline float3 place_about(const AimShadow* shadow, float3 from, float2 u) {
+    const float squared = u.x < PART_TOWARDS
+                              ? shadow->least * (u.x / PART_TOWARDS)
+                              : cover_around(shadow->least, shadow->most,
+                                            (u.x - PART_TOWARDS) / (1.0f - PART_TOWARDS));
+    return shadow->middle + to_world_frame((float3)(sqrt(squared) * circle_point(u.y), 0.0f), from);
+}
+
+/// The density of such places, times π (1/m²).
+static inline float density_about(const AimShadow* shadow, float3 place) {
+    const float3 off = place - shadow->middle;
     const float squared = dot(off, off);
-    const float spread = dot(place, place) < radius * radius ? PART_SPREAD / (radius * radius) : 0.0f;
-    const float about = squared < aim.radius * aim.radius ? PART_AIMED / (aim.radius * aim.radius)
-                                                          : PART_AROUND / (2.0f * squared * log_reach);
-    entry.area = M_PI_F / (spread + about);
+    return squared < shadow->least
+               ? PART_TOWARDS / shadow->least
+               : (1.0f - PART_TOWARDS) * density_around(shadow->least, shadow->most, squared);
+}
+
+/// The targets that are of use to light that travels along −`from`: the sphere, unless it is about as large as
+/// the scene, and the openings through which such light comes in.
+static inline uint targets_for_light(const SceneView* scene, const WalkAim* aim, float3 from) {
+    const bool is_small = aim->radius > 0.0f && aim->radius < 0.5f * scene->environment->scene_radius;
+    uint useful = is_small ? 1 : 0;
+    for (uint i = 0; i < aim->opening_count; ++i) {
+        useful |= dot(load3(aim->openings[i].outwards), from) > 0.0f ? 2u << i : 0u;
+    }
+    return useful;
+}
+
+/// An entry point of light that travels along −`from`: about one of the targets, or on the disk of the scene's
+/// size that faces the light.
+static inline EntryPoint entry_point(const SceneView* scene, const WalkAim* aim, float3 from, float2 u) {
+    const float radius = scene->environment->scene_radius;
+    const AimParts parts = divide_aim(aim, targets_for_light(scene, aim, from));
+    const uint count = aim_target_count(aim);
+    float number = u.x;
+    const uint chosen = choose_aim_target(&parts, count, &number);
+    const float2 v = (float2)(number, u.y);
+    float3 place;
+    if (chosen == NO_AIM_TARGET) {
+        place = place_on_disk(radius, from, v);
+    } else {
+        const AimTarget target = aim_target(aim, chosen);
+        const AimShadow shadow = aim_shadow(scene, &target, from);
+        place = place_about(&shadow, from, v);
+    }
+    const bool is_on_disk = chosen == NO_AIM_TARGET || dot(place, place) < radius * radius;
+    float density = is_on_disk ? (1.0f - parts.sum) / (radius * radius) : 0.0f;
+    for (uint i = 0; i < count; ++i) {
+        if (parts.of[i] > 0.0f) {
+            const AimTarget target = aim_target(aim, i);
+            const AimShadow shadow = aim_shadow(scene, &target, from);
+            density += parts.of[i] * density_about(&shadow, place);
+        }
+    }
+    EntryPoint entry;
+    entry.position = load3(scene->environment->scene_center) + radius * from + place;
+    entry.area = M_PI_F / density;
     return entry;
 }
 
-static inline EmittedParticle emit_from_environment(const SceneView* scene, WalkAim aim, bool is_sun,
+static inline EmittedParticle emit_from_environment(const SceneView* scene, const WalkAim* aim, bool is_sun,
                                                     float2 u_position, float2 u_direction) {
     float3 from;
     float3 radiance;
@@ -168,7 +199,7 @@ static inline EmittedParticle emit_from_projector(const SceneView* scene, const 
     return particle;
 }
 
-static inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAim aim,
+static inline EmittedParticle emit_from_direction(const SceneView* scene, const WalkAim* aim,
                                                   const global Emitter* emitter, float2 u_position) {
     EmittedParticle particle;
     particle.direction = load3(emitter->direction);
@@ -179,7 +210,7 @@ static inline EmittedParticle emit_from_direction(const SceneView* scene, WalkAi
     return particle;
 }
 
-OUTLINED EmittedParticle emit_particle(const SceneView* scene, WalkAim aim, float2 choice, float2 u_position,
+OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float2 choice, float2 u_position,
                                        float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
     EmittedParticle particle;
