@@ -11,6 +11,8 @@
 // `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
 // shared_lights.cl, shared_sky.cl and shared_reflections.cl to take further. Reflections want the `spacing`
 // of each receiver, which receiver_spacing finds: one work-item for each bundle; any work-group size.
+//
+// `solids` are the triangles of the scene's tree without its veils.
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
@@ -21,8 +23,8 @@ static inline void store_light(global IrradiancePacket* packet, uint lane, float
     packet->b[lane] = light.z;
 }
 
-kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
-                           uint packet_count, uint light_samples, uint path_count, uint max_edges,
+kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restrict solids,
+                           const global ReceiverPacket* restrict receivers, uint packet_count, uint light_samples, uint path_count, uint max_edges,
                            float clamp_radius, uint seed, uint shares,
                            global IrradiancePacket* restrict direct,
                            global IrradiancePacket* restrict indirect,
@@ -45,6 +47,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global ReceiverPacket* restri
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
     Finds finds = nothing_shared();
+    finds.solids = solids;
     if (shares != 0 && receiver_shares(receiver, lane, max_edges)) {
         finds.near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;
         finds.sky.is_wanted = (shares & NEARLIGHT_SHARES_SKY) != 0 && scene.info->has_sky;

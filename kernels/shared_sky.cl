@@ -6,7 +6,10 @@
 // choose lights y_j among those that the rays of their receivers found, and test who sees them, as in
 // shared_lights.cl:
 //
-//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s, y)
+//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s, y)
+//
+// Here V is the visibility past solid surfaces alone, and T the transmittance of the veils between
+// (lib/light/shadow.cl): rays find places behind veils whatever these let through.
 //
 // What the surface of x reflects other than diffusely towards the camera is the same sum with its BSDF S. The
 // weight w is that of the balance heuristic between the rays of the bundle, those of x and its light samples,
@@ -16,6 +19,7 @@
 // that its camera path met (`vertices`). The lists are those of shared_lights.cl. Any work-group size.
 
 #include "lib/bsdf/bsdf.cl"
+#include "lib/light/shadow.cl"
 #include "lib/shared_sky.cl"
 
 /// Light of the sky that arrives at a receiver from the place of a shared light.
@@ -63,6 +67,7 @@ typedef struct SkyReceiver {
     uint curve;
     float rays, light_samples;  // of its own
     float bundle_rays;
+    uint max_veils;  // that light may pass
     const global SeenSurface* seen;
     float seen_rays, seen_samples;  // of the surface seen; no samples: there is none
 } SkyReceiver;
@@ -74,7 +79,7 @@ typedef struct SkyLight {
 } SkyLight;
 
 /// Sums the listed lights whose bits are set in the word of `seen_by` that has the receiver, at `shift`.
-static inline SkyLight sum_sky(const SceneView* scene, const SkyReceiver* at, const global SharedLight* found,
+static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at, const global SharedLight* found,
                                const global uint* listed, const global float* factors, uint length,
                                const global uint* seen_by, uint shift) {
     SkyLight sum;
@@ -87,7 +92,10 @@ static inline SkyLight sum_sky(const SceneView* scene, const SkyReceiver* at, co
         }
         const global SharedLight* light = found + listed[entry];
         const ArrivingSky sky = arriving_sky(scene, light, at->x, at->n);
-        const float3 radiance = sky.radiance * (light->radiance.x * factors[entry] * sky.solid);
+        float3 radiance = sky.radiance * (light->radiance.x * factors[entry] * sky.solid);
+        if (scene->info->veils != NEARLIGHT_VEILS_NONE) {
+            radiance *= ray_transmittance(veils, at->x, sky.direction, 0.0f, INFINITY, at->max_veils);
+        }
         const float of_others = at->rays * sky.cosine * M_1_PI_F + at->light_samples * sky.pdf;
         sum.irradiance += radiance * (bundle_weight(&sky, at->bundle_rays, of_others) * sky.cosine *
                                       curve_value(scene->curves, at->curve, sky.cosine));
@@ -106,11 +114,12 @@ static inline SkyLight sum_sky(const SceneView* scene, const SkyReceiver* at, co
     return sum;
 }
 
-kernel void shared_sky_gather(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
+                              const global ReceiverPacket* restrict receivers,
                               uint packet_count, const global SharedLight* restrict found,
                               const global uint* restrict listed, const global float* restrict factors,
                               const global uint* restrict lengths, const global uint* restrict seen_by,
-                              uint rays, uint light_samples, global IrradiancePacket* restrict irradiance,
+                              uint rays, uint light_samples, uint max_edges, global IrradiancePacket* restrict irradiance,
                               uint has_seen, uint seen_rays, const global SeenSurface* restrict seen,
                               global CameraVertex* restrict vertices) {
     const uint receiver = (uint)get_global_id(0);
@@ -120,6 +129,7 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, const global ReceiverPacket* res
         return;
     }
     const SceneView scene = SCENE_VIEW;
+    const SceneView veils = VEIL_VIEW(scene);
     const uint bundle = packet / NEARLIGHT_BUNDLE_PACKETS;
     const uint place = receiver % BUNDLE_RECEIVERS;
     const uint first = bundle * NEARLIGHT_SHARED_LIST;
@@ -130,10 +140,12 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, const global ReceiverPacket* res
     at.rays = (float)rays;
     at.light_samples = (float)light_samples;
     at.bundle_rays = (float)(NEARLIGHT_SKY_RAYS * rays);
+    const uint own_edges = max_edges - min(receiver_surfaces(receivers + packet, lane), max_edges);
+    at.max_veils = min(max(own_edges, 1u) - 1, (uint)NEARLIGHT_MAX_VEILS);
     at.seen = seen + receiver;
     at.seen_rays = (float)seen_rays;
     at.seen_samples = has_seen ? (float)seen[receiver].light_samples : 0.0f;
-    const SkyLight light = sum_sky(&scene, &at, found, listed + first, factors + first, lengths[bundle],
+    const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first, lengths[bundle],
                                    seen_by + first * BUNDLE_WORDS + place / 32, place % 32);
     irradiance[packet].r[lane] += light.irradiance.x;
     irradiance[packet].g[lane] += light.irradiance.y;

@@ -188,15 +188,15 @@ bool passes_straight(const Scene& scene, const Material& material) {
     });
 }
 
+bool is_veil(const Scene& scene, const Material& material) {
+    return scene.clear_glass ? lets_through(scene, material) : passes_straight(scene, material);
+}
+
 uint veils_of(const Scene& scene) {
-    const bool thin = std::ranges::any_of(
-        scene.materials, [&](const Material& material) { return passes_straight(scene, material); });
-    const bool glass = std::ranges::any_of(
-        scene.materials, [&](const Material& material) { return lets_through(scene, material); });
-    if (scene.clear_glass && glass) {
-        return NEARLIGHT_VEILS_CLEAR;
+    if (std::ranges::none_of(scene.materials, [&](const Material& m) { return is_veil(scene, m); })) {
+        return NEARLIGHT_VEILS_NONE;
     }
-    return thin ? NEARLIGHT_VEILS_THIN : NEARLIGHT_VEILS_NONE;
+    return scene.clear_glass ? NEARLIGHT_VEILS_CLEAR : NEARLIGHT_VEILS_THIN;
 }
 
 bool lets_through(const Scene& scene, const Material& material) {

@@ -27,6 +27,8 @@ bool has_rough_gloss(const Scene& scene, const Material& material);
 bool reflects_back(const Scene& scene, const Material& material);
 /// Whether light may pass without a change of direction: a thin pane, a mask, or nothing at all.
 bool passes_straight(const Scene& scene, const Material& material);
+/// Whether shadow rays may pass the material straight: it is a veil (kernels/lib/light/shadow.cl).
+bool is_veil(const Scene& scene, const Material& material);
 /// What lets light pass straight through somewhere in the scene: one of NEARLIGHT_VEILS_….
 uint veils_of(const Scene& scene);
 /// Whether light may reach the other side, straight or not.

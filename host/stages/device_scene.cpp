@@ -87,10 +87,12 @@ uint diffuse_sides(const Scene& scene, const Material& material) {
     return NEARLIGHT_MATERIAL_DIFFUSE_FRONT | (both ? NEARLIGHT_MATERIAL_DIFFUSE_BACK : 0u);
 }
 
-std::vector<Material> materials_with_sides(const Scene& scene) {
+/// The materials with the flags that only kernels ask for.
+std::vector<Material> device_materials(const Scene& scene) {
     std::vector<Material> materials = scene.materials;
     for (Material& material : materials) {
         material.flags |= diffuse_sides(scene, material);
+        material.flags |= is_veil(scene, material) ? NEARLIGHT_MATERIAL_VEIL : 0u;
     }
     return materials;
 }
@@ -143,7 +145,7 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     };
     on_device.vertices = put(scene.vertices);
     on_device.triangles = put(scene.triangles);
-    on_device.materials = put(materials_with_sides(scene));
+    on_device.materials = put(device_materials(scene));
     on_device.textures = put(pool.textures);
     on_device.texels = put(pool.words);
     on_device.vertex_colors = put(scene.vertex_colors);
@@ -165,15 +167,18 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
 }  // namespace
 
 DeviceScene upload_scene(Device& device, const Scene& scene, const ShapedBvh& tree, GatherKernel kernel) {
+    const TreeShapes shapes = tree_shapes(device, kernel);
     DeviceScene on_device = upload_surfaces_and_lights(device, scene);
-    on_device.tree = upload(device, tree, tree_shapes(device, kernel));
+    on_device.tree = upload(device, tree, shapes);
+    if (on_device.host_info.has_sky != 0 && on_device.host_info.veils != NEARLIGHT_VEILS_NONE) {
+        on_device.veil_trees = make_veil_trees(device, scene, tree, shapes);
+    }
     return on_device;
 }
 
 DeviceScene upload_scene(Device& device, const Scene& scene, const Bvh& bvh, GatherKernel kernel) {
-    DeviceScene on_device = upload_surfaces_and_lights(device, scene);
-    on_device.tree = upload_tree(device, bvh, kernel);
-    return on_device;
+    const bool is_widened = tree_shapes(device, kernel).wide;
+    return upload_scene(device, scene, {.binary = bvh, .wide = is_widened ? widen(bvh) : WideBvh{}}, kernel);
 }
 
 }  // namespace nearlight::core

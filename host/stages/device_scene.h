@@ -2,13 +2,19 @@
 // A scene in device memory, as kernels/lib/scene.cl sees it.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <vector>
+
 #include "host/scene/scene.h"
 #include "host/stages/device_tree.h"
+#include "host/stages/veil_trees.h"
 
 namespace nearlight::core {
 
 struct DeviceScene {
     DeviceTree tree;
+    std::optional<VeilTrees> veil_trees{};  ///< if bundles may share a sky behind veils
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;
@@ -41,6 +47,14 @@ struct DeviceScene {
         return host_info.has_curves != 0 ? &curves : nullptr;
     }
 
+    // The triangles of the tree that are no veils, in its slots.
+    [[nodiscard]] const Buffer<BvhTriangle>& solid_triangles() const {
+        return veil_trees ? veil_trees->solid_triangles : tree.triangles;
+    }
+    [[nodiscard]] const Buffer<TriangleBlock>& solid_blocks() const {
+        return veil_trees ? veil_trees->solid_blocks : tree.blocks;
+    }
+
     /// Calls visit(buffer) for every buffer, in the order of SCENE_PARAMETERS.
     template <typename Visitor>
     void for_each_buffer(Visitor&& visit) const {
@@ -49,6 +63,32 @@ struct DeviceScene {
         visit(vertex_colors), visit(second_uvs), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
         visit(row_cosines), visit(block_details), visit(detail_cdf), visit(light_nodes), visit(info);
+    }
+};
+
+/// The argument for single rays that pass veils: the triangles of the scene's tree that are none.
+struct SolidsForRays {
+    const DeviceScene& scene;
+
+    template <typename Visitor>
+    void for_each_buffer(Visitor&& visit) const {
+        if (scene.tree.has_wide_rays) {
+            visit(scene.solid_blocks());
+        } else {
+            visit(scene.solid_triangles());
+        }
+    }
+};
+
+/// The arguments for single rays that meet veils alone, in the order of VEIL_PARAMETERS. In a scene without
+/// veil trees they are those of all surfaces, which no kernel then asks.
+struct VeilsForRays {
+    const DeviceScene& scene;
+
+    template <typename Visitor>
+    void for_each_buffer(Visitor&& visit) const {
+        const DeviceTree& tree = scene.veil_trees ? scene.veil_trees->veils : scene.tree;
+        visit(tree), visit(tree.triangle_ids);
     }
 };
 

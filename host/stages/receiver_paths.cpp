@@ -49,7 +49,7 @@ void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket
                            std::size_t packet_count, const ReceiverPathSettings& settings, uint shared_kinds,
                            Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                            FoundLights& found) {
-    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
+    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, SolidsForRays{scene}, receivers,
                                  static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
                                  settings.max_edges, settings.clamp_radius, settings.seed, shared_kinds,
                                  direct, indirect, found.near, found.sky, found.reflected, found.reflections,

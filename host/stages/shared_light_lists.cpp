@@ -39,7 +39,7 @@ void SharedLightLists::resize(std::size_t bundle_count) {
 
 void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                             std::size_t packet_count, const ReceiverPathSettings& settings, float radius,
-                            const Buffer<SharedLight>& found, uint count) {
+                            const Buffer<SharedLight>& found, uint count, Hiding hiding) {
     const auto packets = static_cast<uint>(packet_count);
     const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
     resize(bundle_count);
@@ -53,10 +53,11 @@ void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacke
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,
-                  scene.tree.triangles);
+                  hiding == Hiding::solids ? scene.solid_triangles() : scene.tree.triangles);
     } else {
         next_bundle_.fill_zero();
-        launch_on(bundle_count, 1, scene.tree.wide_nodes, scene.tree.blocks, next_bundle_);
+        launch_on(bundle_count, 1, scene.tree.wide_nodes,
+                  hiding == Hiding::solids ? scene.solid_blocks() : scene.tree.blocks, next_bundle_);
     }
 }
 

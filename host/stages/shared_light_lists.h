@@ -12,6 +12,12 @@
 
 namespace nearlight::core {
 
+/// What hides a shared light from receivers.
+enum class Hiding {
+    surfaces,  ///< all surfaces
+    solids,    ///< all but veils, whose transmittance is left to the gather
+};
+
 class SharedLightLists {
   public:
     /// Begins to compile the kernels. `kernel` is that of the gather.
@@ -22,7 +28,7 @@ class SharedLightLists {
     /// tree of the scene must be uploaded for the gather kernel.
     void make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
               const ReceiverPathSettings& settings, float radius, const Buffer<SharedLight>& found,
-              uint count);
+              uint count, Hiding hiding = Hiding::surfaces);
 
     /// Calls visit(buffer) for listed, factors, lengths and seen_by, in the order in which kernels take them.
     template <typename Visitor>

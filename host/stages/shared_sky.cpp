@@ -17,11 +17,11 @@ void SharedSky::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& rece
                     const Buffer<SharedLight>& found, const SeenSurfaces& seen,
                     Buffer<IrradiancePacket>& irradiance) {
     lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(), found,
-                NEARLIGHT_SHARED_SKY_LIGHTS);
-    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, receivers,
+                NEARLIGHT_SHARED_SKY_LIGHTS, Hiding::solids);
+    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
                          static_cast<uint>(packet_count), found, lists_, settings.path_count,
-                         settings.light_samples, irradiance, seen.surfaces.count() > 0 ? 1u : 0u, seen.rays,
-                         seen.surfaces, seen.vertices);
+                         settings.light_samples, settings.max_edges, irradiance,
+                         seen.surfaces.count() > 0 ? 1u : 0u, seen.rays, seen.surfaces, seen.vertices);
 }
 
 }  // namespace nearlight::core

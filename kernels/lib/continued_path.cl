@@ -174,15 +174,14 @@ static inline void find_reflected_sample(const SceneView* scene, const SurfaceHi
     if (!may_shine(light) || !(light->pdf > 0.0f) || !(dot(surface->frame.n, light->direction) > 0.0f)) {
         return;
     }
-    const ArrivingLight arriving =
-        arriving_light(scene, ray_origin(scene, hit, light->direction), light, max_veils);
-    if (is_black(arriving.part)) {
+    const float3 part = arriving_part(scene, ray_origin(scene, hit, light->direction), light, max_veils);
+    if (is_black(part)) {
         return;
     }
     ArrivingRay ray;
     ray.direction = light->direction;
     ray.value = bsdf_eval(scene, surface, light->direction, BSDF_S, &ray.pdf);
-    find_reflection(found, place, &ray, scale * arriving.part * light_radiance(scene, light),
+    find_reflection(found, place, &ray, scale * part * light_radiance(scene, light),
                     light->is_delta ? -light->pdf : light->pdf, u);
 }
 

@@ -33,18 +33,16 @@ static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* 
         return (float3)(0.0f);
     }
     const float3 origin = ray_origin(scene, hit, light->direction);
-    const ArrivingLight arriving = arriving_light(scene, origin, light, max_veils);
-    if (is_black(arriving.part)) {
-        return arriving.part;
+    const float3 part = arriving_part(scene, origin, light, max_veils);
+    if (is_black(part)) {
+        return part;
     }
     float density = light->pdf;
     if (!light->is_delta) {
         density += path_ratio * pdf;
-        density += arriving_from_sky(light, &arriving)
-                       ? bundle_density(surface->frame.n, light->direction, bundle_ratio)
-                       : 0.0f;
+        density += light->infinite ? bundle_density(surface->frame.n, light->direction, bundle_ratio) : 0.0f;
     }
-    return value / density * arriving.part * light_radiance(scene, light);
+    return value / density * part * light_radiance(scene, light);
 }
 
 /// How a surface asks lights: by light samples, and by rays that follow the BSDF.
@@ -135,9 +133,7 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
         const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
         met.radiance = light_radiance(scene, &sky);
         if (shares_met_light(ray)) {
-            met.of_others =
-                sky.pdf +
-                (ray->veils == 0 ? bundle_density(ray->normal, ray->direction, ray->bundle_ratio) : 0.0f);
+            met.of_others = sky.pdf + bundle_density(ray->normal, ray->direction, ray->bundle_ratio);
         }
         return met;
     }

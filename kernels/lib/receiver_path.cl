@@ -16,13 +16,14 @@
 /// What a receiver leaves to its bundle.
 typedef struct Finds {
     FoundLight near;              // Lambertian light of places within the clamp radius
-    FoundLight sky;               // light of the sky that its rays meet
+    FoundLight sky;               // light of the sky that its rays meet, straight or through veils
     FoundReflection reflections;  // light that rough gloss reflects
+    const global TreeTriangles* solids;  // the triangles of the tree that are no veils
 } Finds;
 
 /// Those of a receiver that keeps everything to itself.
 static inline Finds nothing_shared(void) {
-    const Finds finds = {nothing_found(0), nothing_found(0), no_reflection_found()};
+    const Finds finds = {nothing_found(0), nothing_found(0), no_reflection_found(), 0};
     return finds;
 }
 
@@ -68,6 +69,18 @@ static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit*
     return light;
 }
 
+/// Whether a ray of a receiver reaches the sky where veils let it pass. The bundle finds what they leave of
+/// the light (shared_sky.cl). Whether they do let it pass is not asked here, because the density of finds must
+/// follow from places alone.
+static inline bool meets_sky(const SceneView* scene, const Finds* finds, const PathRay* ray,
+                             const SurfaceHit* hit) {
+    if (hit->t < 0.0f) {
+        return true;
+    }
+    return (scene->materials[hit->material].flags & NEARLIGHT_MATERIAL_VEIL) != 0 &&
+           !tree_occluded(scene->nodes, finds->solids, ray->origin, ray->direction, 0.0f, INFINITY);
+}
+
 /// What one ray of a receiver brings.
 static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at,
                                       const PathLimits* limits, float2 u, uint4 keys, Finds* finds) {
@@ -86,10 +99,10 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
     if (limits->max_edges > 0) {
         light.direct = ray.throughput * met_light(scene, &ray, &hit);
     }
+    if (finds->sky.is_wanted && limits->max_edges > 0 && meets_sky(scene, finds, &ray, &hit)) {
+        find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), &finds->sky);
+    }
     if (hit.t < 0.0f) {
-        if (finds->sky.is_wanted && limits->max_edges > 0) {
-            find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), &finds->sky);
-        }
         return light;
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);

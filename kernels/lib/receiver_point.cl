@@ -64,16 +64,16 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
     if (!(response > 0.0f)) {
         return (float3)(0.0f);
     }
-    const ArrivingLight arriving = arriving_light(scene, at->x, light, max_veils);
-    if (is_black(arriving.part)) {
-        return arriving.part;
+    const float3 part = arriving_part(scene, at->x, light, max_veils);
+    if (is_black(part)) {
+        return part;
     }
     float density = light->pdf;
     if (!light->is_delta) {
-        const float rays = path_ratio + (arriving_from_sky(light, &arriving) ? bundle_ratio : 0.0f);
+        const float rays = path_ratio + (light->infinite ? bundle_ratio : 0.0f);
         density += rays * cosine * M_1_PI_F;
     }
-    return density > 0.0f ? response / density * arriving.part * light_radiance(scene, light)
+    return density > 0.0f ? response / density * part * light_radiance(scene, light)
                           : (float3)(0.0f);
 }
 

@@ -29,6 +29,12 @@
             scene_info                                                                                     \
     }
 
+/// The tree of a scene's veils alone, and the scene as rays see it that meet nothing else.
+#define VEIL_PARAMETERS                                                                                   \
+    const global TreeNode *restrict veil_nodes, const global TreeTriangles *restrict veil_tree_triangles, \
+        const global uint *restrict veil_triangle_ids
+#define VEIL_VIEW(scene) veils_alone(scene, veil_nodes, veil_tree_triangles, veil_triangle_ids)
+
 typedef struct SceneView {
     const global TreeNode* nodes;
     const global TreeTriangles* tree_triangles;
@@ -53,6 +59,14 @@ typedef struct SceneView {
     const global LightNode* light_nodes;
     const global SceneInfo* info;
 } SceneView;
+
+static inline SceneView veils_alone(SceneView scene, const global TreeNode* nodes,
+                                    const global TreeTriangles* triangles, const global uint* triangle_ids) {
+    scene.nodes = nodes;
+    scene.tree_triangles = triangles;
+    scene.triangle_ids = triangle_ids;
+    return scene;
+}
 
 /// What a ray found. Normals are unit vectors.
 typedef struct SurfaceHit {

@@ -48,6 +48,7 @@ typedef struct Parameter {
 // for, when it uploads a scene.
 #define NEARLIGHT_MATERIAL_DIFFUSE_FRONT 16u
 #define NEARLIGHT_MATERIAL_DIFFUSE_BACK 32u
+#define NEARLIGHT_MATERIAL_VEIL 64u  // on the device: shadow rays may pass it straight (lib/light/shadow.cl)
 
 /// The roughness α below which microfacets count as a smooth surface.
 #define NEARLIGHT_MIN_ALPHA 1e-3f

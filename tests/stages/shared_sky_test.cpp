@@ -206,13 +206,83 @@ TEST_F(SharedSkyTest, BringsWhatOwnRaysBringOfBrightSpots) {
     });
 }
 
-/// Only light that comes straight from the sky is shared; rays and light samples bring what passes veils.
-TEST_F(SharedSkyTest, BringsWhatOwnRaysBringBehindPanes) {
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringBesideAPane) {
     on_each_device([](Device& device) {
         Scene scene = coated_room();
         add_quad(scene, {-1.9f, 0, -2}, {0, 2, 0}, {0, 0, 2},
                  add_material(scene, thin_dielectric_material(1.5)));
         expect_the_light_of_own_rays(device, scene, GatherKernel::automatic);
+    });
+}
+
+/// Closes one window with `panes` tinted panes, and the other with a lattice whose bars are opaque.
+Scene glazed_room(int panes, const Material& pane) {
+    Scene scene = coated_room();
+    Material tinted = pane;
+    tinted.transmission = parameter_of(Vec3{0.9f, 0.7f, 0.5f});
+    const uint glass = add_material(scene, tinted);
+    for (int i = 0; i < panes; ++i) {
+        const float x = -1.99f + 0.02f * static_cast<float>(i);
+        if (i % 2 == 0) {
+            add_quad(scene, {x, 0.7f, -2}, {0, 1.3f, 0}, {0, 0, 4}, glass);
+        } else {
+            add_quad(scene, {x, 0.7f, -2}, {0, 0, 4}, {0, 1.3f, 0}, glass);
+        }
+    }
+    SceneTexture bars;
+    bars.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
+    bars.parameters.u_scale = bars.parameters.v_scale = 3.0f;
+    bars.parameters.color0 = parameter_of(0.2f);
+    bars.parameters.color1 = parameter_of(1.0f);
+    scene.textures.push_back(bars);
+    const uint bar = add_two_sided(scene, lambertian({0.3f, 0.3f, 0.3f}));
+    const auto lattice = static_cast<uint>(scene.materials.size());
+    scene.materials.push_back(mask_material(textured(static_cast<int>(scene.textures.size()) - 1), bar));
+    add_quad(scene, {1.99f, 0.3f, -2}, {0, 1.7f, 0}, {0, 0, 4}, lattice);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        Vertex& vertex = scene.vertices[scene.vertices.size() - 4 + corner];
+        vertex.u = corner == 1 || corner == 2 ? 1.0f : 0.0f;
+        vertex.v = corner >= 2 ? 1.0f : 0.0f;
+    }
+    return scene;
+}
+
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringThroughVeils) {
+    on_each_device([](Device& device) {
+        for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+            SCOPED_TRACE(kernel == GatherKernel::rays ? "single rays" : "packets");
+            expect_the_light_of_own_rays(device, glazed_room(2, thin_dielectric_material(1.5)), kernel);
+        }
+    });
+}
+
+/// Paths of three edges have room for two veils only.
+TEST_F(SharedSkyTest, BringsNothingThroughMoreVeilsThanPathsPass) {
+    on_each_device([](Device& device) {
+        const Scene scene = glazed_room(3, thin_dielectric_material(1.5));
+        const Light three = find_light(device, scene, {.seeds = 64});
+        const Light two = find_light(device, glazed_room(2, thin_dielectric_material(1.5)), {.seeds = 64});
+        const Light own = find_light(device, scene, {.shared = false, .seeds = 64});
+        EXPECT_NEAR(Light::mean(three.direct), Light::mean(own.direct), 0.02 * Light::mean(own.direct));
+        EXPECT_LT(Light::mean(three.direct), 0.9 * Light::mean(two.direct));
+    });
+}
+
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringThroughClearGlass) {
+    on_each_device([](Device& device) {
+        Scene scene = glazed_room(2, dielectric_material(1.5));
+        scene.clear_glass = true;
+        expect_the_light_of_own_rays(device, scene, GatherKernel::automatic);
+    });
+}
+
+TEST_F(SharedSkyTest, IsLessNoiseThanOwnRaysThroughVeils) {
+    on_each_device([](Device& device) {
+        const Scene scene = glazed_room(1, thin_dielectric_material(1.5));
+        const Light own = find_light(device, scene, {.shared = false, .seeds = 64});
+        const Light shared = find_light(device, scene, {.seeds = 64});
+        EXPECT_LT(Light::variance(shared.direct, shared.direct_square),
+                  0.7 * Light::variance(own.direct, own.direct_square));
     });
 }
 

@@ -81,44 +81,31 @@ static inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit
     return hit->t + ray_epsilon(hit->position, scene->info->extent) / fabs(dot(hit->geometric, direction));
 }
 
-/// What arrives of light, and how many veils it passed.
-typedef struct ArrivingLight {
-    float3 part;  // of what was sent; 0 where something blocks it
-    uint veils;
-} ArrivingLight;
-
-/// Whether light comes straight from the sky, so that a ray that meets nothing finds it too.
-static inline bool arriving_from_sky(const LightSample* light, const ArrivingLight* arriving) {
-    return light->infinite && arriving->veils == 0;
-}
-
-/// What remains of light on the ray from x between t_min and t_max; nothing where it meets more veils than
-/// `max_veils`.
-static inline ArrivingLight ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
-                                              float t_max, uint max_veils) {
-    ArrivingLight light = {(float3)(1.0f), 0};
-    for (;; ++light.veils) {
+/// The part of light on the ray from x that arrives from between t_min and t_max; nothing where it meets more
+/// veils than `max_veils`.
+static inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
+                                       float t_max, uint max_veils) {
+    float3 part = (float3)(1.0f);
+    for (uint veils = 0;; ++veils) {
         const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
         if (hit.t < 0.0f) {
-            return light;
+            return part;
         }
-        light.part *= light.veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
-        if (is_black(light.part)) {
-            return light;
+        part *= veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
+        if (is_black(part)) {
+            return part;
         }
         t_min = beyond_surface(scene, &hit, direction);
     }
 }
 
-/// What arrives at x of a light sample, on a path that has room for `max_veils` more surfaces. Veils block
-/// the light of points and directions, which no ray can find behind them, unless glass is clear.
-OUTLINED ArrivingLight arriving_light(const SceneView* scene, float3 x, const LightSample* light,
-                                      uint max_veils) {
+/// The part of a light sample that arrives at x, on a path that has room for `max_veils` more surfaces. Veils
+/// block the light of points and directions, which no ray can find behind them, unless glass is clear.
+OUTLINED float3 arriving_part(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {
     const uint veils = scene->info->veils;
     if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils != NEARLIGHT_VEILS_CLEAR) ||
         max_veils == 0) {
-        const ArrivingLight straight = {(float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f), 0};
-        return straight;
+        return (float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f);
     }
     const float3 to_target = light->target - x;
     const float distance = light->infinite ? INFINITY : length(to_target);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene's veils (lib/light/shadow.cl) and its other surfaces apart: bundles first ask which receivers a
+// light of the sky reaches if nothing but veils is in the way, and then what the veils let through.
+#pragma once
+
+#include "host/scene/scene.h"
+#include "host/stages/device_tree.h"
+
+namespace nearlight::core {
+
+struct VeilTrees {
+    // The triangles of the scene's tree in the same slots. Where a veil was, there is a triangle that no ray
+    // meets. The buffer of a shape that the scene's tree has not got is empty.
+    Buffer<BvhTriangle> solid_triangles;
+    Buffer<TriangleBlock> solid_blocks;
+    DeviceTree veils;  ///< the veils alone, for single rays
+};
+
+/// Makes them from the scene's tree, for the shapes that are on the device.
+VeilTrees make_veil_trees(Device& device, const Scene& scene, const ShapedBvh& tree,
+                          const TreeShapes& shapes);
+
+}  // namespace nearlight::core
