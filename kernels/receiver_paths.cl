@@ -23,12 +23,13 @@ static inline void store_light(global IrradiancePacket* packet, uint lane, float
     packet->b[lane] = light.z;
 }
 
-kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restrict solids,
-                           const global ReceiverPacket* restrict receivers, uint packet_count, uint light_samples, uint path_count, uint max_edges,
-                           float clamp_radius, uint seed, uint shares,
-                           global IrradiancePacket* restrict direct,
+kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restrict solids, VEIL_PARAMETERS,
+                           const global ReceiverPacket* restrict receivers, uint packet_count,
+                           uint light_samples, uint path_count, uint max_edges, float clamp_radius, uint seed,
+                           uint shares, global IrradiancePacket* restrict direct,
                            global IrradiancePacket* restrict indirect,
                            global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
+                           global SharedLight* restrict found_veiled,
                            global SharedLight* restrict found_reflections,
                            global SharedReflection* restrict reflections,
                            const global float* restrict spacing) {
@@ -47,10 +48,15 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restric
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
     Finds finds = nothing_shared();
-    finds.solids = solids;
+    SceneView solids_alone = scene;
+    solids_alone.tree_triangles = solids;
+    const SceneView veils = VEIL_VIEW(scene);
+    finds.solids = &solids_alone;
+    finds.veils = &veils;
     if (shares != 0 && receiver_shares(receiver, lane, max_edges)) {
         finds.near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;
         finds.sky.is_wanted = (shares & NEARLIGHT_SHARES_SKY) != 0 && scene.info->has_sky;
+        finds.veiled.is_wanted = (shares & NEARLIGHT_SHARES_VEILED) != 0;
         finds.reflections.light.is_wanted = (shares & NEARLIGHT_SHARES_REFLECTIONS) != 0;
         finds.reflections.spacing = finds.reflections.light.is_wanted ? spacing[index] : 0.0f;
     }
@@ -76,6 +82,9 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restric
     }
     if (shares & NEARLIGHT_SHARES_SKY) {
         found_sky[index] = kept_light(&finds.sky);
+    }
+    if (shares & NEARLIGHT_SHARES_VEILED) {
+        found_veiled[index] = kept_light(&finds.veiled);
     }
     if (shares & NEARLIGHT_SHARES_REFLECTIONS) {
         found_reflections[index] = kept_light(&finds.reflections.light);

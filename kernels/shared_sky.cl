@@ -6,7 +6,8 @@
 // choose lights y_j among those that the rays of their receivers found, and test who sees them, as in
 // shared_lights.cl:
 //
-//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s, y)
+//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s,
+//     y)
 //
 // Here V is the visibility past solid surfaces alone, and T the transmittance of the veils between
 // (lib/light/shadow.cl): rays find places behind veils whatever these let through.
@@ -79,9 +80,10 @@ typedef struct SkyLight {
 } SkyLight;
 
 /// Sums the listed lights whose bits are set in the word of `seen_by` that has the receiver, at `shift`.
-static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at, const global SharedLight* found,
-                               const global uint* listed, const global float* factors, uint length,
-                               const global uint* seen_by, uint shift) {
+static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at,
+                               const global SharedLight* found, const global uint* listed,
+                               const global float* factors, uint length, const global uint* seen_by,
+                               uint shift) {
     SkyLight sum;
     sum.irradiance = sum.reflected = (float3)(0.0f);
     SurfaceBsdf surface;
@@ -115,12 +117,12 @@ static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, c
 }
 
 kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
-                              const global ReceiverPacket* restrict receivers,
-                              uint packet_count, const global SharedLight* restrict found,
-                              const global uint* restrict listed, const global float* restrict factors,
-                              const global uint* restrict lengths, const global uint* restrict seen_by,
-                              uint rays, uint light_samples, uint max_edges, global IrradiancePacket* restrict irradiance,
-                              uint has_seen, uint seen_rays, const global SeenSurface* restrict seen,
+                              const global ReceiverPacket* restrict receivers, uint packet_count,
+                              const global SharedLight* restrict found, const global uint* restrict listed,
+                              const global float* restrict factors, const global uint* restrict lengths,
+                              const global uint* restrict seen_by, uint rays, uint light_samples,
+                              uint max_edges, global IrradiancePacket* restrict irradiance, uint has_seen,
+                              uint seen_rays, const global SeenSurface* restrict seen,
                               global CameraVertex* restrict vertices) {
     const uint receiver = (uint)get_global_id(0);
     const uint packet = receiver / NEARLIGHT_PACKET_SIZE;
@@ -145,8 +147,8 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
     at.seen = seen + receiver;
     at.seen_rays = (float)seen_rays;
     at.seen_samples = has_seen ? (float)seen[receiver].light_samples : 0.0f;
-    const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first, lengths[bundle],
-                                   seen_by + first * BUNDLE_WORDS + place / 32, place % 32);
+    const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first,
+                                   lengths[bundle], seen_by + first * BUNDLE_WORDS + place / 32, place % 32);
     irradiance[packet].r[lane] += light.irradiance.x;
     irradiance[packet].g[lane] += light.irradiance.y;
     irradiance[packet].b[lane] += light.irradiance.z;

@@ -72,7 +72,8 @@ SharedLight light_at(const ReceiverPoint& place, std::size_t number, Pcg32& rand
     return {.position = place.position,
             .weight = 1,
             .normal = place.normal,
-            .curve = number % 5 == 0 ? 1u : 0u,
+            .curve = static_cast<ushort>(number % 5 == 0 ? 1 : 0),
+            .veils = 0,
             .radiance = {random.uniform(), random.uniform(), 1 + random.uniform()},
             .shading = pack_direction(place.normal)};
 }

@@ -28,6 +28,7 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const Picture& pict
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed,
             .shares_sky = shares_lights(picture) && picture.shares_sky && scene.host_info.has_sky != 0,
+            .shares_veiled = shares_lights(picture) && scene.host_info.veils != NEARLIGHT_VEILS_NONE,
             .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};
 }
 
@@ -150,6 +151,10 @@ void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     if (paths_.shares_reflections) {
         stages_.shared_reflections.add(scene_, buffers_.receivers, packets, paths_, buffers_.found,
                                        buffers_.indirect);
+    }
+    if (paths_.shares_veiled) {
+        stages_.shared_veiled.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.veiled,
+                                  buffers_.indirect);
     }
     if (paths_.shares_sky) {
         stages_.shared_sky.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.sky,

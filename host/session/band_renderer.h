@@ -19,6 +19,7 @@
 #include "host/stages/shared_lights.h"
 #include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
+#include "host/stages/shared_veiled.h"
 
 namespace nearlight::core {
 
@@ -30,6 +31,7 @@ struct BandStages {
           receiver_paths(device),
           shared_lights(device, gather_kernel),
           shared_sky(device, gather_kernel),
+          shared_veiled(device, gather_kernel),
           shared_reflections(device, gather_kernel),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
@@ -39,6 +41,7 @@ struct BandStages {
     ReceiverPaths receiver_paths;
     SharedLights shared_lights;
     SharedSky shared_sky;
+    SharedVeiled shared_veiled;
     SharedReflections shared_reflections;
     Gatherer gatherer;
     Film film;

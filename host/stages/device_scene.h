@@ -14,7 +14,7 @@ namespace nearlight::core {
 
 struct DeviceScene {
     DeviceTree tree;
-    std::optional<VeilTrees> veil_trees{};  ///< if bundles may share a sky behind veils
+    std::optional<VeilTrees> veil_trees{};  ///< in a scene that has veils
     Buffer<Vertex> vertices;
     Buffer<Triangle> triangles;
     Buffer<Material> materials;

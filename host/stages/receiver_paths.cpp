@@ -9,6 +9,7 @@ namespace {
 
 uint shared_kinds(const ReceiverPathSettings& settings) {
     return NEARLIGHT_SHARES_NEAR | (settings.shares_sky ? NEARLIGHT_SHARES_SKY : 0u) |
+           (settings.shares_veiled ? NEARLIGHT_SHARES_VEILED : 0u) |
            (settings.shares_reflections ? NEARLIGHT_SHARES_REFLECTIONS : 0u);
 }
 
@@ -17,6 +18,7 @@ uint shared_kinds(const ReceiverPathSettings& settings) {
 FoundLights::FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings)
     : near(device, packet_count * NEARLIGHT_PACKET_SIZE),
       sky(device, settings.shares_sky ? near.count() : 0),
+      veiled(device, settings.shares_veiled ? near.count() : 0),
       reflected(device, settings.shares_reflections ? near.count() : 0),
       reflections(device, reflected.count()),
       spacing(device, reflected.count()) {}
@@ -49,11 +51,11 @@ void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket
                            std::size_t packet_count, const ReceiverPathSettings& settings, uint shared_kinds,
                            Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                            FoundLights& found) {
-    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, SolidsForRays{scene}, receivers,
-                                 static_cast<uint>(packet_count), settings.light_samples, settings.path_count,
-                                 settings.max_edges, settings.clamp_radius, settings.seed, shared_kinds,
-                                 direct, indirect, found.near, found.sky, found.reflected, found.reflections,
-                                 found.spacing);
+    receiver_paths_.launch_items(
+        packet_count * NEARLIGHT_PACKET_SIZE, scene, SolidsForRays{scene}, VeilsForRays{scene}, receivers,
+        static_cast<uint>(packet_count), settings.light_samples, settings.path_count, settings.max_edges,
+        settings.clamp_radius, settings.seed, shared_kinds, direct, indirect, found.near, found.sky,
+        found.veiled, found.reflected, found.reflections, found.spacing);
 }
 
 }  // namespace nearlight::core

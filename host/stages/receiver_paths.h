@@ -23,6 +23,7 @@ struct ReceiverPathSettings {
     float clamp_radius = 0.0f;
     uint seed = 0;
     bool shares_sky = false;          ///< whether run_sharing() leaves light of the sky to `found`
+    bool shares_veiled = false;       ///< whether it leaves Lambertian light of places behind veils there
     bool shares_reflections = false;  ///< whether it leaves light there that rough gloss reflects
 };
 
@@ -33,6 +34,7 @@ struct FoundLights {
 
     Buffer<SharedLight> near;  ///< places within the clamp radius
     Buffer<SharedLight> sky;
+    Buffer<SharedLight> veiled;            ///< places behind veils
     Buffer<SharedLight> reflected;         ///< places with gloss, and the radiance that arrives there
     Buffer<SharedReflection> reflections;  ///< their surfaces
     Buffer<float> spacing;                 ///< radius (m) of the neighbourhood of each receiver
@@ -50,8 +52,8 @@ class ReceiverPaths {
 
     /// As run(), except for the Lambertian light of places within the clamp radius, and for other kinds of
     /// light if the settings say so. Where a receiver may share what it finds of these with others
-    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights, SharedSky
-    /// and SharedReflections bring it to all of the bundle. The clamp radius must be finite.
+    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights, SharedSky,
+    /// SharedVeiled and SharedReflections bring it to all of the bundle. The clamp radius must be finite.
     void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
                      std::size_t packet_count, const ReceiverPathSettings& settings,
                      Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,

@@ -6,3 +6,4 @@
 #include "shared_lights.cl"
 #include "shared_reflections.cl"
 #include "shared_sky.cl"
+#include "shared_veiled.cl"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Directions from a surface to the spheres at which walks aim (lib/walk_aim.cl), and around them.
 //
-// A walk that lands far from such a sphere seldom finds it by chance, and one that does stands for much light:
-// the farther it comes from, the more. Such a VPL would outshine all others.
+// A walk that lands far from such a sphere seldom finds it by chance, and one that does stands for much
+// light: the farther it comes from, the more. Such a VPL would outshine all others.
 #ifndef NEARLIGHT_LIB_AIM_CONE
 #define NEARLIGHT_LIB_AIM_CONE
 
@@ -36,8 +36,7 @@ static inline AimCone aim_cone(const AimTarget* target, float3 x) {
 
 /// A direction towards the target, evenly over its cone, or around it in a cone of up to a hemisphere.
 static inline float3 aim_cone_sample(const AimCone* cone, float u, float2 v) {
-    const float height =
-        u < PART_TOWARDS ? v.x * cone->height : cover_around(cone->height, 1.0f, v.x);
+    const float height = u < PART_TOWARDS ? v.x * cone->height : cover_around(cone->height, 1.0f, v.x);
     const float across = sqrt(height * (2.0f - height));
     return to_world_frame((float3)(across * circle_point(v.y), 1.0f - height), cone->axis);
 }

@@ -30,8 +30,10 @@ static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float fi
 typedef struct RayShare {
     float of_vpls;
     uint max_edges;
-    uint vpl_edges;  // at least max_edges
-    uint is_shared;  // 1: what the first surface sends by its Lambertian part is for the whole bundle
+    uint vpl_edges;     // at least max_edges
+    uint is_shared;     // 1: what the first surface sends by its Lambertian part is for the whole bundle
+    uint is_diffuse;    // 1: nothing else is wanted
+    uint finds_veiled;  // 1: the bundle gets what the first solid surface behind veils sends by that part
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -82,8 +84,9 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
 
 /// Decides between the parts of a first surface whose Lambertian part sends its light to all receivers of the
 /// bundle.
-static inline void choose_found_light(const SurfaceBsdf* first, float u, Continuation* way) {
-    const float chance = first->s_share > 0.0f ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
+static inline void choose_found_light(const SurfaceBsdf* first, bool is_diffuse, float u, Continuation* way) {
+    const bool has_both = first->s_share > 0.0f && !is_diffuse;
+    const float chance = has_both ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
     way->is_found = u < chance;
     way->parts = way->is_found ? BSDF_D : BSDF_S;
     way->diffuse_weight = 1.0f;
@@ -104,7 +107,7 @@ static inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit
         surface_bsdf_of(scene, hit, direction, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
     *way = choose_continuation(scene, &surface, share, u.y);
     if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
-        choose_found_light(&surface, u.y, way);
+        choose_found_light(&surface, share->is_diffuse, u.y, way);
     }
     surface.bsdf.diffuse *= way->diffuse_weight;
     return surface;
@@ -284,6 +287,14 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
     return true;
 }
 
+/// Whether the bundle gets the Lambertian light of the surface, which the path met straight through veils.
+static inline bool is_found_behind_veils(const SceneView* scene, const ContinuedPath* path,
+                                         const SurfaceBsdf* surface, const RayShare* share, uint surfaces) {
+    const bool is_behind = path->ray.veils + 1 == surfaces && path->ray.veils <= NEARLIGHT_MAX_VEILS;
+    return share->finds_veiled && is_behind && !surface->mapped &&
+           (scene->materials[path->hit.material].flags & NEARLIGHT_MATERIAL_VEIL) == 0;
+}
+
 /// Follows the path over one surface to the next. Returns false where it ends.
 OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
                            uint4 keys, FoundReflection* found) {
@@ -301,6 +312,13 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Ra
         }
     } else {
         surface = surface_bsdf(scene, &path->hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
+        if (is_found_behind_veils(scene, path, &surface, share, surfaces)) {
+            if (!(surface.s_share > 0.0f)) {
+                return false;
+            }
+            surface.bsdf.diffuse = (float3)(0.0f);
+            parts = BSDF_S;
+        }
     }
     if (!survives(&path->ray, bsdf_albedo(scene, &surface), surfaces, path->first_weight, numbers.end) ||
         !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {

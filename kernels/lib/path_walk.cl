@@ -99,7 +99,7 @@ static inline float3 short_walk_irradiance(const SceneView* scene, const Connect
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    const RayShare share = {1.0f - weight, max_edges, max_edges, 0};
+    const RayShare share = {1.0f - weight, max_edges, max_edges, 0, 0, 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
     if (brings_more(scene, &share)) {

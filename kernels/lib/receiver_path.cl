@@ -17,13 +17,15 @@
 typedef struct Finds {
     FoundLight near;              // Lambertian light of places within the clamp radius
     FoundLight sky;               // light of the sky that its rays meet, straight or through veils
+    FoundLight veiled;            // Lambertian light of places behind veils
     FoundReflection reflections;  // light that rough gloss reflects
-    const global TreeTriangles* solids;  // the triangles of the tree that are no veils
+    const SceneView* solids;      // the scene without veils
+    const SceneView* veils;       // the scene of veils alone
 } Finds;
 
 /// Those of a receiver that keeps everything to itself.
 static inline Finds nothing_shared(void) {
-    const Finds finds = {nothing_found(0), nothing_found(0), no_reflection_found(), 0};
+    const Finds finds = {nothing_found(0), nothing_found(0), nothing_found(0), no_reflection_found(), 0, 0};
     return finds;
 }
 
@@ -63,22 +65,57 @@ static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit*
     light.position = store3(offset_point(scene, hit->position, hit->geometric));
     light.weight = max_component(radiance) * fmax(1.0f - of_vpls, 0.05f);
     light.normal = store3(hit->geometric);
-    light.curve = way->curve;
+    light.curve = (ushort)way->curve;
+    light.veils = 0;
     light.radiance = store3(radiance);
     light.shading = pack_direction(way->shading);
     return light;
 }
 
-/// Whether a ray of a receiver reaches the sky where veils let it pass. The bundle finds what they leave of
-/// the light (shared_sky.cl). Whether they do let it pass is not asked here, because the density of finds must
-/// follow from places alone.
-static inline bool meets_sky(const SceneView* scene, const Finds* finds, const PathRay* ray,
-                             const SurfaceHit* hit) {
-    if (hit->t < 0.0f) {
-        return true;
+/// The light that a place which a ray met sends to all sides, as `brought` says, which the ray brought of it.
+static inline SharedLight sent_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit,
+                                     const Continuation* way, float3 brought, float of_vpls) {
+    const float sent = diffuse_transmission(scene, way->curve, -dot(way->shading, ray->direction));
+    return shared_light(scene, hit, way, brought / (max_component(ray->throughput) * sent), of_vpls);
+}
+
+static inline void find_sky_along(const SceneView* scene, float3 x, float3 direction, uint4 keys,
+                                  FoundLight* sky) {
+    find_sky(scene, x, direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), sky);
+}
+
+/// The part of the rays that meet veils which look for light of places behind them. More would find more than
+/// bundles use.
+#define VEILED_PART 0.25f
+
+/// Finds what lies behind the veils that a ray met first, for the bundle: the sky, or a place. Whether veils
+/// let the ray pass is not asked here, because the density of finds must follow from places alone.
+OUTLINED void find_behind_veils(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
+                                const PathRay* ray, uint4 keys, Finds* finds) {
+    const SurfaceHit behind = trace_surface(finds->solids, at->x, ray->direction, INFINITY);
+    if (behind.t < 0.0f) {
+        if (finds->sky.is_wanted) {
+            find_sky_along(scene, at->x, ray->direction, keys, &finds->sky);
+        }
+        return;
     }
-    return (scene->materials[hit->material].flags & NEARLIGHT_MATERIAL_VEIL) != 0 &&
-           !tree_occluded(scene->nodes, finds->solids, ray->origin, ray->direction, 0.0f, INFINITY);
+    if (!finds->veiled.is_wanted || !(to_unit_float(random_uint4(keys ^ 0x3a11u).x) < VEILED_PART)) {
+        return;
+    }
+    const uint veils =
+        veiling_between(finds->veils, at->x, offset_point(scene, behind.position, behind.geometric)).count;
+    if (veils == 0 || veils > NEARLIGHT_MAX_VEILS || limits->max_edges < veils + 2) {
+        return;
+    }
+    const RayShare share = {0.0f, limits->max_edges - veils, limits->max_edges - veils, 1, 1, 0};
+    Continuation way;
+    FoundReflection none = no_reflection_found();
+    const ReceivedLight light = continued_light(scene, *ray, behind, &share, keys ^ 0x7e11u, &way, &none);
+    if (way.is_found) {
+        SharedLight y = sent_light(scene, ray, &behind, &way, light.indirect / VEILED_PART, 0.0f);
+        y.veils = (ushort)veils;
+        find_light(&finds->veiled, &y, to_unit_float(random_uint4(keys ^ 0xbe41u).x));
+    }
 }
 
 /// What one ray of a receiver brings.
@@ -99,24 +136,30 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
     if (limits->max_edges > 0) {
         light.direct = ray.throughput * met_light(scene, &ray, &hit);
     }
-    if (finds->sky.is_wanted && limits->max_edges > 0 && meets_sky(scene, finds, &ray, &hit)) {
-        find_sky(scene, at->x, ray.direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), &finds->sky);
-    }
     if (hit.t < 0.0f) {
+        if (finds->sky.is_wanted && limits->max_edges > 0) {
+            find_sky_along(scene, at->x, ray.direction, keys, &finds->sky);
+        }
         return light;
     }
+    const bool meets_veil = (scene->materials[hit.material].flags & NEARLIGHT_MATERIAL_VEIL) != 0;
+    if (meets_veil && (finds->sky.is_wanted || finds->veiled.is_wanted) && limits->max_edges > 0) {
+        find_behind_veils(scene, at, limits, &ray, keys, finds);
+    }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
-    const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction), limits->max_edges,
-                            limits->vpl_edges, finds->near.is_wanted && hit.t < limits->clamp_radius};
+    const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction),
+                            limits->max_edges,
+                            limits->vpl_edges,
+                            finds->near.is_wanted && hit.t < limits->clamp_radius,
+                            0,
+                            finds->veiled.is_wanted};
     if (brings_more(scene, &share)) {
         Continuation way;
         const ReceivedLight beyond =
             continued_light(scene, ray, hit, &share, keys, &way, &finds->reflections);
         light.direct += beyond.direct;
         if (way.is_found) {
-            const float sent = diffuse_transmission(scene, way.curve, -dot(way.shading, ray.direction));
-            const float3 radiance = beyond.indirect / (max_component(ray.throughput) * sent);
-            const SharedLight y = shared_light(scene, &hit, &way, radiance, share.of_vpls);
+            const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, share.of_vpls);
             find_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
         } else {
             light.indirect = beyond.indirect;

@@ -73,8 +73,7 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
         const float rays = path_ratio + (light->infinite ? bundle_ratio : 0.0f);
         density += rays * cosine * M_1_PI_F;
     }
-    return density > 0.0f ? response / density * part * light_radiance(scene, light)
-                          : (float3)(0.0f);
+    return density > 0.0f ? response / density * part * light_radiance(scene, light) : (float3)(0.0f);
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver

@@ -43,7 +43,8 @@ static inline FoundLight nothing_found(uint is_wanted) {
     found.sum = 0.0f;
     found.light.position = found.light.normal = found.light.radiance = store3((float3)(0.0f));
     found.light.weight = 0.0f;
-    found.light.curve = found.light.shading = 0;
+    found.light.curve = found.light.veils = 0;
+    found.light.shading = 0;
     return found;
 }
 

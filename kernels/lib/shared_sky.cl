@@ -33,7 +33,7 @@ static inline void find_sky(const SceneView* scene, float3 x, float3 direction, 
     light.position = store3(sky_place(scene, x, direction, &normal));
     light.weight = 1.0f;
     light.normal = store3(normal);
-    light.curve = 0;
+    light.curve = light.veils = 0;
     light.radiance = store3((float3)(1.0f));
     light.shading = pack_direction(normal);
     find_light(sky, &light, u);

@@ -2,10 +2,10 @@
 // Where walks aim (WalkAim): how they are divided between its sphere, its openings and all other ways.
 //
 // Walks aim in the same way where they enter the scene (lib/light/emission.cl) and where they go on from a
-// surface (lib/aim_cone.cl). Of those that aim at a target, half go towards it, evenly over what it covers. The
-// other half pass around it, because it may not hold all of the window through which its light comes: each
-// doubling of the circle around it gets as many. The density of a walk is always that of all ways together, so
-// that none counts for much only because it came by an unlikely one.
+// surface (lib/aim_cone.cl). Of those that aim at a target, half go towards it, evenly over what it covers.
+// The other half pass around it, because it may not hold all of the window through which its light comes:
+// each doubling of the circle around it gets as many. The density of a walk is always that of all ways
+// together, so that none counts for much only because it came by an unlikely one.
 #ifndef NEARLIGHT_LIB_WALK_AIM
 #define NEARLIGHT_LIB_WALK_AIM
 
@@ -26,7 +26,7 @@
 /// follow.
 typedef struct AimTarget {
     float3 center;
-    float radius;  // m
+    float radius;     // m
     float3 outwards;  // unit vector of an opening; zero for number 0
 } AimTarget;
 
@@ -49,8 +49,8 @@ static inline AimTarget aim_target(const WalkAim* aim, uint number) {
     return target;
 }
 
-/// What the circle covers on which a walk passes around a target, by the number u in [0, 1): from `least`, what
-/// the target itself covers, to `most`.
+/// What the circle covers on which a walk passes around a target, by the number u in [0, 1): from `least`,
+/// what the target itself covers, to `most`.
 static inline float cover_around(float least, float most, float u) {
     return least * pow(most / least, u);
 }

@@ -15,12 +15,14 @@ typedef struct SharedLight {
     Vec3 position;  // stands off its surface by the ray epsilon
     float weight;   // in proportion to which bundles draw; 0: no light
     Vec3 normal;    // of the mesh
-    uint curve;     // row of the surface's transmission curve
+    ushort curve;   // row of the surface's transmission curve
+    ushort veils;   // that are between it and its finder, of a light behind veils
     Vec3 radiance;  // W/m²/sr, which it sends to all sides times the curve
     uint shading;   // shading normal, as pack_direction() packs it
 } SharedLight;
 #define NEARLIGHT_SHARED_LIGHTS 64u                           // about how many a bundle uses
 #define NEARLIGHT_SHARED_SKY_LIGHTS 32u                       // the same of those of the sky
+#define NEARLIGHT_SHARED_VEILED 32u                           // the same of those behind veils
 #define NEARLIGHT_SHARED_LIST (NEARLIGHT_SHARED_LIGHTS + 1u)  // rounding may add one
 
 /// Rays of a bundle that count as one ray of a receiver where the light of the sky is divided between them
@@ -57,6 +59,7 @@ typedef struct SharedReflection {
 #define NEARLIGHT_SHARES_NEAR 1u         // Lambertian light of places within the clamp radius
 #define NEARLIGHT_SHARES_SKY 2u          // the sky that rays meet
 #define NEARLIGHT_SHARES_REFLECTIONS 4u  // light that rough gloss reflects
+#define NEARLIGHT_SHARES_VEILED 8u       // Lambertian light of places behind veils
 
 #ifdef __cplusplus
 NEARLIGHT_CHECK_SHARED(SeenSurface, 32);

@@ -65,9 +65,9 @@ class SeveralDevices : public test::DeviceTest {
     /// A folder with the program's kernels for bands, in which the gather does not compile.
     static void write_kernels_without_gather(const std::filesystem::path& folder) {
         std::filesystem::create_directory(folder / "joint");
-        for (const char* name :
-             {"camera_pass.cl", "receiver_paths.cl", "film.cl", "joint/view.cl", "shared_lights.cl",
-              "shared_light_packets.cl", "shared_light_rays.cl", "shared_reflections.cl", "shared_sky.cl"}) {
+        for (const char* name : {"camera_pass.cl", "receiver_paths.cl", "film.cl", "joint/view.cl",
+                                 "shared_lights.cl", "shared_light_packets.cl", "shared_light_rays.cl",
+                                 "shared_reflections.cl", "shared_sky.cl", "shared_veiled.cl"}) {
             std::ofstream(folder / name) << expand_kernel_source(name);
         }
         for (const char* name : {"gather_packets.cl", "gather_rays.cl"}) {

@@ -27,6 +27,7 @@
 #include "host/stages/shared_lights.h"
 #include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
+#include "host/stages/shared_veiled.h"
 #include "kernels/shared/film_layers.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -277,6 +278,7 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
                                         .clamp_radius = 0.8f,
                                         .seed = 2,
                                         .shares_sky = true,
+                                        .shares_veiled = true,
                                         .shares_reflections = true};
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
@@ -285,6 +287,7 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
                                       found);
     SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found.near, indirect);
     SharedReflections(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
+    SharedVeiled(device, kernel).add(on_device, receivers, packets.size(), settings, found.veiled, indirect);
     Numbers numbers = numbers_of(indirect.download());
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     const SeenSurface seen{

@@ -10,6 +10,7 @@
 #include "host/stages/receiver_paths.h"
 #include "host/stages/shared_lights.h"
 #include "host/stages/shared_reflections.h"
+#include "host/stages/shared_veiled.h"
 
 namespace nearlight::core::test {
 
@@ -45,6 +46,7 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
     ReceiverPaths paths(device);
     SharedLights lights(device, kernel);
     SharedReflections reflections(device, kernel);
+    SharedVeiled veiled(device, kernel);
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     Brought result{std::vector<double>(count), std::vector<double>(count)};
     for (uint seed = 0; seed < seeds; ++seed) {
@@ -54,6 +56,9 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
             lights.add(on_device, receivers, packets.size(), settings, found.near, indirect);
             if (settings.shares_reflections) {
                 reflections.add(on_device, receivers, packets.size(), settings, found, indirect);
+            }
+            if (settings.shares_veiled) {
+                veiled.add(on_device, receivers, packets.size(), settings, found.veiled, indirect);
             }
         } else {
             paths.run(on_device, receivers, packets.size(), settings, direct, indirect);

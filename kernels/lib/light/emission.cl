@@ -69,8 +69,8 @@ static inline float3 place_on_disk(float radius, float3 from, float2 u) {
     return to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
 }
 
-/// The shadow of a target across light that travels along −`from`. Places there are vectors from the middle of
-/// the scene that are perpendicular to `from`.
+/// The shadow of a target across light that travels along −`from`. Places there are vectors from the middle
+/// of the scene that are perpendicular to `from`.
 typedef struct AimShadow {
     float3 middle;
     float least, most;  // squares of the distances from the middle between which walks pass around it, m²
@@ -88,10 +88,9 @@ static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* targ
 
 /// The place of a walk that aims at the target: within its shadow, or around it.
 static inline float3 place_about(const AimShadow* shadow, float3 from, float2 u) {
-    const float squared = u.x < PART_TOWARDS
-                              ? shadow->least * (u.x / PART_TOWARDS)
-                              : cover_around(shadow->least, shadow->most,
-                                            (u.x - PART_TOWARDS) / (1.0f - PART_TOWARDS));
+    const float squared = u.x < PART_TOWARDS ? shadow->least * (u.x / PART_TOWARDS)
+                                             : cover_around(shadow->least, shadow->most,
+                                                            (u.x - PART_TOWARDS) / (1.0f - PART_TOWARDS));
     return shadow->middle + to_world_frame((float3)(sqrt(squared) * circle_point(u.y), 0.0f), from);
 }
 
@@ -104,8 +103,8 @@ static inline float density_about(const AimShadow* shadow, float3 place) {
                : (1.0f - PART_TOWARDS) * density_around(shadow->least, shadow->most, squared);
 }
 
-/// The targets that are of use to light that travels along −`from`: the sphere, unless it is about as large as
-/// the scene, and the openings through which such light comes in.
+/// The targets that are of use to light that travels along −`from`: the sphere, unless it is about as large
+/// as the scene, and the openings through which such light comes in.
 static inline uint targets_for_light(const SceneView* scene, const WalkAim* aim, float3 from) {
     const bool is_small = aim->radius > 0.0f && aim->radius < 0.5f * scene->environment->scene_radius;
     uint useful = is_small ? 1 : 0;
@@ -115,8 +114,8 @@ static inline uint targets_for_light(const SceneView* scene, const WalkAim* aim,
     return useful;
 }
 
-/// An entry point of light that travels along −`from`: about one of the targets, or on the disk of the scene's
-/// size that faces the light.
+/// An entry point of light that travels along −`from`: about one of the targets, or on the disk of the
+/// scene's size that faces the light.
 static inline EntryPoint entry_point(const SceneView* scene, const WalkAim* aim, float3 from, float2 u) {
     const float radius = scene->environment->scene_radius;
     const AimParts parts = divide_aim(aim, targets_for_light(scene, aim, from));
@@ -210,8 +209,8 @@ static inline EmittedParticle emit_from_direction(const SceneView* scene, const 
     return particle;
 }
 
-OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float2 choice, float2 u_position,
-                                       float2 u_direction) {
+OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float2 choice,
+                                       float2 u_position, float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {

@@ -99,6 +99,28 @@ static inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 
     }
 }
 
+/// The veils between two places, and the part of light that they let through.
+typedef struct Veiling {
+    float3 part;
+    uint count;  // at most NEARLIGHT_MAX_VEILS + 1
+} Veiling;
+
+/// Finds them in a scene of veils alone. Places stand off their surfaces.
+static inline Veiling veiling_between(const SceneView* veils, float3 x, float3 y) {
+    const float distance = length(y - x);
+    const float3 direction = (y - x) / distance;
+    Veiling veiling = {(float3)(1.0f), 0};
+    for (float t = 0.0f; veiling.count <= NEARLIGHT_MAX_VEILS; ++veiling.count) {
+        const SurfaceHit hit = trace_between(veils, x, direction, t, distance * NEARLIGHT_SEGMENT_T_MAX);
+        if (hit.t < 0.0f) {
+            break;
+        }
+        veiling.part *= is_black(veiling.part) ? veiling.part : veil_transmittance(veils, &hit, direction);
+        t = beyond_surface(veils, &hit, direction);
+    }
+    return veiling;
+}
+
 /// The part of a light sample that arrives at x, on a path that has room for `max_veils` more surfaces. Veils
 /// block the light of points and directions, which no ray can find behind them, unless glass is clear.
 OUTLINED float3 arriving_part(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of places behind veils, which rays of single receivers find and which all receivers of their bundle
+// share.
+//
+// VPLs light no receiver through a veil, because veils end the gather's segments. So the Lambertian light
+// L_D(y) of a place y behind them comes by rays, at any distance, and bundles share it as they share near
+// lights (shared_lights.cl):
+//
+//     E(x) ≈ Σ_j L_D(y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s, y)
+//
+// with the transmittance T of the veils between (lib/light/shadow.cl). Rays find places whatever veils let
+// through, so that p follows from places alone. V is 1 where nothing but veils is in the way, as many as the
+// ray passed that found y: then the light comes over as many edges to all receivers.
+//
+// shared_veiled_gather: one work-item for each bundle adds to the irradiance of its receivers. The lists are
+// those of shared_lights.cl, with visibility past solid surfaces. Any work-group size.
+
+#include "lib/light/shadow.cl"
+#include "lib/shared_light.cl"
+
+/// What one light brings to the receivers of a bundle.
+typedef struct Veiled {
+    float3 irradiance[BUNDLE_RECEIVERS];  // for a radiance of 1, times p(y)
+    float past_solids;                    // Σ_s G over the receivers that no solid surface hides
+    float past_veils;                     // the same over those behind as many veils as the light's finder
+} Veiled;
+
+/// `packets` are those of the bundle, and `seen_by` has the bits of its receivers.
+static inline void light_all(const SceneView* scene, const SceneView* veils,
+                             const global ReceiverPacket* packets, const global SharedLight* light,
+                             const global uint* seen_by, Veiled* to) {
+    const float3 y = load3(light->position);
+    to->past_solids = to->past_veils = 0.0f;
+    for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
+        to->irradiance[lane] = (float3)(0.0f);
+        if ((seen_by[lane / 32] >> lane % 32 & 1) == 0) {
+            continue;
+        }
+        const global ReceiverPacket* packet = packets + lane / NEARLIGHT_PACKET_SIZE;
+        const uint i = lane % NEARLIGHT_PACKET_SIZE;
+        const float3 x = receiver_position(packet, i);
+        const SharedConnection c = connect_shared(light, x, receiver_normal(packet, i), INFINITY);
+        to->past_solids += c.geometry;
+        const Veiling veiling = veiling_between(veils, x, y);
+        if (veiling.count == light->veils) {
+            to->past_veils += c.geometry;
+            const float transmission = curve_value(scene->curves, light->curve, c.cos_light) *
+                                       curve_value(scene->curves, receiver_curve(packet, i), c.cos_receiver);
+            to->irradiance[lane] = veiling.part * (c.geometry * transmission);
+        }
+    }
+}
+
+kernel void shared_veiled_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
+                                 const global ReceiverPacket* restrict receivers, uint packet_count,
+                                 const global SharedLight* restrict found, const global uint* restrict listed,
+                                 const global float* restrict factors, const global uint* restrict lengths,
+                                 const global uint* restrict seen_by,
+                                 global IrradiancePacket* restrict irradiance) {
+    const uint index = (uint)get_global_id(0);
+    const Bundle bundle = bundle_at(index, packet_count);
+    if (bundle.count == 0) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const SceneView veils = VEIL_VIEW(scene);
+    const uint first = index * NEARLIGHT_SHARED_LIST;
+    Veiled veiled;
+    for (uint i = first; i < first + lengths[index]; ++i) {
+        const global SharedLight* light = found + listed[i];
+        light_all(&scene, &veils, receivers + bundle.first, light, seen_by + i * BUNDLE_WORDS, &veiled);
+        if (!(veiled.past_veils > 0.0f)) {
+            continue;
+        }
+        const float3 radiance =
+            load3(light->radiance) * (factors[i] * veiled.past_solids / veiled.past_veils);
+        for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
+            const float3 more = radiance * veiled.irradiance[lane];
+            global IrradiancePacket* sum = irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE;
+            sum->r[lane % NEARLIGHT_PACKET_SIZE] += more.x;
+            sum->g[lane % NEARLIGHT_PACKET_SIZE] += more.y;
+            sum->b[lane % NEARLIGHT_PACKET_SIZE] += more.z;
+        }
+    }
+}
