@@ -29,6 +29,20 @@ TEST(HardViews, AreReadWithoutAnyApproximation) {
     }
 }
 
+TEST(HardViews, DaylightComesThroughTwoPanes) {
+    const Scene scene = hard_view("daylight");
+    EXPECT_TRUE(scene.notes.empty());
+    EXPECT_EQ(scene.max_depth, 12);
+    EXPECT_GT(scene.environment.width, 1);
+    EXPECT_EQ(scene.environment.sun_half_angle, 0.0f);
+    EXPECT_EQ(std::ranges::count_if(scene.triangles,
+                                    [&](const Triangle& triangle) {
+                                        const uint model = scene.materials[triangle.material].model;
+                                        return model == NEARLIGHT_BSDF_THIN_DIELECTRIC;
+                                    }),
+              4);
+}
+
 TEST(HardViews, WallIsOnePlaneLitFromBehindTheCamera) {
     const Image image = trace(wall_view());
     const auto z = static_cast<std::size_t>(image.find_channel("P.Z"));
