@@ -11,8 +11,6 @@
 // `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
 // shared_lights.cl, shared_sky.cl and shared_reflections.cl to take further. Reflections want the `spacing`
 // of each receiver, which receiver_spacing finds: one work-item for each bundle; any work-group size.
-//
-// `solids` are the triangles of the scene's tree without its veils.
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
@@ -23,16 +21,13 @@ static inline void store_light(global IrradiancePacket* packet, uint lane, float
     packet->b[lane] = light.z;
 }
 
-kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restrict solids, VEIL_PARAMETERS,
-                           const global ReceiverPacket* restrict receivers, uint packet_count,
-                           uint light_samples, uint path_count, uint max_edges, float clamp_radius, uint seed,
-                           uint shares, global IrradiancePacket* restrict direct,
-                           global IrradiancePacket* restrict indirect,
-                           global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
-                           global SharedLight* restrict found_veiled,
-                           global SharedLight* restrict found_reflections,
-                           global SharedReflection* restrict reflections,
-                           const global float* restrict spacing) {
+kernel void receiver_paths(
+    SCENE_PARAMETERS, VEIL_PARAMETERS, const global ReceiverPacket* restrict receivers, uint packet_count,
+    uint light_samples, uint path_count, uint max_edges, float clamp_radius, uint seed, uint shares,
+    global IrradiancePacket* restrict direct, global IrradiancePacket* restrict indirect,
+    global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
+    global SharedLight* restrict found_veiled, global SharedLight* restrict found_reflections,
+    global SharedReflection* restrict reflections, const global float* restrict spacing) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -48,10 +43,9 @@ kernel void receiver_paths(SCENE_PARAMETERS, const global TreeTriangles* restric
     at.curve = receiver_curve(receiver, lane);
     ReceivedLight light = nothing_received();
     Finds finds = nothing_shared();
-    SceneView solids_alone = scene;
-    solids_alone.tree_triangles = solids;
+    const SceneView solids = solids_alone(scene);
     const SceneView veils = VEIL_VIEW(scene);
-    finds.solids = &solids_alone;
+    finds.solids = &solids;
     finds.veils = &veils;
     if (shares != 0 && receiver_shares(receiver, lane, max_edges)) {
         finds.near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;

@@ -63,19 +63,10 @@ struct DeviceScene {
         visit(vertex_colors), visit(second_uvs), visit(curves);
         visit(emitters), visit(environment), visit(environment_pixels), visit(row_cdf), visit(column_cdf);
         visit(row_cosines), visit(block_details), visit(detail_cdf), visit(light_nodes), visit(info);
-    }
-};
-
-/// The argument for single rays that pass veils: the triangles of the scene's tree that are none.
-struct SolidsForRays {
-    const DeviceScene& scene;
-
-    template <typename Visitor>
-    void for_each_buffer(Visitor&& visit) const {
-        if (scene.tree.has_wide_rays) {
-            visit(scene.solid_blocks());
+        if (tree.has_wide_rays) {
+            visit(solid_blocks());
         } else {
-            visit(scene.solid_triangles());
+            visit(solid_triangles());
         }
     }
 };

@@ -52,7 +52,7 @@ void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket
                            Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                            FoundLights& found) {
     receiver_paths_.launch_items(
-        packet_count * NEARLIGHT_PACKET_SIZE, scene, SolidsForRays{scene}, VeilsForRays{scene}, receivers,
+        packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
         static_cast<uint>(packet_count), settings.light_samples, settings.path_count, settings.max_edges,
         settings.clamp_radius, settings.seed, shared_kinds, direct, indirect, found.near, found.sky,
         found.veiled, found.reflected, found.reflections, found.spacing);

@@ -291,8 +291,15 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
 static inline bool is_found_behind_veils(const SceneView* scene, const ContinuedPath* path,
                                          const SurfaceBsdf* surface, const RayShare* share, uint surfaces) {
     const bool is_behind = path->ray.veils + 1 == surfaces && path->ray.veils <= NEARLIGHT_MAX_VEILS;
-    return share->finds_veiled && is_behind && !surface->mapped &&
-           (scene->materials[path->hit.material].flags & NEARLIGHT_MATERIAL_VEIL) == 0;
+    if (!share->finds_veiled || !is_behind || surface->mapped ||
+        (scene->materials[path->hit.material].flags & NEARLIGHT_MATERIAL_VEIL) != 0) {
+        return false;
+    }
+    // A ray that passes a veil may miss a surface that coincides with it.
+    const float3 x = path->ray.scattered_at;
+    const float3 y = offset_point(scene, path->hit.position, path->hit.geometric);
+    return !tree_occluded(scene->nodes, scene->solids, x, y - x, NEARLIGHT_SEGMENT_T_MIN,
+                          NEARLIGHT_SEGMENT_T_MAX);
 }
 
 /// Follows the path over one surface to the next. Returns false where it ends.

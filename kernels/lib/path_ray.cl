@@ -40,7 +40,9 @@ static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* 
     float density = light->pdf;
     if (!light->is_delta) {
         density += path_ratio * pdf;
-        density += light->infinite ? bundle_density(surface->frame.n, light->direction, bundle_ratio) : 0.0f;
+        if (light->infinite && bundle_ratio > 0.0f && bundle_finds_sky(scene, origin, light->direction)) {
+            density += bundle_density(surface->frame.n, light->direction, bundle_ratio);
+        }
     }
     return value / density * part * light_radiance(scene, light);
 }
@@ -133,7 +135,11 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
         const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
         met.radiance = light_radiance(scene, &sky);
         if (shares_met_light(ray)) {
-            met.of_others = sky.pdf + bundle_density(ray->normal, ray->direction, ray->bundle_ratio);
+            met.of_others = sky.pdf;
+            if (ray->bundle_ratio > 0.0f &&
+                (ray->veils == 0 || bundle_finds_sky(scene, ray->scattered_at, ray->direction))) {
+                met.of_others += bundle_density(ray->normal, ray->direction, ray->bundle_ratio);
+            }
         }
         return met;
     }

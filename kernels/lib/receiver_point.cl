@@ -70,7 +70,9 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
     }
     float density = light->pdf;
     if (!light->is_delta) {
-        const float rays = path_ratio + (light->infinite ? bundle_ratio : 0.0f);
+        const bool of_bundle =
+            light->infinite && bundle_ratio > 0.0f && bundle_finds_sky(scene, at->x, light->direction);
+        const float rays = path_ratio + (of_bundle ? bundle_ratio : 0.0f);
         density += rays * cosine * M_1_PI_F;
     }
     return density > 0.0f ? response / density * part * light_radiance(scene, light) : (float3)(0.0f);

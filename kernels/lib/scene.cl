@@ -19,14 +19,15 @@
         const global float4 *restrict scene_environment_pixels, const global float *restrict scene_row_cdf, \
         const global float *restrict scene_column_cdf, const global float *restrict scene_row_cosines,      \
         const global uint *restrict scene_block_details, const global float *restrict scene_detail_cdf,     \
-        const global LightNode *restrict scene_light_nodes, const global SceneInfo *restrict scene_info
+        const global LightNode *restrict scene_light_nodes, const global SceneInfo *restrict scene_info,    \
+        const global TreeTriangles *restrict scene_solids
 #define SCENE_VIEW                                                                                         \
     {                                                                                                      \
         scene_nodes, scene_tree_triangles, scene_triangle_ids, scene_vertices, scene_triangles,            \
             scene_materials, scene_textures, scene_texels, scene_vertex_colors, scene_second_uvs,          \
             scene_curves, scene_emitters, scene_environment, scene_environment_pixels, scene_row_cdf,      \
             scene_column_cdf, scene_row_cosines, scene_block_details, scene_detail_cdf, scene_light_nodes, \
-            scene_info                                                                                     \
+            scene_info, scene_solids                                                                       \
     }
 
 /// The tree of a scene's veils alone, and the scene as rays see it that meet nothing else.
@@ -58,7 +59,14 @@ typedef struct SceneView {
     const global float* detail_cdf;    // of the rows of a block, and then of the pixels of each row
     const global LightNode* light_nodes;
     const global SceneInfo* info;
+    const global TreeTriangles* solids;  // those of `tree_triangles` that are no veils, in the same slots
 } SceneView;
+
+/// The scene as rays see it that pass all veils.
+static inline SceneView solids_alone(SceneView scene) {
+    scene.tree_triangles = scene.solids;
+    return scene;
+}
 
 static inline SceneView veils_alone(SceneView scene, const global TreeNode* nodes,
                                     const global TreeTriangles* triangles, const global uint* triangle_ids) {

@@ -256,6 +256,17 @@ TEST_F(SharedSkyTest, BringsWhatOwnRaysBringThroughVeils) {
     });
 }
 
+/// A pane overlaps the wall in its plane. Rays that meet the pane there pass the wall as well, and bundles do
+/// not.
+TEST_F(SharedSkyTest, BringsWhatOwnRaysBringThroughPanesInThePlaneOfTheWall) {
+    on_each_device([](Device& device) {
+        Scene scene = coated_room();
+        add_quad(scene, {-2, 0.3f, -2}, {0, 1.7f, 0}, {0, 0, 4},
+                 add_material(scene, thin_dielectric_material(1.5)));
+        expect_the_light_of_own_rays(device, scene, GatherKernel::automatic);
+    });
+}
+
 /// Paths of three edges have room for two veils only.
 TEST_F(SharedSkyTest, BringsNothingThroughMoreVeilsThanPathsPass) {
     on_each_device([](Device& device) {

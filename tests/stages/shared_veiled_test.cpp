@@ -126,6 +126,17 @@ TEST_F(SharedVeiledTest, BringsWhatOwnRaysBringOfMappedSurfaces) {
     });
 }
 
+/// A pane overlaps a board in its plane. Rays that meet the pane there pass the board as well, and bundles do
+/// not.
+TEST_F(SharedVeiledTest, BringsWhatOwnRaysBringThroughPanesInThePlaneOfABoard) {
+    on_each_device([](Device& device) {
+        Scene scene = floor_below_a_pane();
+        add_quad(scene, {0.2f, 0, -3}, {0, 0, 3.2f}, {1, 0, 0},
+                 add_two_sided(scene, lambertian({0.5f, 0.5f, 0.5f})));
+        expect_what_own_rays_bring_through_veils(device, scene);
+    });
+}
+
 TEST_F(SharedVeiledTest, BringsWhatOwnRaysBringThroughClearGlass) {
     on_each_device([](Device& device) {
         Scene scene = lit_floor_below(lambertian({0.5f, 0.5f, 0.5f}));

@@ -121,6 +121,13 @@ static inline Veiling veiling_between(const SceneView* veils, float3 x, float3 y
     return veiling;
 }
 
+/// Whether rays of a bundle find the sky in this direction from x: nothing but veils is in the way. A ray
+/// that passes a veil may miss a surface that coincides with it, which hides the sky from bundles.
+static inline bool bundle_finds_sky(const SceneView* scene, float3 x, float3 direction) {
+    return scene->info->veils == NEARLIGHT_VEILS_NONE ||
+           !tree_occluded(scene->nodes, scene->solids, x, direction, 0.0f, INFINITY);
+}
+
 /// The part of a light sample that arrives at x, on a path that has room for `max_veils` more surfaces. Veils
 /// block the light of points and directions, which no ray can find behind them, unless glass is clear.
 OUTLINED float3 arriving_part(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {
