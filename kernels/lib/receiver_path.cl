@@ -72,7 +72,7 @@ static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit*
     return light;
 }
 
-/// The light that a place which a ray met sends to all sides, as `brought` says, which the ray brought of it.
+/// The light at the place that a ray met, by what the ray brought back of it.
 static inline SharedLight sent_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit,
                                      const Continuation* way, float3 brought, float of_vpls) {
     const float sent = diffuse_transmission(scene, way->curve, -dot(way->shading, ray->direction));
