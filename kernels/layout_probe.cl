@@ -9,6 +9,7 @@
 #include "shared/packet_order.h"
 #include "shared/shared_light.h"
 #include "shared/types.h"
+#include "shared/walk_aim.h"
 
 #define SIZE(Type) *out++ = (uint)sizeof(Type);
 // The offset is that of a member from its struct, for which any address but 0 serves: some devices keep a

@@ -84,7 +84,5 @@ kernel void shared_light_gather(const global ReceiverPacket* restrict receivers,
             sum += load3(light->radiance) * (factors[entry] * c.part * c.geometry * transmission);
         }
     }
-    irradiance[packet].r[lane] += sum.x;
-    irradiance[packet].g[lane] += sum.y;
-    irradiance[packet].b[lane] += sum.z;
+    add_irradiance_to(irradiance + packet, lane, sum);
 }

@@ -104,11 +104,8 @@ kernel void shared_reflection_gather(SCENE_PARAMETERS, const global ReceiverPack
         const float3 radiance =
             load3(entry.light->radiance) * (factors[i] * reflected.of_places / reflected.of_paths);
         for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
-            const float3 more = radiance * reflected.irradiance[lane];
-            global IrradiancePacket* sum = irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE;
-            sum->r[lane % NEARLIGHT_PACKET_SIZE] += more.x;
-            sum->g[lane % NEARLIGHT_PACKET_SIZE] += more.y;
-            sum->b[lane % NEARLIGHT_PACKET_SIZE] += more.z;
+            add_irradiance_to(irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE,
+                              lane % NEARLIGHT_PACKET_SIZE, radiance * reflected.irradiance[lane]);
         }
     }
 }

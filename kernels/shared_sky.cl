@@ -6,8 +6,8 @@
 // choose lights y_j among those that the rays of their receivers found, and test who sees them, as in
 // shared_lights.cl:
 //
-//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j),   p(y) = Σ_s m/π · G(s, y)·V(s,
-//     y)
+//     E(x) ≈ Σ_j w(x, y_j)·L(x→y_j)·T(x, y_j)·G(x, y_j)·V(x, y_j) / p(y_j)
+//     p(y) = Σ_s m/π · G(s, y)·V(s, y)
 //
 // Here V is the visibility past solid surfaces alone, and T the transmittance of the veils between
 // (lib/light/shadow.cl): rays find places behind veils whatever these let through.
@@ -96,7 +96,7 @@ static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, c
         const ArrivingSky sky = arriving_sky(scene, light, at->x, at->n);
         float3 radiance = sky.radiance * (light->radiance.x * factors[entry] * sky.solid);
         if (scene->info->veils != NEARLIGHT_VEILS_NONE) {
-            radiance *= ray_transmittance(veils, at->x, sky.direction, 0.0f, INFINITY, at->max_veils);
+            radiance *= transmittance_to_sky(veils, at->x, sky.direction, at->max_veils);
         }
         const float of_others = at->rays * sky.cosine * M_1_PI_F + at->light_samples * sky.pdf;
         sum.irradiance += radiance * (bundle_weight(&sky, at->bundle_rays, of_others) * sky.cosine *
@@ -149,9 +149,7 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
     at.seen_samples = has_seen ? (float)seen[receiver].light_samples : 0.0f;
     const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first,
                                    lengths[bundle], seen_by + first * BUNDLE_WORDS + place / 32, place % 32);
-    irradiance[packet].r[lane] += light.irradiance.x;
-    irradiance[packet].g[lane] += light.irradiance.y;
-    irradiance[packet].b[lane] += light.irradiance.z;
+    add_irradiance_to(irradiance + packet, lane, light.irradiance);
     if (at.seen_samples > 0.0f) {
         vertices[receiver].emitted = store3(load3(vertices[receiver].emitted) + light.reflected);
     }

@@ -75,11 +75,8 @@ kernel void shared_veiled_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
         const float3 radiance =
             load3(light->radiance) * (factors[i] * veiled.past_solids / veiled.past_veils);
         for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
-            const float3 more = radiance * veiled.irradiance[lane];
-            global IrradiancePacket* sum = irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE;
-            sum->r[lane % NEARLIGHT_PACKET_SIZE] += more.x;
-            sum->g[lane % NEARLIGHT_PACKET_SIZE] += more.y;
-            sum->b[lane % NEARLIGHT_PACKET_SIZE] += more.z;
+            add_irradiance_to(irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE,
+                              lane % NEARLIGHT_PACKET_SIZE, radiance * veiled.irradiance[lane]);
         }
     }
 }

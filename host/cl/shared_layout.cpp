@@ -10,6 +10,7 @@
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/shared_light.h"
 #include "kernels/shared/types.h"
+#include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/math.h"
-#include "host/base/random.h"
+#include "host/base/cosine_direction.h"
 #include "host/base/receivers.h"
 #include "host/scene/camera.h"
 #include "host/scene/distribution.h"
@@ -67,14 +66,6 @@ class PointMaker {
     const Scene& scene_;
     float extent_;
 };
-
-Vec3 cosine_direction(Vec3 normal, Pcg32& random) {
-    const float r2 = random.uniform();
-    const float phi = 2.0f * kPi * random.uniform();
-    const auto [tangent, bitangent] = orthonormal_basis(normal);
-    return tangent * (std::sqrt(r2) * std::cos(phi)) + bitangent * (std::sqrt(r2) * std::sin(phi)) +
-           normal * std::sqrt(1.0f - r2);
-}
 
 Vec3 sphere_direction(Pcg32& random) {
     const float z = 1.0f - 2.0f * random.uniform();

@@ -13,6 +13,7 @@
 #include "host/stages/local_lights.h"
 #include "host/stages/pilot_view.h"
 #include "host/stages/vpl_buffer.h"
+#include "kernels/shared/walk_aim.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace nearlight::core {
@@ -16,6 +15,8 @@ constexpr double kPartInside = 0.85;
 /// How much the mean of the origins attracts a centre, compared with the half lines. Parallel ones do not
 /// tell how far along them they pass.
 constexpr double kPullOfOrigins = 0.001;
+/// Half lines nearer to a centre than this part of the distance to their origins weigh alike in its fit.
+constexpr double kAlikeWithin = 0.05;
 
 /// A symmetric system of three linear equations, M·x = b.
 struct SymmetricSystem {
@@ -53,9 +54,11 @@ Vec3 fit_center(std::span<const HalfLine> lines, std::span<const std::size_t> gr
     double weights = 0;
     Vec3 origins{0, 0, 0};
     for (const std::size_t i : group) {
-        const double scale = near ? 0.05 * static_cast<double>(length(lines[i].origin - *near)) : 1.0;
-        const double weight =
-            near ? 1 / (static_cast<double>(distance_to(lines[i], *near)) + scale + 1e-30) : 1.0;
+        double weight = 1.0;
+        if (near) {
+            const double alike = kAlikeWithin * static_cast<double>(length(lines[i].origin - *near));
+            weight = 1 / (static_cast<double>(distance_to(lines[i], *near)) + alike + 1e-30);
+        }
         system.add(weight, 1.0, lines[i].direction, lines[i].origin);
         weights += weight;
         origins += lines[i].origin;

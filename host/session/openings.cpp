@@ -2,10 +2,8 @@
 #include "host/session/openings.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "host/base/math.h"
-#include "host/base/random.h"
+#include "host/base/cosine_direction.h"
 #include "host/base/receivers.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/reflectance.h"
@@ -31,21 +29,18 @@ constexpr double kMaxOutsidePart = 0.25;
 constexpr float kMaxRadius = 0.5f;
 constexpr float kMinRadius = 1e-3f;  ///< the smallest, in the same measure
 
-bool has_light_from_afar(const Scene& scene) {
-    return scene.environment.width > 0 || scene.environment.sun_half_angle > 0.0f ||
+bool has_light_from_afar(const DeviceScene& on_device, const Scene& scene) {
+    return on_device.host_info.has_sky != 0 ||
            std::ranges::any_of(scene.delta_emitters, [](const Emitter& emitter) {
                return emitter.type == NEARLIGHT_EMITTER_DIRECTIONAL;
            });
 }
 
-/// A direction about the unit vector n, with a density in proportion to the cosine.
-Vec3 cosine_direction(Vec3 n, Pcg32& random) {
-    const float height = std::sqrt(1.0f - random.uniform());
-    const float across = std::sqrt(std::max(1.0f - height * height, 0.0f));
-    const float angle = 2 * kPi * random.uniform();
-    const auto [x, y] = orthonormal_basis(n);
-    return normalize(n * height + x * (across * std::cos(angle)) + y * (across * std::sin(angle)));
-}
+/// A ray that has passed panes up to the distance `passed` (m) from where it began.
+struct PassingRay {
+    HalfLine line;
+    float passed = 0.0f;
+};
 
 /// Follows paths from what the camera sees.
 class PathFollower {
@@ -65,26 +60,23 @@ class PathFollower {
 
     /// Follows each ray to the next surface, straight through panes. Keeps those that leave the surroundings
     /// as lines, and returns rays that go on from where the others landed.
-    std::vector<HalfLine> follow(std::vector<HalfLine> rays, Pcg32& random) {
-        std::vector<HalfLine> next;
-        std::vector<HalfLine> begun = rays;  // where the rays were before they passed panes
+    std::vector<PassingRay> follow(std::vector<PassingRay> rays, Pcg32& random) {
+        std::vector<PassingRay> next;
         for (int pane = 0; pane <= kMaxPanes && !rays.empty(); ++pane) {
             const std::vector<RayHit> hits = cast(rays);
-            std::vector<HalfLine> behind;
-            std::vector<HalfLine> begun_behind;
+            std::vector<PassingRay> behind;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                const Vec3 place = rays[i].origin + rays[i].direction * hits[i].t;
+                const HalfLine& line = rays[i].line;
+                const Vec3 place = line.origin + line.direction * hits[i].t;
                 if (hits[i].slot == ~0u || is_outside(place)) {
-                    lines_.push_back(begun[i]);
+                    lines_.push_back(line);
                 } else if (lets_through_[triangle_of(hits[i]).material]) {
-                    behind.push_back({place + rays[i].direction * epsilon(place), rays[i].direction});
-                    begun_behind.push_back(begun[i]);
+                    behind.push_back({line, hits[i].t + epsilon(place)});
                 } else {
-                    next.push_back(scattered(rays[i].direction, place, triangle_of(hits[i]), random));
+                    next.push_back({scattered(line.direction, place, triangle_of(hits[i]), random)});
                 }
             }
             rays = std::move(behind);
-            begun = std::move(begun_behind);
         }
         return next;
     }
@@ -95,10 +87,10 @@ class PathFollower {
     [[nodiscard]] const Triangle& triangle_of(const RayHit& hit) const {
         return scene_.triangles[triangle_ids_[hit.slot]];
     }
-    [[nodiscard]] std::vector<RayHit> cast(std::span<const HalfLine> rays) {
+    [[nodiscard]] std::vector<RayHit> cast(std::span<const PassingRay> rays) {
         std::vector<RayQuery> queries;
-        for (const HalfLine& ray : rays) {
-            queries.push_back({ray.origin, 0.0f, ray.direction, kInfinity});
+        for (const PassingRay& ray : rays) {
+            queries.push_back({ray.line.origin, ray.passed, ray.line.direction, kInfinity});
         }
         Buffer<RayHit> hits(device_, rays.size());
         caster_.cast(on_device_.tree, Buffer<RayQuery>(device_, queries), hits);
@@ -128,14 +120,14 @@ class PathFollower {
 };
 
 /// Rays that leave what the camera sees of its surroundings.
-std::vector<HalfLine> first_rays(const PilotView& view, const CloseRange& surroundings, Pcg32& random) {
-    std::vector<HalfLine> rays;
+std::vector<PassingRay> first_rays(const PilotView& view, const CloseRange& surroundings, Pcg32& random) {
+    std::vector<PassingRay> rays;
     for (const ReceiverPacket& packet : view.receivers.download()) {
         for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
             const auto [position, normal] = receiver_at(packet, lane);
             const bool is_far = length(position - surroundings.origin) > surroundings.range;
             for (int i = 0; i < kRaysPerReceiver && !is_zero(normal) && !is_far; ++i) {
-                rays.push_back({position, cosine_direction(normal, random)});
+                rays.push_back({{position, cosine_direction(normal, random)}});
             }
         }
     }
@@ -146,12 +138,12 @@ std::vector<HalfLine> first_rays(const PilotView& view, const CloseRange& surrou
 
 std::vector<Opening> find_openings(Device& device, const DeviceScene& on_device, const Scene& scene,
                                    const PilotView& view, const CloseRange& close_range, uint seed) {
-    if (!has_light_from_afar(scene) || view.packet_count == 0) {
+    if (!has_light_from_afar(on_device, scene) || view.packet_count == 0) {
         return {};
     }
     Pcg32 random(seed, kRayStream);
     PathFollower paths(device, on_device, scene, close_range);
-    std::vector<HalfLine> rays = first_rays(view, close_range, random);
+    std::vector<PassingRay> rays = first_rays(view, close_range, random);
     const std::size_t first_count = rays.size();
     for (int surface = 0; surface < kMaxSurfaces && paths.lines().size() < kEnoughLines; ++surface) {
         rays = paths.follow(std::move(rays), random);

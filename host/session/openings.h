@@ -9,6 +9,7 @@
 
 #include "host/stages/device_scene.h"
 #include "host/stages/pilot_view.h"
+#include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {
 

@@ -4,6 +4,7 @@
 
 #include "host/scene/scene.h"
 #include "host/stages/pilot_view.h"
+#include "kernels/shared/walk_aim.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {

@@ -8,6 +8,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
+#include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {
 

@@ -8,6 +8,7 @@
 #include "host/stages/morton_sort.h"
 #include "host/stages/pilot_view.h"
 #include "host/stages/vpl_contribution.h"
+#include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {
 

@@ -17,7 +17,7 @@ void SharedVeiled::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& r
                        std::size_t packet_count, const ReceiverPathSettings& settings,
                        const Buffer<SharedLight>& found, Buffer<IrradiancePacket>& irradiance) {
     lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(), found,
-                NEARLIGHT_SHARED_VEILED, Hiding::solids);
+                NEARLIGHT_SHARED_VEILED_LIGHTS, Hiding::solids);
     const auto packets = static_cast<uint>(packet_count);
     gather_.launch_items(BundleLayout{packets}.bundle_count(), scene, VeilsForRays{scene}, receivers, packets,
                          found, lists_, irradiance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene's veils (lib/light/shadow.cl) and its other surfaces apart: bundles first ask which receivers a
-// light of the sky reaches if nothing but veils is in the way, and then what the veils let through.
+// A scene's veils (lib/light/shadow.cl) and its other surfaces apart: bundles that share the sky or light of
+// places behind veils first ask which receivers such a light reaches if nothing but veils is in the way, and
+// then what the veils let through.
 #pragma once
 
 #include "host/scene/scene.h"

@@ -291,7 +291,7 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
 static inline bool is_found_behind_veils(const SceneView* scene, const ContinuedPath* path,
                                          const SurfaceBsdf* surface, const RayShare* share, uint surfaces) {
     const bool is_behind = path->ray.veils + 1 == surfaces && path->ray.veils <= NEARLIGHT_MAX_VEILS;
-    if (!share->finds_veiled || !is_behind || surface->mapped ||
+    if (!share->finds_veiled || !is_behind || surface->mapped || is_black(surface->bsdf.diffuse) ||
         (scene->materials[path->hit.material].flags & NEARLIGHT_MATERIAL_VEIL) != 0) {
         return false;
     }

@@ -10,7 +10,7 @@
 #define NEARLIGHT_LIB_WALK_AIM
 
 #include "lib/math.cl"
-#include "shared/types.h"
+#include "shared/walk_aim.h"
 
 #define MAX_AIM_TARGETS (1 + NEARLIGHT_MAX_OPENINGS)
 #define NO_AIM_TARGET ~0u

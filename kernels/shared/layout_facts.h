@@ -8,7 +8,7 @@
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
 /// place where it expands must include bsdf_query.h, film_layers.h, light_cut.h, packet_order.h,
-/// shared_light.h and types.h.
+/// shared_light.h, types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \

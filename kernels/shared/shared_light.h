@@ -22,7 +22,7 @@ typedef struct SharedLight {
 } SharedLight;
 #define NEARLIGHT_SHARED_LIGHTS 64u                           // about how many a bundle uses
 #define NEARLIGHT_SHARED_SKY_LIGHTS 32u                       // the same of those of the sky
-#define NEARLIGHT_SHARED_VEILED 32u                           // the same of those behind veils
+#define NEARLIGHT_SHARED_VEILED_LIGHTS 32u                    // the same of those behind veils
 #define NEARLIGHT_SHARED_LIST (NEARLIGHT_SHARED_LIGHTS + 1u)  // rounding may add one
 
 /// Rays of a bundle that count as one ray of a receiver where the light of the sky is divided between them

@@ -12,39 +12,12 @@
 #include "host/stages/close_range.h"
 #include "tests/samplers/divided_room.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/house_on_grounds.h"
 
 namespace nearlight::core {
 namespace {
 
-using namespace small_scenes;
-
 class CompleteTest : public test::DeviceTest {};
-
-/// A wall with a normal along z that closes the room at `z`, with an opening of `hole` × `hole` in its
-/// middle.
-void add_wall(Scene& scene, float z, float hole, uint material) {
-    const float rim = 0.5f * (4 - hole);
-    add_quad(scene, {-2, 0, z}, {4, 0, 0}, {0, rim, 0}, material);
-    add_quad(scene, {-2, 4 - rim, z}, {4, 0, 0}, {0, rim, 0}, material);
-    add_quad(scene, {-2, rim, z}, {rim, 0, 0}, {0, hole, 0}, material);
-    add_quad(scene, {2 - rim, rim, z}, {rim, 0, 0}, {0, hole, 0}, material);
-}
-
-/// A room of 4 × 4 × 4 in the middle of a ground of 160 × 160. The camera looks away from the window.
-Scene house_on_grounds() {
-    Scene scene;
-    const uint wall = add_two_sided(scene, lambertian({0.6f, 0.6f, 0.6f}));
-    add_wall(scene, -2, 0, wall);
-    add_wall(scene, 2, 1, wall);
-    add_quad(scene, {-2, 0, -2}, {0, 4, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {2, 0, -2}, {0, 4, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {-80, 0, -80}, {160, 0, 0}, {0, 0, 160}, wall);
-    scene.environment = {.width = 1, .height = 1, .radiance = {{1, 1, 1}}, .to_world = {}};
-    set_camera(scene, {0, 2, 1.5}, {0, 2, -2}, 80);
-    scene.camera.width = scene.camera.height = 32;
-    return scene;
-}
 
 /// The VPLs within the room.
 struct Inside {
@@ -73,7 +46,7 @@ struct Steadiness {
 
 Steadiness steadiness(Device& device, std::span<const Opening> openings) {
     constexpr uint kSets = 8;
-    const Scene scene = house_on_grounds();
+    const Scene scene = test::house_on_grounds(1);
     test::SamplingBench bench(device, scene);
     Steadiness result;
     double squares = 0;
@@ -99,7 +72,7 @@ TEST_F(CompleteTest, EverySetHoldsTheLightOfTheRoom) {
 }
 
 TEST_F(CompleteTest, WalksThroughTheWindowSteadyTheLight) {
-    const Opening window{.center = {0, 2, 2}, .radius = 0.5f, .outwards = {0, 0, 1}, .share = 1};
+    const Opening window{.center = test::kHouseWindow, .radius = 0.5f, .outwards = {0, 0, 1}, .share = 1};
     on_each_device([&](Device& device) {
         const Steadiness without = steadiness(device, {});
         const Steadiness with = steadiness(device, {&window, 1});

@@ -4,7 +4,7 @@
 #include "host/scene/material_model.h"
 #include "host/session/session.h"
 #include "tests/support/device_fixture.h"
-#include "tests/support/small_scenes.h"
+#include "tests/support/house_on_grounds.h"
 
 namespace nearlight::core {
 namespace {
@@ -12,33 +12,6 @@ namespace {
 using namespace small_scenes;
 
 class OpeningsTest : public test::DeviceTest {};
-
-const Vec3 kWindow{0, 2, 2};  // the middle of a hole of 1 × 1 that faces +z
-
-/// A wall with a normal along z that closes the room at `z`, with a hole of `hole` × `hole` in its middle.
-void add_wall(Scene& scene, float z, float hole, uint material) {
-    const float rim = 0.5f * (4 - hole);
-    add_quad(scene, {-2, 0, z}, {4, 0, 0}, {0, rim, 0}, material);
-    add_quad(scene, {-2, 4 - rim, z}, {4, 0, 0}, {0, rim, 0}, material);
-    add_quad(scene, {-2, rim, z}, {rim, 0, 0}, {0, hole, 0}, material);
-    add_quad(scene, {2 - rim, rim, z}, {rim, 0, 0}, {0, hole, 0}, material);
-}
-
-/// A room of 4 × 4 × 4 under the sky on a ground of 160 × 160. The camera looks away from its only window.
-Scene room(float hole) {
-    Scene scene;
-    const uint wall = add_two_sided(scene, lambertian({0.6f, 0.6f, 0.6f}));
-    add_wall(scene, -2, 0, wall);
-    add_wall(scene, 2, hole, wall);
-    add_quad(scene, {-2, 0, -2}, {0, 4, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {2, 0, -2}, {0, 4, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, wall);
-    add_quad(scene, {-80, 0, -80}, {160, 0, 0}, {0, 0, 160}, wall);
-    set_constant_sky(scene, {1, 1, 1});
-    set_camera(scene, {0, 2, 1.5}, {0, 2, -2}, 80);
-    scene.camera.width = scene.camera.height = 32;
-    return scene;
-}
 
 std::vector<Opening> openings_of(Device& device, const Scene& scene) {
     return Session(device, scene).look(scene.camera, {}, 3).openings;
@@ -50,7 +23,7 @@ void expect_window(const std::vector<Opening>& openings) {
     ASSERT_LE(openings.size(), NEARLIGHT_MAX_OPENINGS);
     float shares = 0;
     for (const Opening& opening : openings) {
-        EXPECT_LT(length(opening.center - kWindow), 1.0f);
+        EXPECT_LT(length(opening.center - test::kHouseWindow), 1.0f);
         EXPECT_LT(opening.radius, 0.8f);
         EXPECT_GT(opening.radius, 0.05f);
         EXPECT_GT(opening.outwards.z, 0.5f);
@@ -61,12 +34,12 @@ void expect_window(const std::vector<Opening>& openings) {
 }
 
 TEST_F(OpeningsTest, AWindowIsOne) {
-    on_each_device([](Device& device) { expect_window(openings_of(device, room(1))); });
+    on_each_device([](Device& device) { expect_window(openings_of(device, test::house_on_grounds(1))); });
 }
 
 TEST_F(OpeningsTest, AWindowWithPanesIsOne) {
     for (const Material& glass : {thin_dielectric_material(1.5), dielectric_material(1.5)}) {
-        Scene scene = room(1);
+        Scene scene = test::house_on_grounds(1);
         const uint pane = add_material(scene, glass);
         add_quad(scene, {-0.5f, 1.5f, 2.02f}, {1, 0, 0}, {0, 1, 0}, pane);
         add_quad(scene, {-0.5f, 1.5f, 2.0f}, {0, 1, 0}, {1, 0, 0}, pane);
@@ -76,7 +49,7 @@ TEST_F(OpeningsTest, AWindowWithPanesIsOne) {
 
 /// What the camera sees has no view of the window, but surfaces beside it have.
 TEST_F(OpeningsTest, AWindowAroundACornerIsOne) {
-    Scene scene = room(1);
+    Scene scene = test::house_on_grounds(1);
     const uint screen = add_two_sided(scene, lambertian({0.6f, 0.6f, 0.6f}));
     add_quad(scene, {-2, 0, 0.5f}, {3, 0, 0}, {0, 4, 0}, screen);
     set_camera(scene, {-1.5, 2, 0.3}, {-1.7, 2, -2}, 30);
@@ -86,7 +59,7 @@ TEST_F(OpeningsTest, AWindowAroundACornerIsOne) {
 /// A directional light comes from afar as the sky does, and the camera may look out of the window at the
 /// grounds.
 TEST_F(OpeningsTest, GroundsBehindTheWindowAreNone) {
-    Scene scene = room(1);
+    Scene scene = test::house_on_grounds(1);
     scene.environment = {};
     add_directional_light(scene, {0, -1, -1}, {1, 1, 1});
     set_camera(scene, {0, 2, -1.5}, {0, 1.5, 2}, 80);
@@ -94,18 +67,19 @@ TEST_F(OpeningsTest, GroundsBehindTheWindowAreNone) {
 }
 
 TEST_F(OpeningsTest, AClosedRoomHasNone) {
-    on_each_device([](Device& device) { EXPECT_TRUE(openings_of(device, room(0)).empty()); });
+    on_each_device(
+        [](Device& device) { EXPECT_TRUE(openings_of(device, test::house_on_grounds(0)).empty()); });
 }
 
 TEST_F(OpeningsTest, WithoutLightFromAfarThereIsNone) {
-    Scene scene = room(1);
+    Scene scene = test::house_on_grounds(1);
     scene.environment = {};
     add_point_light(scene, {0, 3, 0}, {1, 1, 1});
     on_each_device([&](Device& device) { EXPECT_TRUE(openings_of(device, scene).empty()); });
 }
 
 TEST_F(OpeningsTest, OpenCountryHasNone) {
-    Scene scene = room(1);
+    Scene scene = test::house_on_grounds(1);
     set_camera(scene, {10, 6, 10}, {0, 1, 0}, 60);
     on_each_device([&](Device& device) { EXPECT_TRUE(openings_of(device, scene).empty()); });
 }

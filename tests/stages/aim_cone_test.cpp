@@ -37,6 +37,17 @@ double plain_in_view(float half_side) {
     return 4 * (2 * a / root * std::atan(a / root)) / (2 * kPi);
 }
 
+constexpr float kWideHalfSide = 100.0f;
+
+/// The same on a wide plain in slanting sunlight.
+Scene sunlit_panel() {
+    Scene scene = panel_above(kWideHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
+    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
+    return scene;
+}
+/// What its panel gets from the plain and reflects, W.
+const double kSunlitPower = kPanelAlbedo * 0.5 * 8 * plain_in_view(kWideHalfSide) * 4;
+
 /// Deposits of depth 2 on the panel.
 struct OnPanel {
     double power = 0;  // W, for each of the seeds
@@ -64,10 +75,8 @@ OnPanel on_panel(Device& device, const Scene& scene, const WalkAim& aim) {
 /// The panel gets the same light from a plain whether walks aim at it, past it or not at all, and without
 /// VPLs that stand for much of it where they aim.
 TEST_F(AimConeTest, FarWalksBringTheSameLightByMoreVpls) {
-    constexpr float kHalfSide = 100.0f;
-    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
-    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
-    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    const Scene scene = sunlit_panel();
+    const double expected = kSunlitPower;
     on_each_ray_tree([&](Device& device) {
         const OnPanel aimed = on_panel(device, scene, aim_at({0, kPanelHeight, 0}, 3.0f));
         EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
@@ -91,10 +100,8 @@ WalkAim opening_in_panel(Vec3 outwards, float radius) {
 }
 
 TEST_F(AimConeTest, WalksOutsideAimAtOpenings) {
-    constexpr float kHalfSide = 100.0f;
-    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
-    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
-    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    const Scene scene = sunlit_panel();
+    const double expected = kSunlitPower;
     on_each_ray_tree([&](Device& device) {
         const OnPanel aimed = on_panel(device, scene, opening_in_panel({0, -1, 0}, 1.1f));
         EXPECT_NEAR(aimed.power, expected, 0.03 * expected);
@@ -119,10 +126,8 @@ TEST_F(AimConeTest, WalksInsideDoNotAimAtOpenings) {
 
 /// Several openings share the walks that aim, besides those that aim at the sphere.
 TEST_F(AimConeTest, WalksAimAtAllOpenings) {
-    constexpr float kHalfSide = 100.0f;
-    Scene scene = panel_above(kHalfSide, lambertian({0.5f, 0.5f, 0.5f}));
-    add_directional_light(scene, {3, -4, 0}, {10, 10, 10});
-    const double expected = kPanelAlbedo * 0.5 * 8 * plain_in_view(kHalfSide) * 4;
+    const Scene scene = sunlit_panel();
+    const double expected = kSunlitPower;
     WalkAim aim = opening_in_panel({0, -1, 0}, 0.6f);
     aim.center = {2, kPanelHeight, 0};
     aim.radius = 3.0f;

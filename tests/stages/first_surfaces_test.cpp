@@ -152,12 +152,7 @@ TEST_F(FirstSurfacesTest, HolesOfMasksLetSamplesThrough) {
 /// A mask like a chessboard, whose light is `emission`, before a wall; its front or its back is seen.
 Scene shining_mask(const Parameter& opacity, const Parameter& emission, bool is_front) {
     Scene scene;
-    SceneTexture checkerboard;
-    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
-    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
-    checkerboard.parameters.color0 = parameter_of(1.0f);
-    checkerboard.parameters.color1 = parameter_of(0.0f);
-    scene.textures.push_back(checkerboard);
+    add_checkerboard(scene, 1, parameter_of(1.0f), parameter_of(0.0f));
     const uint grey = add_material(scene, lambertian({0.5f, 0.5f, 0.5f}));
     Material mask = mask_material(opacity, grey);
     mask.emission = emission;

@@ -229,15 +229,9 @@ Scene glazed_room(int panes, const Material& pane) {
             add_quad(scene, {x, 0.7f, -2}, {0, 0, 4}, {0, 1.3f, 0}, glass);
         }
     }
-    SceneTexture bars;
-    bars.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
-    bars.parameters.u_scale = bars.parameters.v_scale = 3.0f;
-    bars.parameters.color0 = parameter_of(0.2f);
-    bars.parameters.color1 = parameter_of(1.0f);
-    scene.textures.push_back(bars);
+    const int bars = add_checkerboard(scene, 3, parameter_of(0.2f), parameter_of(1.0f));
     const uint bar = add_two_sided(scene, lambertian({0.3f, 0.3f, 0.3f}));
-    const auto lattice = static_cast<uint>(scene.materials.size());
-    scene.materials.push_back(mask_material(textured(static_cast<int>(scene.textures.size()) - 1), bar));
+    const uint lattice = add_material(scene, mask_material(textured(bars), bar));
     add_quad(scene, {1.99f, 0.3f, -2}, {0, 1.7f, 0}, {0, 0, 4}, lattice);
     for (std::size_t corner = 0; corner < 4; ++corner) {
         Vertex& vertex = scene.vertices[scene.vertices.size() - 4 + corner];

@@ -172,19 +172,25 @@ inline void set_camera(Scene& scene, std::array<double, 3> origin, std::array<do
     scene.camera.fov_x_degrees = fov;
 }
 
+/// A checkerboard of `scale` periods to each unit of texture coordinates; returns its index.
+inline int add_checkerboard(Scene& scene, float scale, const Parameter& color0, const Parameter& color1) {
+    SceneTexture checkerboard;
+    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
+    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = scale;
+    checkerboard.parameters.color0 = color0;
+    checkerboard.parameters.color1 = color1;
+    scene.textures.push_back(checkerboard);
+    return static_cast<int>(scene.textures.size()) - 1;
+}
+
 /// A floor of two triangles, 40 × 40, with a checkerboard of cells of 0.5. A wall and a block stand on it,
 /// under a point light. The camera sees a few square metres of it, so any close range cuts through both
 /// triangles.
 inline Scene checkered_plain() {
     Scene scene;
-    SceneTexture checkerboard;
-    checkerboard.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
-    checkerboard.parameters.u_scale = checkerboard.parameters.v_scale = 1.0f;
-    checkerboard.parameters.color0 = parameter_of(Vec3{0.8f, 0.7f, 0.6f});
-    checkerboard.parameters.color1 = parameter_of(Vec3{0.1f, 0.15f, 0.3f});
-    scene.textures.push_back(checkerboard);
     Material tiles = lambertian({1, 1, 1});
-    tiles.reflectance = textured(0);
+    tiles.reflectance = textured(add_checkerboard(scene, 1, parameter_of(Vec3{0.8f, 0.7f, 0.6f}),
+                                                  parameter_of(Vec3{0.1f, 0.15f, 0.3f})));
     add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, add_material(scene, tiles));
     for (Vertex& vertex : scene.vertices) {
         vertex.u = vertex.position.x;  // a period of the pattern is two cells

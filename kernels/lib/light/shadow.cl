@@ -81,44 +81,45 @@ static inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit
     return hit->t + ray_epsilon(hit->position, scene->info->extent) / fabs(dot(hit->geometric, direction));
 }
 
-/// The part of light on the ray from x that arrives from between t_min and t_max; nothing where it meets more
-/// veils than `max_veils`.
-static inline float3 ray_transmittance(const SceneView* scene, float3 x, float3 direction, float t_min,
-                                       float t_max, uint max_veils) {
-    float3 part = (float3)(1.0f);
-    for (uint veils = 0;; ++veils) {
-        const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
-        if (hit.t < 0.0f) {
-            return part;
-        }
-        part *= veils < max_veils ? veil_transmittance(scene, &hit, direction) : (float3)(0.0f);
-        if (is_black(part)) {
-            return part;
-        }
-        t_min = beyond_surface(scene, &hit, direction);
-    }
-}
-
-/// The veils between two places, and the part of light that they let through.
+/// The veils on a ray, and the part of light that they let through.
 typedef struct Veiling {
     float3 part;
-    uint count;  // at most NEARLIGHT_MAX_VEILS + 1
+    uint count;
 } Veiling;
 
-/// Finds them in a scene of veils alone. Places stand off their surfaces.
-static inline Veiling veiling_between(const SceneView* veils, float3 x, float3 y) {
-    const float distance = length(y - x);
-    const float3 direction = (y - x) / distance;
+/// Follows the ray from x between t_min and t_max straight through the surfaces that it meets, up to one more
+/// than `max_veils`, which lets nothing through. Unless `counts_all` is set, the ray ends where nothing is
+/// left of the light.
+static inline Veiling pass_veils(const SceneView* scene, float3 x, float3 direction, float t_min, float t_max,
+                                 uint max_veils, bool counts_all) {
     Veiling veiling = {(float3)(1.0f), 0};
-    for (float t = 0.0f; veiling.count <= NEARLIGHT_MAX_VEILS; ++veiling.count) {
-        const SurfaceHit hit = trace_between(veils, x, direction, t, distance * NEARLIGHT_SEGMENT_T_MAX);
+    while (counts_all || !is_black(veiling.part)) {
+        const SurfaceHit hit = trace_between(scene, x, direction, t_min, t_max);
         if (hit.t < 0.0f) {
             break;
         }
-        veiling.part *= is_black(veiling.part) ? veiling.part : veil_transmittance(veils, &hit, direction);
-        t = beyond_surface(veils, &hit, direction);
+        if (veiling.count++ == max_veils) {
+            veiling.part = (float3)(0.0f);
+            break;
+        }
+        veiling.part *= veil_transmittance(scene, &hit, direction);
+        t_min = beyond_surface(scene, &hit, direction);
     }
     return veiling;
+}
+
+/// The veils between two places that stand off their surfaces, at most NEARLIGHT_MAX_VEILS + 1, in a scene of
+/// veils alone.
+static inline Veiling veiling_between(const SceneView* veils, float3 x, float3 y) {
+    const float distance = length(y - x);
+    return pass_veils(veils, x, (y - x) / distance, 0.0f, distance * NEARLIGHT_SEGMENT_T_MAX,
+                      NEARLIGHT_MAX_VEILS, true);
+}
+
+/// The part of light that arrives at x from infinitely far away, or 0 through more veils than `max_veils`.
+static inline float3 transmittance_to_sky(const SceneView* scene, float3 x, float3 direction,
+                                          uint max_veils) {
+    return pass_veils(scene, x, direction, 0.0f, INFINITY, max_veils, false).part;
 }
 
 /// Whether rays of a bundle find the sky in this direction from x: nothing but veils is in the way. A ray
@@ -136,11 +137,15 @@ OUTLINED float3 arriving_part(const SceneView* scene, float3 x, const LightSampl
         max_veils == 0) {
         return (float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f);
     }
+    const uint limit = min(max_veils, (uint)NEARLIGHT_MAX_VEILS);
+    if (light->infinite) {
+        return transmittance_to_sky(scene, x, light->direction, limit);
+    }
     const float3 to_target = light->target - x;
-    const float distance = light->infinite ? INFINITY : length(to_target);
-    return ray_transmittance(scene, x, light->infinite ? light->direction : to_target / distance,
-                             light->infinite ? 0.0f : distance * NEARLIGHT_SEGMENT_T_MIN,
-                             distance * NEARLIGHT_SEGMENT_T_MAX, min(max_veils, (uint)NEARLIGHT_MAX_VEILS));
+    const float distance = length(to_target);
+    return pass_veils(scene, x, to_target / distance, distance * NEARLIGHT_SEGMENT_T_MIN,
+                      distance * NEARLIGHT_SEGMENT_T_MAX, limit, false)
+        .part;
 }
 
 #endif
