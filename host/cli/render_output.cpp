@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
 
 #include "host/base/hash.h"
 #include "host/base/memory.h"
@@ -34,6 +35,91 @@ double share_of(const BandShare& one, std::span<const BandShare> all) {
         total += share.bands;
     }
     return total > 0 ? static_cast<double>(one.bands) / total : 0.0;
+}
+
+/// The number, or null where there is none.
+template <typename T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+void add_passes(nlohmann::ordered_json& json, const RenderSettings& settings, const RenderReport& report) {
+    json["sampler"] = sampler_name(settings.sampling);
+    json["policy"] = or_null(policy_name(settings.sampling));
+    json["vpl_file"] = settings.sampling.file.empty()
+                           ? nlohmann::ordered_json()
+                           : nlohmann::ordered_json(settings.sampling.file.string());
+    json["samples_per_pixel"] = settings.gather.samples_per_pixel;
+    json["strata"] = settings.gather.strata_or_auto();
+    json["preview"] = settings.gather.interleave > 1;
+    json["passes"] = report.passes;
+    json["pass_spp"] = pass_list_text(report.pass_samples);
+    json["relative_error"] = or_null(report.error);
+    json["relative_error_asked"] = or_null(settings.error);
+}
+
+void add_vpls(nlohmann::ordered_json& json, const RenderSettings& settings, const RenderReport& report) {
+    json["vpls"] = {
+        {"requested", settings.sampling.vpl_count},  {"set", settings.sampling.set_count_or_auto()},
+        {"close", report.totals.close_vpls},         {"distant", report.totals.distant_vpls},
+        {"sparse", report.totals.sparse_vpls},       {"candidates", report.totals.candidates},
+        {"local_lights", report.totals.local_lights}};
+    json["close_fraction"] = report.close_fraction;
+    json["range"] = report.range;
+}
+
+void add_method(nlohmann::ordered_json& json, const RenderFacts& facts) {
+    const RenderSettings& settings = facts.settings;
+    const RenderReport& report = facts.report;
+    json["clamp_radius"] = report.ray_budget.clamp_radius;
+    json["rays_per_pixel"] = settings.gather.rays_per_pixel;
+    json["direct_samples_per_pixel"] = report.ray_budget.light_samples_per_pixel;
+    json["compensate"] = settings.gather.compensate;
+    json["glass"] = glass_name(facts.scene.clear_glass);
+    json["max_depth"] = report.max_depth;
+    json["filter"] = to_string(report.filter);
+    json["seed"] = settings.seed;
+    json["bvh"] = to_string(facts.bvh);
+    json["cuts"] = settings.sampling.cuts;
+    json["roulette"] = settings.gather.roulette;
+    json["denoiser"] = facts.picture.denoiser();
+}
+
+void add_devices(nlohmann::ordered_json& json, const RenderFacts& facts) {
+    json["device"] = nlohmann::ordered_json::array();
+    json["device_shares"] = nlohmann::ordered_json::array();
+    for (const BandShare& share : facts.report.shares) {
+        json["device"].push_back(share.name);
+        json["device_shares"].push_back({{"device", share.name},
+                                         {"bands", share.bands},
+                                         {"share", share_of(share, facts.report.shares)},
+                                         {"seconds", share.seconds},
+                                         {"failed", share.failed}});
+    }
+    json["compute_units"] = nlohmann::ordered_json::array();
+    json["tunables"] = nlohmann::ordered_json::array();
+    for (const auto& device : facts.devices) {
+        json["compute_units"].push_back(device->entry().compute_units);
+        json["tunables"].push_back({{"device", device->entry().label()}});
+        json["tunables"].back().update(to_json(device->chosen_tunables()));
+    }
+}
+
+void add_seconds(nlohmann::ordered_json& json, const RenderFacts& facts) {
+    const RenderReport& report = facts.report;
+    const double total = facts.load_seconds + report.seconds.total + facts.picture.denoising_seconds() +
+                         facts.picture.matte_seconds();
+    json["seconds"] = {{"load", facts.load_seconds},
+                       {"build_bvh", report.seconds.build_bvh},
+                       {"compile", report.seconds.compile},
+                       {"upload", report.seconds.upload},
+                       {"generate", report.seconds.generate},
+                       {"gather", report.seconds.gather},
+                       {"first_rows", facts.first_rows.seconds},
+                       {"denoise", facts.picture.denoising_seconds()},
+                       {"mattes", facts.picture.matte_seconds()},
+                       {"total", total}};
+    json["processor_seconds"] = {{"first_rows", facts.first_rows.processor_seconds}};
 }
 
 }  // namespace
@@ -88,78 +174,19 @@ void FirstRows::note(const Stopwatch& since_begin) {
     }
 }
 
-nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
-                                   const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
-                                   const RenderedPicture& picture, double load_seconds,
-                                   const FirstRows& first_rows,
-                                   const std::vector<std::unique_ptr<Device>>& devices) {
+nlohmann::ordered_json render_json(const RenderFacts& facts) {
+    const RenderReport& report = facts.report;
     nlohmann::ordered_json json;
-    json["scene"] = scene.file.string();
+    json["scene"] = facts.scene.file.string();
     json["width"] = report.width;
     json["height"] = report.height;
-    json["sampler"] = sampler_name(settings.sampling);
-    const std::optional<std::string> policy = policy_name(settings.sampling);
-    json["policy"] = policy ? nlohmann::ordered_json(*policy) : nullptr;
-    json["vpl_file"] = settings.sampling.file.empty()
-                           ? nlohmann::ordered_json()
-                           : nlohmann::ordered_json(settings.sampling.file.string());
-    json["samples_per_pixel"] = settings.gather.samples_per_pixel;
-    json["strata"] = settings.gather.strata_or_auto();
-    json["preview"] = settings.gather.interleave > 1;
-    json["passes"] = report.passes;
-    json["pass_spp"] = pass_list_text(report.pass_samples);
-    json["relative_error"] = report.error ? nlohmann::ordered_json(*report.error) : nullptr;
-    json["relative_error_asked"] = settings.error ? nlohmann::ordered_json(*settings.error) : nullptr;
-    json["vpls"] = {
-        {"requested", settings.sampling.vpl_count},  {"set", settings.sampling.set_count_or_auto()},
-        {"close", report.totals.close_vpls},         {"distant", report.totals.distant_vpls},
-        {"sparse", report.totals.sparse_vpls},       {"candidates", report.totals.candidates},
-        {"local_lights", report.totals.local_lights}};
-    json["close_fraction"] = report.close_fraction;
-    json["range"] = report.range;
-    json["clamp_radius"] = report.ray_budget.clamp_radius;
-    json["rays_per_pixel"] = settings.gather.rays_per_pixel;
-    json["direct_samples_per_pixel"] = report.ray_budget.light_samples_per_pixel;
-    json["compensate"] = settings.gather.compensate;
-    json["glass"] = glass_name(scene.clear_glass);
-    json["max_depth"] = report.max_depth;
-    json["filter"] = to_string(report.filter);
-    json["seed"] = settings.seed;
-    json["bvh"] = to_string(bvh);
-    json["cuts"] = settings.sampling.cuts;
-    json["roulette"] = settings.gather.roulette;
-    json["denoiser"] = picture.denoiser();
-    json["device"] = nlohmann::ordered_json::array();
-    json["device_shares"] = nlohmann::ordered_json::array();
-    for (const BandShare& share : report.shares) {
-        json["device"].push_back(share.name);
-        json["device_shares"].push_back({{"device", share.name},
-                                         {"bands", share.bands},
-                                         {"share", share_of(share, report.shares)},
-                                         {"seconds", share.seconds},
-                                         {"failed", share.failed}});
-    }
-    json["compute_units"] = nlohmann::ordered_json::array();
-    json["tunables"] = nlohmann::ordered_json::array();
-    for (const auto& device : devices) {
-        json["compute_units"].push_back(device->entry().compute_units);
-        json["tunables"].push_back({{"device", device->entry().label()}});
-        json["tunables"].back().update(to_json(device->chosen_tunables()));
-    }
-    json["seconds"] = {{"load", load_seconds},
-                       {"build_bvh", report.seconds.build_bvh},
-                       {"compile", report.seconds.compile},
-                       {"upload", report.seconds.upload},
-                       {"generate", report.seconds.generate},
-                       {"gather", report.seconds.gather},
-                       {"first_rows", first_rows.seconds},
-                       {"denoise", picture.denoising_seconds()},
-                       {"mattes", picture.matte_seconds()},
-                       {"total", load_seconds + report.seconds.total + picture.denoising_seconds() +
-                                     picture.matte_seconds()}};
-    json["processor_seconds"] = {{"first_rows", first_rows.processor_seconds}};
+    add_passes(json, facts.settings, report);
+    add_vpls(json, facts.settings, report);
+    add_method(json, facts);
+    add_devices(json, facts);
+    add_seconds(json, facts);
     json["peak_bytes"] = {{"host", peak_host_bytes()}, {"device", report.device_bytes}};
-    json["outputs"] = outputs;
+    json["outputs"] = facts.outputs;
     json["image_hash"] = hex_digits(report.image_hash);
     json["interrupted"] = report.interrupted;
     return json;

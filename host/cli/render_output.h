@@ -31,12 +31,21 @@ struct FirstRows {
     void note(const Stopwatch& since_begin);
 };
 
+/// What the object of `render --json` is made of.
+struct RenderFacts {
+    const SceneOptions& scene;
+    const std::vector<std::string>& outputs;
+    const RenderSettings& settings;
+    BvhQuality bvh;
+    const RenderReport& report;
+    const RenderedPicture& picture;
+    double load_seconds;
+    const FirstRows& first_rows;
+    const std::vector<std::unique_ptr<Device>>& devices;
+};
+
 /// The object that `render --json` prints.
-nlohmann::ordered_json render_json(const SceneOptions& scene, const std::vector<std::string>& outputs,
-                                   const RenderSettings& settings, BvhQuality bvh, const RenderReport& report,
-                                   const RenderedPicture& picture, double load_seconds,
-                                   const FirstRows& first_rows,
-                                   const std::vector<std::unique_ptr<Device>>& devices);
+nlohmann::ordered_json render_json(const RenderFacts& facts);
 
 /// Logs the share of the picture that each device made, if there were several.
 void tell_shares(const RenderReport& report);

@@ -157,9 +157,15 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
 nlohmann::ordered_json json_of(const RenderRun& run, const RenderReport& report, const RowSinks& sinks,
                                bool has_checkpoint) {
     const RenderOptions& options = run.options;
-    nlohmann::ordered_json json =
-        render_json(options.scene, options.picture.outputs, run.settings, options.session.bvh_quality, report,
-                    sinks.picture, run.load_seconds, sinks.first_rows, run.devices);
+    nlohmann::ordered_json json = render_json({.scene = options.scene,
+                                               .outputs = options.picture.outputs,
+                                               .settings = run.settings,
+                                               .bvh = options.session.bvh_quality,
+                                               .report = report,
+                                               .picture = sinks.picture,
+                                               .load_seconds = run.load_seconds,
+                                               .first_rows = sinks.first_rows,
+                                               .devices = run.devices});
     json["first_pass"] = options.checkpoint.first_pass;
     json["checkpoint"] = has_checkpoint ? nlohmann::ordered_json(options.checkpoint.file.string()) : nullptr;
     if (run.frame) {
