@@ -28,7 +28,7 @@
 #include "lib/gather.cl"
 #include "lib/wide_traverse.cl"
 
-#define BEAMS_PER_BUNDLE (BUNDLE_SIZE / GATHER_BEAM_WIDTH)
+#define BEAMS_PER_BUNDLE (BUNDLE_RECEIVERS / GATHER_BEAM_WIDTH)
 
 typedef struct Accumulator {
     float16 r[GATHER_ROWS], g[GATHER_ROWS], b[GATHER_ROWS];

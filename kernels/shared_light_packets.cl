@@ -79,7 +79,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void shared_light_packets(
         for (uint i = 0; i < length * BUNDLE_WORDS; ++i) {
             seen_by[list * BUNDLE_WORDS + i] = 0;
         }
-        for (uint first = 0; length > 0 && first < BUNDLE_SIZE; first += GATHER_BEAM_WIDTH) {
+        for (uint first = 0; length > 0 && first < BUNDLE_RECEIVERS; first += GATHER_BEAM_WIDTH) {
             gather_receivers(&beam, &bounds, receivers, &bundle, first);
             find_sharing_lanes(sharing, receivers, &bundle, first, beam.order, max_edges);
             for (uint i = 0; i < length; ++i) {

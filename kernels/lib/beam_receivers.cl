@@ -9,9 +9,8 @@
 
 // GATHER_BEAM_WIDTH receivers go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They
 // form 16 clusters, each of neighbouring lanes of one row.
-#define BUNDLE_SIZE (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
 #ifndef GATHER_BEAM_WIDTH
-#define GATHER_BEAM_WIDTH BUNDLE_SIZE
+#define GATHER_BEAM_WIDTH BUNDLE_RECEIVERS
 #endif
 #define GATHER_ROWS (GATHER_BEAM_WIDTH / 16)
 #define CLUSTERS 16

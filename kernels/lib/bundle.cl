@@ -7,6 +7,8 @@
 #include "lib/random.cl"
 #include "shared/types.h"
 
+#define BUNDLE_RECEIVERS (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
+
 /// `count` packets that follow one another, from `first` on. The bundle is empty where `count` is 0.
 typedef struct Bundle {
     uint first, count;

@@ -8,7 +8,6 @@
 #include "lib/vpl.cl"
 #include "shared/shared_light.h"
 
-#define BUNDLE_RECEIVERS (NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE)
 #define BUNDLE_WORDS (BUNDLE_RECEIVERS / 32)  // of a mask with one bit for each receiver of a bundle
 
 /// Light over so many edges is too weak for a few edges more or less to matter.
