@@ -29,12 +29,6 @@ static inline float segment_transmission(const global float* curves, const globa
            curve_value(curves, curve, -dot(normal, direction));
 }
 
-static inline void store_irradiance(global IrradiancePacket* to, uint lane, float3 sum) {
-    to->r[lane] = sum.x;
-    to->g[lane] = sum.y;
-    to->b[lane] = sum.z;
-}
-
 /// One work-item gathers one receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
 /// thresholds, strata and launches are those of gather_packets.
 kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,

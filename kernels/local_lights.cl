@@ -212,8 +212,5 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         sum += load3(lights[slot].power) *
                (M_1_PI_F * part * transmission * local_geometry(&scene, &receiver, &light, radius));
     }
-    global IrradiancePacket* out = irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE;
-    out->r[lane] += sum.x;
-    out->g[lane] += sum.y;
-    out->b[lane] += sum.z;
+    add_irradiance_to(irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE, lane, sum);
 }

@@ -15,12 +15,6 @@
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
 
-static inline void store_light(global IrradiancePacket* packet, uint lane, float3 light) {
-    packet->r[lane] = light.x;
-    packet->g[lane] = light.y;
-    packet->b[lane] = light.z;
-}
-
 kernel void receiver_paths(
     SCENE_PARAMETERS, VEIL_PARAMETERS, const global ReceiverPacket* restrict receivers, uint packet_count,
     uint light_samples, uint path_count, uint max_edges, float clamp_radius, uint seed, uint shares,
@@ -69,8 +63,8 @@ kernel void receiver_paths(
                                         : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
         light = received_light(&scene, &at, &limits, random_uint4(key), &finds);
     }
-    store_light(direct + packet, lane, light.direct);
-    store_light(indirect + packet, lane, light.indirect);
+    store_irradiance(direct + packet, lane, light.direct);
+    store_irradiance(indirect + packet, lane, light.indirect);
     if (shares & NEARLIGHT_SHARES_NEAR) {
         found_near[index] = kept_light(&finds.near);
     }

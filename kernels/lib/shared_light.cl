@@ -101,13 +101,6 @@ static inline SharedConnection connect_shared(const global SharedLight* light, f
     return c;
 }
 
-/// Adds to what a receiver of the packet gets.
-static inline void add_irradiance_to(global IrradiancePacket* packet, uint lane, float3 more) {
-    packet->r[lane] += more.x;
-    packet->g[lane] += more.y;
-    packet->b[lane] += more.z;
-}
-
 /// What turns the radiance of a listed light into irradiance per geometry term: 1/probability of the draw
 /// over the density of all rays of the bundle, of which `sum` is the sum of the geometry terms of all
 /// receivers that see the light.

@@ -66,4 +66,17 @@ static inline uint receiver_sample(const global ReceiverPacket* packet, uint lan
     return packet->surface[lane] >> NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
 }
 
+/// Sets what a receiver of the packet gets.
+static inline void store_irradiance(global IrradiancePacket* packet, uint lane, float3 irradiance) {
+    packet->r[lane] = irradiance.x;
+    packet->g[lane] = irradiance.y;
+    packet->b[lane] = irradiance.z;
+}
+/// Adds to what a receiver of the packet gets.
+static inline void add_irradiance_to(global IrradiancePacket* packet, uint lane, float3 more) {
+    packet->r[lane] += more.x;
+    packet->g[lane] += more.y;
+    packet->b[lane] += more.z;
+}
+
 #endif

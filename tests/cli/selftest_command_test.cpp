@@ -45,9 +45,10 @@ TEST(Selftest, ABrokenKernelFailsItsCheckAndNoOther) {
     std::filesystem::copy(std::filesystem::path(NEARLIGHT_SOURCE_DIR) / "kernels", kernels,
                           std::filesystem::copy_options::recursive);
     std::string text = file_text(kernels / "receiver_paths.cl");
-    const std::string right = "store_light(direct + packet, lane, light.direct);";
+    const std::string right = "store_irradiance(direct + packet, lane, light.direct);";
     ASSERT_NE(text.find(right), std::string::npos);
-    text.replace(text.find(right), right.size(), "store_light(direct + packet, lane, 1.05f * light.direct);");
+    text.replace(text.find(right), right.size(),
+                 "store_irradiance(direct + packet, lane, 1.05f * light.direct);");
     std::ofstream(kernels / "receiver_paths.cl") << text;
     std::ofstream(kernels / "ray_caster.cl") << "this is no kernel";
 
