@@ -76,7 +76,7 @@ kernel void shared_light_gather(const global ReceiverPacket* restrict receivers,
     const uint first = bundle * NEARLIGHT_SHARED_LIST;
     float3 sum = (float3)(0.0f);
     for (uint entry = first; entry < first + lengths[bundle]; ++entry) {
-        if ((seen_by[entry * BUNDLE_WORDS + place / 32] >> place % 32 & 1) != 0) {
+        if (is_seen_by(seen_by + entry * BUNDLE_WORDS, place)) {
             const global SharedLight* light = found + listed[entry];
             const SharedConnection c = connect_shared(light, x, n, clamp_radius_squared);
             const float transmission =

@@ -54,7 +54,7 @@ static inline void reflect_to_all(const SceneView* scene, const ReflectionEntry*
     to->of_places = to->of_paths = 0.0f;
     for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
         to->irradiance[lane] = (float3)(0.0f);
-        if ((entry->seen_by[lane / 32] >> lane % 32 & 1) == 0) {
+        if (!is_seen_by(entry->seen_by, lane)) {
             continue;
         }
         const global ReceiverPacket* packet = entry->packets + lane / NEARLIGHT_PACKET_SIZE;

@@ -79,17 +79,17 @@ typedef struct SkyLight {
     float3 reflected;  // radiance that the surface seen reflects towards the camera by S
 } SkyLight;
 
-/// Sums the listed lights whose bits are set in the word of `seen_by` that has the receiver, at `shift`.
+/// Sums the listed lights that the receiver sees, which is at `place` in its bundle.
 static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at,
                                const global SharedLight* found, const global uint* listed,
                                const global float* factors, uint length, const global uint* seen_by,
-                               uint shift) {
+                               uint place) {
     SkyLight sum;
     sum.irradiance = sum.reflected = (float3)(0.0f);
     SurfaceBsdf surface;
     bool is_resolved = false;
     for (uint entry = 0; entry < length; ++entry) {
-        if ((seen_by[entry * BUNDLE_WORDS] >> shift & 1) == 0) {
+        if (!is_seen_by(seen_by + entry * BUNDLE_WORDS, place)) {
             continue;
         }
         const global SharedLight* light = found + listed[entry];
@@ -148,7 +148,7 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
     at.seen_rays = (float)seen_rays;
     at.seen_samples = has_seen ? (float)seen[receiver].light_samples : 0.0f;
     const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first,
-                                   lengths[bundle], seen_by + first * BUNDLE_WORDS + place / 32, place % 32);
+                                   lengths[bundle], seen_by + first * BUNDLE_WORDS, place);
     add_irradiance_to(irradiance + packet, lane, light.irradiance);
     if (at.seen_samples > 0.0f) {
         vertices[receiver].emitted = store3(load3(vertices[receiver].emitted) + light.reflected);

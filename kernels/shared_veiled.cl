@@ -33,7 +33,7 @@ static inline void light_all(const SceneView* scene, const SceneView* veils,
     to->past_solids = to->past_veils = 0.0f;
     for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
         to->irradiance[lane] = (float3)(0.0f);
-        if ((seen_by[lane / 32] >> lane % 32 & 1) == 0) {
+        if (!is_seen_by(seen_by, lane)) {
             continue;
         }
         const global ReceiverPacket* packet = packets + lane / NEARLIGHT_PACKET_SIZE;

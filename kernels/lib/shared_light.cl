@@ -101,6 +101,11 @@ static inline SharedConnection connect_shared(const global SharedLight* light, f
     return c;
 }
 
+/// Whether a receiver of the bundle sees a light, of which `seen_by` has the BUNDLE_WORDS words of bits.
+static inline bool is_seen_by(const global uint* seen_by, uint receiver) {
+    return (seen_by[receiver / 32] >> receiver % 32 & 1) != 0;
+}
+
 /// What turns the radiance of a listed light into irradiance per geometry term: 1/probability of the draw
 /// over the density of all rays of the bundle, of which `sum` is the sum of the geometry terms of all
 /// receivers that see the light.
