@@ -114,17 +114,22 @@ typedef struct CutSource {
     float clamp_radius_squared;
 } CutSource;
 
+/// The entry for a node or a VPL.
+static inline CutEntry cut_entry(const CutSource* source, uint place, const Emission* emission) {
+    CutEntry entry;
+    entry.place = place;
+    entry.bound =
+        emission->power > 0.0f ? cut_bound(&source->clusters, emission, source->clamp_radius_squared) : 0.0f;
+    return entry;
+}
+
 /// The entry for child `k` of the node at `place`.
 static inline CutEntry child_entry(const CutSource* source, uint place, uint k) {
     const uint child = (source->nodes[place].children >> 4) + k;
     const bool is_vpl = place < source->leaf_count;
     const Emission emission =
         is_vpl ? emission_of_vpl(source->vpls + child) : emission_of_node(source->nodes + child);
-    CutEntry entry;
-    entry.place = is_vpl ? child | NEARLIGHT_CUT_VPL : child;
-    entry.bound =
-        emission.power > 0.0f ? cut_bound(&source->clusters, &emission, source->clamp_radius_squared) : 0.0f;
-    return entry;
+    return cut_entry(source, is_vpl ? child | NEARLIGHT_CUT_VPL : child, &emission);
 }
 
 static inline uint child_count(const CutSource* source, uint place) {
@@ -300,11 +305,7 @@ kernel void cut_choose(const global Vpl* vpls, const global CutNode* nodes,
     uint count = 0;
     for (uint i = params.first_root; i < params.first_root + params.root_count; ++i) {
         const Emission emission = emission_of_node(nodes + i);
-        CutEntry root;
-        root.place = i;
-        root.bound = emission.power > 0.0f
-                         ? cut_bound(&source.clusters, &emission, params.clamp_radius_squared)
-                         : 0.0f;
+        const CutEntry root = cut_entry(&source, i, &emission);
         if (root.bound > 0.0f) {
             cut[count++] = root;
         }
