@@ -82,7 +82,24 @@ static inline void record_open(global uchar* record, uint vpl, uint vpl_count, c
         }
     }
 }
+#define RECORD_OPEN(vpl, params, bundle, first, order, segments, before) \
+    record_open(record, vpl, (params)->vpl_count, bundle, first, order, segments, before)
+#else
+#define RECORD_OPEN(vpl, params, bundle, first, order, segments, before)
 #endif
+
+/// Loads the receivers of a bundle from `first` on, with what else the launch asks of them.
+static inline void load_beam(Receivers* receivers, BeamBounds* bounds, const global ReceiverPacket* packets,
+                             const Bundle* bundle, uint first, const GatherParams* params,
+                             const global float* thresholds) {
+    gather_receivers(receivers, bounds, packets, bundle, first);
+    if (params->has_thresholds) {
+        load_thresholds(receivers, thresholds, bundle, first);
+    }
+    if (params->has_curves) {
+        load_curves(receivers, packets, bundle, first);
+    }
+}
 
 /// Gathers the beams of the bundles [first_bundle, end_bundle) from the VPLs [first_vpl, end_vpl). Work-items
 /// take one beam after another from a queue until none is left; `next_beam` is the number of the next one and
@@ -121,13 +138,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
         if (first / NEARLIGHT_PACKET_SIZE >= bundle.count) {
             continue;
         }
-        gather_receivers(&receivers, &bounds, packets, &bundle, first);
-        if (params.has_thresholds) {
-            load_thresholds(&receivers, thresholds, &bundle, first);
-        }
-        if (params.has_curves) {
-            load_curves(&receivers, packets, &bundle, first);
-        }
+        load_beam(&receivers, &bounds, packets, &bundle, first, &params, thresholds);
         const Stratum stratum = gather_stratum(index, &params, strata);
         const uint end = min(params.end_vpl, GATHER_COUNT(index, &params, &stratum));
         for (uint chunk = params.first_vpl; chunk < end || chunk == 0; chunk += chunk_size) {
@@ -143,13 +154,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
                 if (params.has_thresholds) {
                     leave_out_small(&segments, &receivers, gather_square_scale(vpls + i, scale));
                 }
-#ifdef GATHER_RECORD
-                record_open(record, i, params.vpl_count, &bundle, first, receivers.order, &segments, true);
-#endif
+                RECORD_OPEN(i, &params, &bundle, first, receivers.order, &segments, true);
                 trace_segments(&segments, &bounds, nodes, blocks);
-#ifdef GATHER_RECORD
-                record_open(record, i, params.vpl_count, &bundle, first, receivers.order, &segments, false);
-#endif
+                RECORD_OPEN(i, &params, &bundle, first, receivers.order, &segments, false);
                 if (params.has_curves) {
                     weigh_by_curves(&segments, vpls + i, &receivers, curves);
                 }

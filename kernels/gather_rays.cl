@@ -29,6 +29,17 @@ static inline float segment_transmission(const global float* curves, const globa
            curve_value(curves, curve, -dot(normal, direction));
 }
 
+/// The geometry term of a VPL and a receiver, or 0 if the pair is left out whatever stands between: because
+/// one of them faces away, a map hides the VPL's surface from there, or its light, which is `scale` times the
+/// term, would be below the threshold when squared.
+static inline float open_term(const global Vpl* vpl, float3 segment, float3 normal, float3 scale,
+                              float clamp_radius_squared, float threshold) {
+    const float term = geometry_term(segment, load3(vpl->normal), normal, clamp_radius_squared);
+    const bool seen = !is_tilted(vpl) || dot(seen_normal(vpl), segment) > 0.0f;
+    const bool open = term > 0.0f && seen && !(term * term * gather_square_scale(vpl, scale) < threshold);
+    return open ? term : 0.0f;
+}
+
 /// One work-item gathers one receiver of the bundles [first_bundle, end_bundle). Parameters, chunks, groups,
 /// thresholds, strata and launches are those of gather_packets.
 kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
@@ -64,14 +75,10 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const global Vpl* vpl = vpls + i;
             const float3 origin = load3(vpl->position);
             const float3 segment = position - origin;
-            const float term =
-                geometry_term(segment, load3(vpl->normal), normal, params.clamp_radius_squared);
             const float3 scale = gather_scale(vpl) * GATHER_WEIGHT(index, &params, &stratum, k);
-            const bool seen = !is_tilted(vpl) || dot(seen_normal(vpl), segment) > 0.0f;
-            const bool open =
-                term > 0.0f && seen && !(term * term * gather_square_scale(vpl, scale) < threshold);
-            const bool visible = open && !occluded(nodes, triangles, origin, segment, NEARLIGHT_SEGMENT_T_MIN,
-                                                   NEARLIGHT_SEGMENT_T_MAX);
+            const float term = open_term(vpl, segment, normal, scale, params.clamp_radius_squared, threshold);
+            const bool visible = term > 0.0f && !occluded(nodes, triangles, origin, segment,
+                                                          NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
             const float weight = !visible ? 0.0f
                                  : params.has_curves
                                      ? term * segment_transmission(curves, vpl, normal, curve, segment)
@@ -79,10 +86,10 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             sum += scale * (gather_squared(vpl) ? weight * weight : weight);
             squares += scale * scale * (weight * weight);
 #ifdef GATHER_RECORD
-            record[gather_record_index(packet, i, params.vpl_count, lane)] = !open ? 0
-                                                                             : visible
-                                                                                 ? GATHER_RECORD_VISIBLE
-                                                                                 : GATHER_RECORD_OCCLUDED;
+            record[gather_record_index(packet, i, params.vpl_count, lane)] = visible ? GATHER_RECORD_VISIBLE
+                                                                             : term > 0.0f
+                                                                                 ? GATHER_RECORD_OCCLUDED
+                                                                                 : 0;
 #endif
         }
         total += params.group_size != 0 ? squares : sum;
