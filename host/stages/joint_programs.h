@@ -8,8 +8,6 @@ namespace nearlight::core {
 
 /// The stages that make receivers and turn them into a picture.
 inline constexpr JointProgram kViewProgram{"joint/view.cl"};
-/// The stages that trace walks through the scene.
-inline constexpr JointProgram kWalksProgram{"joint/walks.cl"};
 /// The small stages that every sampler draws on.
 inline constexpr JointProgram kVplsProgram{"joint/vpls.cl"};
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "host/base/random.h"
-#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 namespace {
@@ -15,7 +14,7 @@ constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
 
 LightTracer::LightTracer(Device& device)
     : device_(&device),
-      program_(device, "light_tracer.cl", kWalksProgram),
+      program_(device, "light_tracer.cl"),
       light_tracer_(program_, "light_tracer"),
       compaction_(device) {}
 

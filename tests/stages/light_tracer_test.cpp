@@ -10,7 +10,6 @@
 
 #include "host/scene/camera.h"
 #include "host/stages/close_range.h"
-#include "host/stages/joint_programs.h"
 #include "tests/stages/traced_walks.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
@@ -229,7 +228,7 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
     on_each_ray_tree([&](Device& device) {
         const SceneOnDevice on_device(device, scene);
         const CloseRegion region = make_region(device, on_device.buffers, {}, 0);
-        const Program program(device, "light_tracer.cl", kWalksProgram);
+        const Program program(device, "light_tracer.cl");
         Kernel kernel(program, "light_tracer");
         const auto run = [&](uint first, uint count) {
             Buffer<Vpl> vpls(device, std::size_t{count} * kBounces);
