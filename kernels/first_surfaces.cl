@@ -16,7 +16,7 @@ static inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, cons
                              uint step) {
     const uint model = scene->materials[hit->material].model;
     if ((model < NEARLIGHT_BSDF_MASK && model != NEARLIGHT_BSDF_NULL) ||
-        max_component(emitted_radiance(scene, hit, start->ray.direction)) > 0.0f) {
+        max_component(emitted_radiance(scene, hit)) > 0.0f) {
         return false;
     }
     const float u = to_unit_float(surface_random(start->key, step).x);

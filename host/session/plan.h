@@ -10,7 +10,6 @@
 
 #include "host/cl/device.h"
 #include "host/stages/camera_pass.h"
-#include "kernels/shared/shared_light.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::core {
@@ -46,11 +45,6 @@ struct RenderPlan {
     /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets() const;
 };
-
-/// The bytes that one receiver takes in all buffers of a batch.
-inline constexpr std::size_t kBytesPerReceiver =
-    (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex) +
-    sizeof(SharedLight);
 
 /// What a plan divides.
 struct PictureSize {

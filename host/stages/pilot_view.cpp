@@ -123,15 +123,14 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     view.device = &device;
     view.packet_count = static_cast<uint>(packet_count(band, small.width));
     view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
-    view.vertices = Buffer<CameraVertex>(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
+    Buffer<CameraVertex> vertices(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
     const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, view.receivers,
-                    view.vertices);
+    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, view.receivers, vertices);
     const std::vector<ReceiverPacket> packets = view.receivers.download();
     view.distances = receiver_distances(packets, small.origin);
-    set_importons(device, view, make_importons(packets, view.vertices.download()));
+    set_importons(device, view, make_importons(packets, vertices.download()));
     return view;
 }
 

@@ -35,7 +35,6 @@ struct ImportonGroups {
 struct PilotView {
     const Device* device = nullptr;  ///< the device that all buffers are on
     Buffer<ReceiverPacket> receivers;
-    Buffer<CameraVertex> vertices;
     uint packet_count = 0;
     Importons importons;
     Importons few_squared_importons;  ///< few of the importons, evenly spread, for rough mean squares

@@ -143,7 +143,7 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
         }
         return met;
     }
-    met.radiance = emitted_radiance(scene, hit, ray->direction);
+    met.radiance = emitted_radiance(scene, hit);
     if (!is_black(met.radiance) && shares_met_light(ray)) {
         SurfaceHit seen = *hit;
         seen.t += ray->passed;

@@ -39,7 +39,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, 
     const LightSample light = sample_light(&scene, x, n, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
     const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
     const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
-                                      : emitted_radiance(&scene, &hit, light.direction);
+                                      : emitted_radiance(&scene, &hit);
     out[i] = (float4)(light.pdf, light_pdf(&scene, x, n, light.direction, &hit), found.y / light_radiance(&scene, &light).y,
                       may_shine(&light) ? (float)light_is_visible(&scene, x, &light) : 0.0f);
 }
@@ -79,7 +79,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
         const SurfaceHit hit = trace_surface(&scene, x, direction, INFINITY);
         const float3 found = hit.t < 0.0f ? environment_radiance(&scene, direction)
-                                          : emitted_radiance(&scene, &hit, direction);
+                                          : emitted_radiance(&scene, &hit);
         const float own = (float)rays * dot(n, direction) * M_1_PI_F;
         const float other = (float)light_samples * light_pdf(&scene, x, n, direction, &hit);
         sum += found * (M_PI_F / (float)rays * own / (own + other));

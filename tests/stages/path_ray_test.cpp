@@ -113,7 +113,7 @@ kernel void probe(SCENE_PARAMETERS, float pdf, global float* out) {
     PathRay ray = first_ray((float3)(0.0f, 0.0f, 1.0f));
     begin_ray(&ray, (float3)(0.1001f, 0.2002f, 0.0f), ray.direction, pdf);
     SurfaceHit hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
-    while (hit.t > 0.0f && is_black(emitted_radiance(&scene, &hit, ray.direction))) {
+    while (hit.t > 0.0f && is_black(emitted_radiance(&scene, &hit))) {
         const SurfaceBsdf veil = surface_bsdf(&scene, &hit, ray.direction, BSDF_RADIANCE, 0.5f);
         scatter_ray(&scene, &ray, &hit, &veil, BSDF_D | BSDF_S, 0.5f, (float2)(0.5f, 0.5f));
         hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);

@@ -38,8 +38,7 @@ static inline float triangle_area(const SceneView* scene, uint triangle_id) {
 }
 
 /// Radiance that a surface sends back along a ray that met it. Only the front emits.
-static inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
-    (void)direction;  // emission is alike in all directions
+static inline float3 emitted_radiance(const SceneView* scene, const SurfaceHit* hit) {
     return hit->front ? look_up(scene, &scene->materials[hit->material].emission, hit).color : (float3)(0.0f);
 }
 
@@ -70,7 +69,6 @@ static inline float2 met_barycentrics(const Corner* corner, float3 x, float3 dir
 typedef struct TriangleSample {
     float3 direction;     // unit
     float2 barycentrics;  // weights of v1 and v2
-    float3 normal;        // unit normal of the front
     float pdf;            // per steradian; 0 where x does not lie in front
 } TriangleSample;
 
@@ -79,7 +77,7 @@ static inline TriangleSample sample_triangle(const SceneView* scene, uint triang
     const float3 across = cross(corner.edge1, corner.edge2);
     const float double_area = length(across);
     TriangleSample sample;
-    sample.normal = across / double_area;
+    const float3 normal = across / double_area;
     const SphericalTriangle seen = seen_triangle(corner.origin, corner.edge1, corner.edge2, x);
     if (seen.solid_angle >= MIN_SOLID_ANGLE) {
         sample.direction = sample_spherical_triangle(&seen, u);
@@ -91,8 +89,8 @@ static inline TriangleSample sample_triangle(const SceneView* scene, uint triang
     const float3 to_point =
         corner.origin + sample.barycentrics.x * corner.edge1 + sample.barycentrics.y * corner.edge2 - x;
     const float squared = dot(to_point, to_point);
-    sample.direction = squared > 0.0f ? to_point * rsqrt(squared) : -sample.normal;
-    const float cosine = -dot(sample.normal, sample.direction);
+    sample.direction = squared > 0.0f ? to_point * rsqrt(squared) : -normal;
+    const float cosine = -dot(normal, sample.direction);
     sample.pdf = cosine > 0.0f && double_area > 0.0f ? 2.0f * squared / (cosine * double_area) : 0.0f;
     return sample;
 }
