@@ -77,8 +77,11 @@ static inline void record_open(global uchar* record, uint vpl, uint vpl_count, c
         const bool open = (s->lanes[i / 16] >> i % 16 & 1) != 0;
         if (packet < bundle->count) {
             global uchar* pair = record + gather_record_index(bundle->first + packet, vpl, vpl_count, lane);
-            *pair = before ? (open ? GATHER_RECORD_VISIBLE : 0)
-                           : (*pair != 0 && !open ? GATHER_RECORD_OCCLUDED : *pair);
+            if (before) {
+                *pair = open ? NEARLIGHT_PAIR_VISIBLE : NEARLIGHT_PAIR_CULLED;
+            } else if (*pair == NEARLIGHT_PAIR_VISIBLE && !open) {
+                *pair = NEARLIGHT_PAIR_OCCLUDED;
+            }
         }
     }
 }

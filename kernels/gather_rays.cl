@@ -86,10 +86,9 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             sum += scale * (gather_squared(vpl) ? weight * weight : weight);
             squares += scale * scale * (weight * weight);
 #ifdef GATHER_RECORD
-            record[gather_record_index(packet, i, params.vpl_count, lane)] = visible ? GATHER_RECORD_VISIBLE
-                                                                             : term > 0.0f
-                                                                                 ? GATHER_RECORD_OCCLUDED
-                                                                                 : 0;
+            const uchar traced = visible ? NEARLIGHT_PAIR_VISIBLE : NEARLIGHT_PAIR_OCCLUDED;
+            record[gather_record_index(packet, i, params.vpl_count, lane)] =
+                term > 0.0f ? traced : NEARLIGHT_PAIR_CULLED;
 #endif
         }
         total += params.group_size != 0 ? squares : sum;

@@ -18,11 +18,6 @@
 #include "lib/light_walk.cl"
 #include "lib/random.cl"
 
-// Which deposits in the close range a policy keeps (docs/method.md).
-#define KEEP_ALL 0u              // complete, and samplers without a close range
-#define KEEP_INDIRECT_INSIDE 1u  // partition: inside the close range, depth 2 and more
-#define KEEP_OUTSIDE 2u          // paper: nothing inside the close range
-
 /// Whether patches supply the direct light at this point: its triangle was selected and, where the policy
 /// decides point by point, the point itself lies in the region.
 static inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
@@ -55,7 +50,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
                                              sample_2d(walk, 2, seed));
     float launched = (float)all_walks;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        const float2 choice = sample_2d(walk, 3 + WALK_PAIRS_PER_STEP * bounce, seed);
+        const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce;
+        const float2 choice = sample_2d(walk, pair, seed);
         Landing at;
         if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) ||
             !land(&scene, &particle, choice.x, &at)) {
@@ -64,14 +60,14 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         const float3 reflected = reflected_flux(&scene, &particle, &at);
         const bool is_close =
             is_close_surface(close_range, close_triangles, whole_triangles, at.hit.triangle, at.hit.position);
-        const bool kept = keep == KEEP_ALL || !is_close || (keep == KEEP_INDIRECT_INSIDE && bounce > 0);
+        const bool kept =
+            keep == NEARLIGHT_KEEP_ALL || !is_close || (keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
         if (kept && !is_black(reflected)) {
             vpls[index * bounce_count + bounce] = make_deposit(
                 &scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
             flags[index * bounce_count + bounce] = 1;
         }
         launched *= survival(&scene, &particle, &at, min_survival, max_survival);
-        scatter(&scene, &particle, &at, &aim, choice.y,
-                sample_2d(walk, 4 + WALK_PAIRS_PER_STEP * bounce, seed));
+        scatter(&scene, &particle, &at, &aim, choice.y, sample_2d(walk, pair + 1, seed));
     }
 }

@@ -4,9 +4,9 @@
 // Algorithm, 2002].
 //
 // A state is a point of the unit cube, in pairs of numbers: (depth, choice of light), position and direction
-// on the light, then WALK_PAIRS_PER_STEP pairs for each surface. It stands for one VPL: the deposit of that
-// walk at that depth, with its flux divided by the probability of the depth. Pair p of state i lies at p ·
-// count + i. Pairs of bounces beyond the state's depth are unused.
+// on the light, then NEARLIGHT_WALK_PAIRS_PER_STEP pairs for each surface. It stands for one VPL: the deposit
+// of that walk at that depth, with its flux divided by the probability of the depth. Pair p of state i lies
+// at p · count + i. Pairs of bounces beyond the state's depth are unused.
 //
 // - metropolis_seeds: writes the numbers of independent states, by index into a randomised sequence.
 // - metropolis_walks: turns numbers into VPLs, of power 0 and without a normal where the walk does not get
@@ -57,7 +57,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
     Landing at;
     float3 reflected = (float3)(0.0f);
     for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {
-        const uint pair = 3 + WALK_PAIRS_PER_STEP * step;
+        const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * step;
         const float2 choice = numbers[pair * count + index];
         if (!land(&scene, &particle, choice.x, &at)) {
             break;

@@ -15,6 +15,7 @@
 #include "host/stages/device_tree.h"
 #include "host/stages/vpl_selection.h"
 #include "host/stages/vpl_strata.h"
+#include "kernels/shared/gather_record.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -103,9 +104,9 @@ using GatherProgress = std::function<bool(std::uint64_t done, std::uint64_t tota
 enum class GatherPair : std::uint8_t {
     /// No ray was traced: a cosine is not positive (that of an absent receiver is 0), a value is not finite,
     /// the VPL is not in the bundle's stratum or list, or its light is below the threshold.
-    culled = 0,
-    visible = 1,
-    occluded = 2,
+    culled = NEARLIGHT_PAIR_CULLED,
+    visible = NEARLIGHT_PAIR_VISIBLE,
+    occluded = NEARLIGHT_PAIR_OCCLUDED,
 };
 
 class Gatherer {

@@ -8,12 +8,17 @@
 #include "host/cl/kernel.h"
 #include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
+#include "kernels/shared/light_walk.h"
 #include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {
 
-/// Which deposits in the close range are kept. The values must be those in kernels/light_tracer.cl.
-enum class KeepDeposits : uint { all = 0, indirect_inside = 1, outside = 2 };
+/// Which deposits in the close range are kept.
+enum class KeepDeposits : uint {
+    all = NEARLIGHT_KEEP_ALL,
+    indirect_inside = NEARLIGHT_KEEP_INDIRECT_INSIDE,
+    outside = NEARLIGHT_KEEP_OUTSIDE,
+};
 
 /// The part of the scene whose light close-range VPLs carry.
 struct CloseRegion {

@@ -8,18 +8,10 @@
 #include "host/stages/light_tracer.h"
 
 namespace nearlight::core {
-namespace {
-
-// Pairs of random numbers: three for depth, light, position and direction, then these for each surface
-// (WALK_PAIRS_PER_STEP in kernels/lib/light_walk.cl).
-constexpr uint kPairsOnLight = 3;
-constexpr uint kPairsPerSurface = 2;
-
-}  // namespace
 
 PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_count)
     : count(static_cast<uint>(state_count)),
-      pair_count(kPairsOnLight + kPairsPerSurface * bounce_count),
+      pair_count(NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce_count),
       numbers(device, state_count * pair_count * 2),
       vpls(device, state_count),
       targets(device, state_count) {}

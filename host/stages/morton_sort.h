@@ -6,6 +6,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "host/stages/prefix_scan.h"
+#include "kernels/shared/morton.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -43,7 +44,7 @@ class MortonSort {
                Buffer<uint>& values) {
         const float longest = max_component(box.size());
         codes_kernel_.launch_items(count, elements, codes, values, stride_of<T>(), box.min.x, box.min.y,
-                                   box.min.z, longest > 0.0f ? kCells / longest : 0.0f,
+                                   box.min.z, longest > 0.0f ? NEARLIGHT_MORTON_CELLS / longest : 0.0f,
                                    static_cast<uint>(count));
     }
     /// Sorts the first `count` pairs by key, in ascending order. Pairs of equal keys keep their order.
@@ -53,8 +54,6 @@ class MortonSort {
     [[nodiscard]] std::size_t sort_scratch_bytes(std::size_t count) const;
 
   private:
-    static constexpr float kCells = 1024.0f;  ///< NEARLIGHT_MORTON_CELLS of kernels/lib/morton.cl
-
     struct BoundsRun {
         uint chunk_size, chunk_count;
         std::size_t local_size;

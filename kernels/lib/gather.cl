@@ -8,15 +8,12 @@
 
 #include "lib/bundle.cl"
 #include "lib/math.cl"
+#include "shared/gather_record.h"
 
 #ifndef GATHER_CHUNK
 #define GATHER_CHUNK 256  // VPLs that are summed before the sum is added to the irradiance
 #endif
 
-// The values of the record. A pair that is culled has 0: a cosine is not positive, or the geometry term is
-// not finite.
-#define GATHER_RECORD_VISIBLE 1
-#define GATHER_RECORD_OCCLUDED 2
 #ifdef GATHER_RECORD
 #define GATHER_RECORD_PARAMETERS , global uchar* record
 static inline size_t gather_record_index(uint packet, uint vpl, uint vpl_count, uint lane) {

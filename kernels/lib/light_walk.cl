@@ -13,9 +13,7 @@
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/emission.cl"
 #include "lib/vpl.cl"
-
-/// How many pairs of random numbers a step of a walk takes.
-#define WALK_PAIRS_PER_STEP 2
+#include "shared/light_walk.h"
 
 /// Where a particle landed.
 typedef struct Landing {

@@ -3,7 +3,7 @@
 #ifndef NEARLIGHT_LIB_MORTON
 #define NEARLIGHT_LIB_MORTON
 
-#define NEARLIGHT_MORTON_CELLS 1024.0f  // cells along each axis
+#include "shared/morton.h"
 
 /// The low ten bits of x, with two zero bits before each.
 static inline uint spread_bits(uint x) {
