@@ -5,6 +5,7 @@
 #include "shared/bsdf_query.h"
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"
+#include "shared/light.h"
 #include "shared/light_cut.h"
 #include "shared/packet_order.h"
 #include "shared/shared_light.h"

@@ -6,6 +6,7 @@
 #include "kernels/shared/bsdf_query.h"
 #include "kernels/shared/film_layers.h"
 #include "kernels/shared/layout_facts.h"
+#include "kernels/shared/light.h"
 #include "kernels/shared/light_cut.h"
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/shared_light.h"

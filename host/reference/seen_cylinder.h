@@ -5,6 +5,7 @@
 
 #include "host/reference/bsdf/vec3d.h"
 #include "host/reference/sampling.h"
+#include "kernels/shared/light.h"
 
 namespace nearlight::core {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/reference/sampling.h"
+#include "kernels/shared/light.h"
 
 namespace nearlight::core {
 

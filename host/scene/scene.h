@@ -13,6 +13,7 @@
 
 #include "host/base/math.h"
 #include "host/scene/pixel_filter.h"
+#include "kernels/shared/light.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {

@@ -7,6 +7,7 @@
 #define NEARLIGHT_LIB_SCENE
 
 #include "lib/ray_tree.cl"
+#include "shared/light.h"
 
 #define SCENE_PARAMETERS                                                                                    \
     const global TreeNode *restrict scene_nodes, const global TreeTriangles *restrict scene_tree_triangles, \

@@ -7,7 +7,7 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include bsdf_query.h, film_layers.h, light_cut.h, packet_order.h,
+/// place where it expands must include bsdf_query.h, film_layers.h, light.h, light_cut.h, packet_order.h,
 /// shared_light.h, types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \

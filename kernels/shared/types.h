@@ -100,81 +100,6 @@ typedef struct Triangle {
     uint material;
 } Triangle;
 
-#define NEARLIGHT_EMITTER_POINT 0u
-#define NEARLIGHT_EMITTER_SPOT 1u
-#define NEARLIGHT_EMITTER_TRIANGLE 2u
-#define NEARLIGHT_EMITTER_ENVIRONMENT 3u
-#define NEARLIGHT_EMITTER_DIRECTIONAL 4u
-#define NEARLIGHT_EMITTER_PROJECTOR 5u
-#define NEARLIGHT_EMITTER_SUN 6u
-#define NEARLIGHT_EMITTER_SPHERE 7u
-#define NEARLIGHT_EMITTER_CYLINDER 8u
-
-/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional), then
-/// area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
-/// environment. An entry is chosen with `probability`, in proportion to its emitted power. A sphere or
-/// cylinder is one light, although rays meet the triangles that stand for it.
-///
-/// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
-/// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
-/// image, inside the image only, so that an even image lights a plane across its axis evenly.
-typedef struct Emitter {
-    Vec3 position;  // point, spot and projector; sphere: its centre; cylinder: the middle of one end
-    uint type;
-    Vec3 direction;  // spot, projector, cylinder: unit vector along the axis; directional: that of the light
-    uint triangle;   // area light: index into the triangle array of its first triangle
-    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
-                     // direction, W/m²; area lights, sun: radiance; environment: mean radiance
-    float area;      // area lights: m²; projector: of its image at the distance 1; sun: steradians
-    float probability;
-    float cdf;           // sum of the probabilities up to and including this one
-    float beam_angle;    // spot: full intensity within this angle of the axis, radians
-    float cutoff_angle;  // spot: no light beyond this angle, radians; linear between the two
-    Vec3 x_axis;
-    uint image;  // index of the texture plus 1; 0: none
-    Vec3 y_axis;
-    uint tree_way;        // area light: its way through the tree of lights, lowest bit first; 1: second child
-    float radius;         // sphere, cylinder: m
-    float outer_radius;   // all its triangles lie within this distance of its centre or axis, m
-    float length;         // cylinder: m
-    uint triangle_count;  // area light: triangles that belong to it, from `triangle` on
-} Emitter;
-
-/// A node of the tree of area lights: the bounds of all lights below it. The first child stands behind
-/// its parent.
-typedef struct LightNode {
-    Vec3 low;
-    float power;  // π times the greatest luminous intensity, W: the luminance of a triangle's flux
-    Vec3 high;
-    float cos_spread;  // all fronts face within this angle of the axis
-    Vec3 axis;
-    uint second_child;  // 0: a leaf
-    uint emitter;       // leaf: index into the table of lights
-    uint pad0, pad1, pad2;
-} LightNode;
-#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 32  // bits of Emitter.tree_way
-
-/// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
-/// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
-/// sampled through tables of the row and column distributions. A sun, a disc of even radiance, may stand
-/// before the map.
-typedef struct Environment {
-    float world_to_local[9];  // rotation matrix, row by row
-    uint width, height;       // 0 × 0: no environment
-    float scene_radius;       // radius of the sphere around the scene, m
-    Vec3 scene_center;
-    float sun_height;      // 1 − cosine of the sun's half angle; 0: no sun
-    Vec3 sun_direction;    // unit vector to the sun, in the world
-    float sun_half_chord;  // length of the vector from that one to the rim
-    Vec3 sun_radiance;
-    uint interpolated;  // 1: radiance is interpolated between pixels; 0: it is constant over a pixel
-    uint block_size;    // columns and rows of pixels of a block (lib/light/environment.cl)
-    uint block_columns, block_rows;
-} Environment;
-
-/// Where the table of blocks says that a block has no details: its density is constant.
-#define NEARLIGHT_NO_DETAIL 0xffffffffu
-
 /// Cells of a reconstruction filter's table, from the middle of the pixel to the filter's radius.
 #define NEARLIGHT_FILTER_CELLS 120
 #define NEARLIGHT_FILTER_ENTRIES (NEARLIGHT_FILTER_CELLS + 4)  // one more than cells, and padding
@@ -379,9 +304,6 @@ NEARLIGHT_CHECK_SHARED(Triangle, 16);
 NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
 NEARLIGHT_CHECK_SHARED(Texture, 96);
-NEARLIGHT_CHECK_SHARED(Emitter, 112);
-NEARLIGHT_CHECK_SHARED(LightNode, 64);
-NEARLIGHT_CHECK_SHARED(Environment, 108);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);
 NEARLIGHT_CHECK_SHARED(Importon, 48);
