@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Launches of the stages that follow light with a handful of work-items each, for simulators of devices,
-// which are a million times slower (scripts/oclgrind). One scene has all kinds of lights and most kinds of
-// surfaces. Other tests compare with oracles; these compare the two trees that rays go through, which give
-// the same hits.
-#include <gtest/gtest.h>
-
-#include <cmath>
+// Small launches (small_launches.h) of the stages that follow light.
 #include <numeric>
 
-#include "host/reference/gather_workload.h"
 #include "host/scene/camera.h"
-#include "host/scene/material_model.h"
 #include "host/stages/camera_pass.h"
 #include "host/stages/close_range.h"
 #include "host/stages/film.h"
@@ -24,116 +16,25 @@
 #include "host/stages/receiver_paths.h"
 #include "host/stages/reverse_vpls.h"
 #include "host/stages/roulette.h"
-#include "host/stages/shared_lights.h"
-#include "host/stages/shared_reflections.h"
-#include "host/stages/shared_sky.h"
-#include "host/stages/shared_veiled.h"
 #include "kernels/shared/film_layers.h"
-#include "tests/support/device_fixture.h"
-#include "tests/support/scene_on_device.h"
-#include "tests/support/small_scenes.h"
+#include "tests/stages/small_launches.h"
 
 namespace nearlight::core {
 namespace {
 
 using namespace small_scenes;
+using test::bright_corner;
+using test::few_receivers;
+using test::Numbers;
+using test::numbers_of;
+using test::SmallLaunchesTest;
 
-/// A quad of two triangles that faces the camera, of which the picture shows three in a row.
-void add_panel(Scene& scene, int column, const Material& material) {
-    add_quad(scene, {-0.9f + 0.6f * static_cast<float>(column), -0.6f, 0.8f}, {0, 1.0f, 0}, {0.6f, 0, 0},
-             add_material(scene, material));
-}
-
-/// A room without a front: panels of coats, glass and a masked map before walls, and lights of all kinds.
-Scene bright_corner() {
-    Scene scene;
-    const int bitmap = add_small_bitmap(scene);
-    Material painted = lambertian({0.7f, 0.6f, 0.5f});
-    painted.reflectance.texture = bitmap;
-    add_quad(scene, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, add_material(scene, painted));
-    add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lambertian({0.6f, 0.6f, 0.6f})));
-    Material lamp = lambertian({0, 0, 0});
-    lamp.emission = parameter_of(Vec3{3, 3, 3});
-    add_quad(scene, {-0.2f, 0.9f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}, add_material(scene, lamp));
-    add_panel(scene, 0, principled_material(scene, 1.5));
-    add_panel(scene, 1, dielectric_material(1.5));
-    const uint metal = add_material(scene, conductor_material({0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f}));
-    const uint mapped = add_material(scene, normal_map_material(textured(bitmap), metal));
-    add_panel(scene, 2, mask_material(parameter_of(Vec3{0.5f, 0.5f, 0.5f}), mapped));
-    add_sphere_lamp(scene, {0.6f, 0.4f, 0}, 0.1f, {2, 2, 2});
-    add_cylinder_lamp(scene, {-0.6f, 0.4f, 0}, 90, 0.05f, 0.3f, {2, 2, 2});
-    add_point_light(scene, {0, 0.3f, -0.5f}, {1, 1, 1});
-    add_directional_light(scene, {0.1f, -1, 0.2f}, {1, 1, 1});
-    add_projector(scene, {0, 0.5f, -0.8f}, {0, -1, 0.5f}, 0.3f, 0.3f, {1, 1, 1}, bitmap);
-    scene.environment = patterned_map(4, 2);
-    for (Vertex& vertex : scene.vertices) {
-        vertex.u = vertex.position.x;
-        vertex.v = vertex.position.y + vertex.position.z;
-    }
-    set_camera(scene, {0, 0, -0.9}, {0, -0.2, 1}, 70);
-    return scene;
-}
-
-/// What a check compares between trees: numbers, all of which must be finite, and some of which not 0.
-using Numbers = std::vector<float>;
-
-Numbers numbers_of(const std::vector<IrradiancePacket>& light) {
-    Numbers numbers;
-    for (const IrradiancePacket& packet : light) {
-        numbers.insert(numbers.end(), packet.r, packet.r + 3 * NEARLIGHT_PACKET_SIZE);
-    }
-    return numbers;
-}
 Numbers numbers_of(const std::vector<Vpl>& vpls) {
     Numbers numbers;
     for (const Vpl& vpl : vpls) {
         numbers.insert(numbers.end(), {vpl.position.x, vpl.position.y, vpl.position.z, vpl.power.y});
     }
     return numbers;
-}
-
-Numbers numbers_of(const std::vector<CameraVertex>& vertices) {
-    Numbers numbers;
-    for (const CameraVertex& vertex : vertices) {
-        numbers.push_back(vertex.emitted.y);
-    }
-    return numbers;
-}
-
-class SmallLaunchesTest : public test::DeviceTest {
-  protected:
-    /// Runs `launch(device)` with both trees of single rays.
-    template <typename Launch>
-    void expect_same_of_both_trees(const Launch& launch) {
-        Numbers of_wide_tree;
-        on_each_ray_tree([&](Device& device) {
-            const Numbers found = launch(device);
-            double sum = 0;
-            for (const float number : found) {
-                sum += std::abs(number);
-            }
-            EXPECT_TRUE(std::isfinite(sum));
-            EXPECT_GT(sum, 0);
-            if (device.has_wide_rays()) {
-                of_wide_tree = found;
-            } else if (!of_wide_tree.empty()) {
-                expect_near(found, of_wide_tree);
-            }
-        });
-    }
-
-  private:
-    static void expect_near(const Numbers& found, const Numbers& expected) {
-        ASSERT_EQ(found.size(), expected.size());
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            EXPECT_NEAR(found[i], expected[i], 1e-4f * (1 + std::abs(expected[i]))) << "number " << i;
-        }
-    }
-};
-
-/// One packet of receivers on the scene, or several.
-std::vector<ReceiverPacket> few_receivers(const test::SceneOnDevice& scene, int width, int height) {
-    return make_camera_receivers(scene.scene, scene.bvh, width, height);
 }
 
 TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
@@ -264,51 +165,6 @@ TEST_F(SmallLaunchesTest, GathersOfPackets) {
 
 TEST_F(SmallLaunchesTest, GathersOfRays) {
     expect_same_of_both_trees([](Device& device) { return gathers(device, GatherKernel::rays); });
-}
-
-/// What the rays of a packet's receivers find, as lights of all of them.
-Numbers shared_lights(Device& device, GatherKernel kernel) {
-    const test::SceneOnDevice scene(device, bright_corner());
-    const DeviceScene on_device = upload_scene(device, scene.scene, scene.bvh, kernel);
-    const std::vector<ReceiverPacket> packets = few_receivers(scene, 8, 8);
-    const Buffer<ReceiverPacket> receivers(device, packets);
-    const ReceiverPathSettings settings{.light_samples = 1,
-                                        .path_count = 1,
-                                        .max_edges = 3,
-                                        .clamp_radius = 0.8f,
-                                        .seed = 2,
-                                        .shares_sky = true,
-                                        .shares_veiled = true,
-                                        .shares_reflections = true};
-    Buffer<IrradiancePacket> direct(device, packets.size());
-    Buffer<IrradiancePacket> indirect(device, packets.size());
-    FoundLights found(device, packets.size(), settings);
-    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
-                                      found);
-    SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found.near, indirect);
-    SharedReflections(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
-    SharedVeiled(device, kernel).add(on_device, receivers, packets.size(), settings, found.veiled, indirect);
-    Numbers numbers = numbers_of(indirect.download());
-    const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
-    const SeenSurface seen{
-        .triangle = 4, .u = 0.3f, .v = 0.3f, .model = 0.5f, .direction = {0, -1, 0}, .light_samples = 1};
-    Buffer<CameraVertex> vertices(device, std::vector(count, CameraVertex{}));
-    SharedSky(device, kernel)
-        .add(on_device, receivers, packets.size(), settings, found.sky,
-             {.surfaces = Buffer<SeenSurface>(device, std::vector(count, seen)), .vertices = vertices},
-             direct);
-    for (const Numbers& more : {numbers_of(direct.download()), numbers_of(vertices.download())}) {
-        numbers.insert(numbers.end(), more.begin(), more.end());
-    }
-    return numbers;
-}
-
-TEST_F(SmallLaunchesTest, SharedLightsByPackets) {
-    expect_same_of_both_trees([](Device& device) { return shared_lights(device, GatherKernel::packets); });
-}
-
-TEST_F(SmallLaunchesTest, SharedLightsByRays) {
-    expect_same_of_both_trees([](Device& device) { return shared_lights(device, GatherKernel::rays); });
 }
 
 TEST_F(SmallLaunchesTest, LocalLightsOfAPacket) {
