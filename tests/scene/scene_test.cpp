@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
+#include <vector>
 
 #include "tests/support/error_matchers.h"
 
@@ -59,8 +62,11 @@ TEST(Scene, AreasOfPlainTinyAndHugeTriangles) {
     }
 }
 
-TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
-    const std::vector<std::function<void(Scene&)>> changes{
+/// Something that shapes the picture.
+using SceneChange = std::function<void(Scene&)>;
+
+std::vector<SceneChange> changes_of_surfaces() {
+    return {
         [](Scene& s) { s.vertices[1].position.x += 1e-6f; },
         [](Scene& s) { s.vertices[1].u = 0.5f; },
         [](Scene& s) {
@@ -94,6 +100,11 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { s.images[0].format = NEARLIGHT_TEXELS_LINEAR8; },
         [](Scene& s) { s.images[0].words[0] = 0; },
         [](Scene& s) { s.images[0].width = 2; },
+    };
+}
+
+std::vector<SceneChange> changes_of_lights_and_view() {
+    return {
         [](Scene& s) { s.delta_emitters[0].position.x = 1; },
         [](Scene& s) { s.delta_emitters[0].radiance.x = 1; },
         [](Scene& s) { s.delta_emitters[0].cutoff_angle = 1; },
@@ -123,8 +134,13 @@ TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
         [](Scene& s) { s.max_depth = 3; },
         [](Scene& s) { s.samples_per_pixel = 3; },
     };
+}
+
+TEST(Scene, HashKnowsEverythingThatShapesThePicture) {
+    std::vector<SceneChange> changes = changes_of_surfaces();
+    std::ranges::copy(changes_of_lights_and_view(), std::back_inserter(changes));
     std::set<std::uint64_t> hashes{scene_hash(small_scene())};
-    for (const auto& change : changes) {
+    for (const SceneChange& change : changes) {
         Scene scene = small_scene();
         change(scene);
         hashes.insert(scene_hash(scene));
