@@ -8,6 +8,7 @@
 #include "shared/light.h"
 #include "shared/light_cut.h"
 #include "shared/packet_order.h"
+#include "shared/receiver_paths.h"
 #include "shared/shared_light.h"
 #include "shared/types.h"
 #include "shared/walk_aim.h"

@@ -14,18 +14,45 @@
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
+#include "shared/receiver_paths.h"
 
-kernel void receiver_paths(
-    SCENE_PARAMETERS, VEIL_PARAMETERS, const global ReceiverPacket* restrict receivers, uint packet_count,
-    uint light_samples, uint path_count, uint max_edges, float clamp_radius, uint seed, uint shares,
-    global IrradiancePacket* restrict direct, global IrradiancePacket* restrict indirect,
-    global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
-    global SharedLight* restrict found_veiled, global SharedLight* restrict found_reflections,
-    global SharedReflection* restrict reflections, const global float* restrict spacing) {
+/// Says what a receiver leaves to its bundle. `spacing` is read only if it leaves reflections there.
+static inline void want_finds(Finds* finds, const SceneView* scene, uint shares,
+                              const global float* spacing) {
+    finds->near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;
+    finds->sky.is_wanted = (shares & NEARLIGHT_SHARES_SKY) != 0 && scene->info->has_sky;
+    finds->veiled.is_wanted = (shares & NEARLIGHT_SHARES_VEILED) != 0;
+    finds->reflections.light.is_wanted = (shares & NEARLIGHT_SHARES_REFLECTIONS) != 0;
+    finds->reflections.spacing = finds->reflections.light.is_wanted ? *spacing : 0.0f;
+}
+
+static inline PathLimits receiver_limits(const ReceiverPathParams* params,
+                                         const global ReceiverPacket* receiver, uint lane, bool shares_sky) {
+    const uint max_edges = params->max_edges;
+    const uint surfaces = receiver_surfaces(receiver, lane);
+    const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
+    const PathLimits limits = {own_edges,
+                               max_edges < LONG_PATH ? max_edges : own_edges,
+                               params->clamp_radius,
+                               params->light_samples,
+                               params->path_count,
+                               shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
+                               receiver_sample(receiver, lane)};
+    return limits;
+}
+
+kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                           ReceiverPathParams params, global IrradiancePacket* restrict direct,
+                           global IrradiancePacket* restrict indirect,
+                           global SharedLight* restrict found_near, global SharedLight* restrict found_sky,
+                           global SharedLight* restrict found_veiled,
+                           global SharedLight* restrict found_reflections,
+                           global SharedReflection* restrict reflections,
+                           const global float* restrict spacing) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
-    if (packet >= packet_count) {
+    if (packet >= params.packet_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
@@ -41,40 +68,29 @@ kernel void receiver_paths(
     const SceneView veils = VEIL_VIEW(scene);
     finds.solids = &solids;
     finds.veils = &veils;
-    if (shares != 0 && receiver_shares(receiver, lane, max_edges)) {
-        finds.near.is_wanted = (shares & NEARLIGHT_SHARES_NEAR) != 0;
-        finds.sky.is_wanted = (shares & NEARLIGHT_SHARES_SKY) != 0 && scene.info->has_sky;
-        finds.veiled.is_wanted = (shares & NEARLIGHT_SHARES_VEILED) != 0;
-        finds.reflections.light.is_wanted = (shares & NEARLIGHT_SHARES_REFLECTIONS) != 0;
-        finds.reflections.spacing = finds.reflections.light.is_wanted ? spacing[index] : 0.0f;
+    if (params.shares != 0 && receiver_shares(receiver, lane, params.max_edges)) {
+        want_finds(&finds, &scene, params.shares, spacing + index);
     }
     if (dot(at.n, at.n) > 0.0f) {
-        const uint surfaces = receiver_surfaces(receiver, lane);
-        const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
-        const PathLimits limits = {own_edges,
-                                   max_edges < LONG_PATH ? max_edges : own_edges,
-                                   clamp_radius,
-                                   light_samples,
-                                   path_count,
-                                   finds.sky.is_wanted ? NEARLIGHT_SKY_RAYS * path_count : 0,
-                                   receiver_sample(receiver, lane)};
+        const PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
         const uint sequence = receiver->sequence[lane];
-        const uint4 key = sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
-                                        : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), seed);
+        const uint4 key = sequence != 0
+                              ? (uint4)(sequence, 0x9e1fu, 0x70a7u, params.seed)
+                              : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), params.seed);
         light = received_light(&scene, &at, &limits, random_uint4(key), &finds);
     }
     store_irradiance(direct + packet, lane, light.direct);
     store_irradiance(indirect + packet, lane, light.indirect);
-    if (shares & NEARLIGHT_SHARES_NEAR) {
+    if (params.shares & NEARLIGHT_SHARES_NEAR) {
         found_near[index] = kept_light(&finds.near);
     }
-    if (shares & NEARLIGHT_SHARES_SKY) {
+    if (params.shares & NEARLIGHT_SHARES_SKY) {
         found_sky[index] = kept_light(&finds.sky);
     }
-    if (shares & NEARLIGHT_SHARES_VEILED) {
+    if (params.shares & NEARLIGHT_SHARES_VEILED) {
         found_veiled[index] = kept_light(&finds.veiled);
     }
-    if (shares & NEARLIGHT_SHARES_REFLECTIONS) {
+    if (params.shares & NEARLIGHT_SHARES_REFLECTIONS) {
         found_reflections[index] = kept_light(&finds.reflections.light);
         reflections[index] = finds.reflections.surface;
     }

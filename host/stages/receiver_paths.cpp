@@ -3,6 +3,7 @@
 
 #include "host/base/receiver_bundles.h"
 #include "host/stages/joint_programs.h"
+#include "kernels/shared/receiver_paths.h"
 
 namespace nearlight::core {
 namespace {
@@ -51,11 +52,17 @@ void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket
                            std::size_t packet_count, const ReceiverPathSettings& settings, uint shared_kinds,
                            Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
                            FoundLights& found) {
-    receiver_paths_.launch_items(
-        packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
-        static_cast<uint>(packet_count), settings.light_samples, settings.path_count, settings.max_edges,
-        settings.clamp_radius, settings.seed, shared_kinds, direct, indirect, found.near, found.sky,
-        found.veiled, found.reflected, found.reflections, found.spacing);
+    const ReceiverPathParams params{.packet_count = static_cast<uint>(packet_count),
+                                    .light_samples = settings.light_samples,
+                                    .path_count = settings.path_count,
+                                    .max_edges = settings.max_edges,
+                                    .clamp_radius = settings.clamp_radius,
+                                    .seed = settings.seed,
+                                    .shares = shared_kinds,
+                                    .pad0 = 0};
+    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
+                                 params, direct, indirect, found.near, found.sky, found.veiled,
+                                 found.reflected, found.reflections, found.spacing);
 }
 
 }  // namespace nearlight::core

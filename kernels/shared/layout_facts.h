@@ -8,7 +8,7 @@
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
 /// place where it expands must include bsdf_query.h, film_layers.h, light.h, light_cut.h, packet_order.h,
-/// shared_light.h, types.h and walk_aim.h.
+/// receiver_paths.h, shared_light.h, types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -86,6 +86,9 @@
     OFFSET(CutEntry, bound)                         \
     SIZE(CutParams)                                 \
     OFFSET(CutParams, asked)                        \
+    SIZE(ReceiverPathParams)                        \
+    OFFSET(ReceiverPathParams, clamp_radius)        \
+    OFFSET(ReceiverPathParams, shares)              \
     SIZE(PacketOrder)                               \
     OFFSET(PacketOrder, bundle_samples)             \
     OFFSET(PacketOrder, interleave)                 \
