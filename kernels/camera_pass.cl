@@ -16,7 +16,7 @@
 #include "lib/outlined.cl"
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
-#include "shared/packet_order.h"
+#include "shared/camera_pass.h"
 #include "shared/shared_light.h"
 
 #define MAX_CHAIN 255  // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
@@ -100,15 +100,6 @@ static inline void set_receiver(const SceneView* scene, const global CloseRange*
     receiver->vertex.albedo = store3(albedo);
     receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
 }
-
-/// How camera paths are followed.
-typedef struct CameraLimits {
-    uint max_edges;      // from the camera to a light; 1 sees lights themselves only
-    uint light_samples;  // at each surface that reflects other than by a Lambertian part
-    uint light_rays;     // of those that the camera sees, or sees in mirrors and through glass
-    float min_weight;    // the light of receivers that weigh less than this is traced at once
-    uint bundle_rays;    // of a bundle, which look for the sky for the first surfaces too
-} CameraLimits;
 
 /// What the surface at a step may ask of lights. One that paths must not leave reflects no light of lamps,
 /// but it shows in the other layers.
@@ -221,38 +212,35 @@ static inline void store_receiver(const CameraReceiver* from, global ReceiverPac
 }
 
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
-                        const global CloseRange* restrict close_range, PacketOrder order,
-                        uint first_tile_column, uint first_tile_row, uint tile_row_count, uint first_sample,
-                        uint sequence_length, uint max_edges, uint light_samples, uint light_rays,
-                        float min_weight, uint bundle_rays, uint seed,
+                        const global CloseRange* restrict close_range, CameraPassParams params,
                         global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices,
                         global SeenSurface* restrict seen) {
+    const PacketOrder order = params.order;
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint sample = index / NEARLIGHT_PACKET_SIZE % order.sample_count;
     const uint tile = index / NEARLIGHT_PACKET_SIZE / order.sample_count;
     const uint column = tile % order.tile_columns;
     const uint row = tile / order.tile_columns;
-    if (row >= tile_row_count) {
+    if (row >= params.tile_row_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = first_tile_column * NEARLIGHT_TILE_SIZE +
+    const uint x = params.first_tile_column * NEARLIGHT_TILE_SIZE +
                    pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave);
-    const uint y = first_tile_row * NEARLIGHT_TILE_SIZE +
+    const uint y = params.first_tile_row * NEARLIGHT_TILE_SIZE +
                    pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave);
     const bool in_picture = x < camera->width && y < camera->height;
-    const CameraPath start =
-        start_path(camera, x, y, first_sample + sample, sequence_length, order.branch_count, seed);
-    const CameraLimits limits = {max_edges, light_samples, light_rays, min_weight, bundle_rays};
+    const CameraPath start = start_path(camera, x, y, params.first_sample + sample, params.sequence_length,
+                                        order.branch_count, params.seed);
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;
     for (uint branch = 0; branch < order.branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
-            path.sequence = sequence_key(y * camera->width + x, start.sample, branch, seed);
-            receiver = follow_path(&scene, camera, close_range, &limits, &path, branch, &first);
+            path.sequence = sequence_key(y * camera->width + x, start.sample, branch, params.seed);
+            receiver = follow_path(&scene, camera, close_range, &params.limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {
             leave_to_branch_0(&receiver);
@@ -260,7 +248,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         const uint packet = packet_at(order, column, row, sample, branch);
         store_receiver(&receiver, receivers + packet, lane,
                        vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + lane);
-        if (bundle_rays > 0) {
+        if (params.limits.bundle_rays > 0) {
             seen[(size_t)packet * NEARLIGHT_PACKET_SIZE + lane] = receiver.seen;
         }
     }

@@ -3,6 +3,7 @@
 // the list, then the first channel and the first sum of each film layer. Launched with a single work-item.
 
 #include "shared/bsdf_query.h"
+#include "shared/camera_pass.h"
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"
 #include "shared/light.h"

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "kernels/shared/bsdf_query.h"
+#include "kernels/shared/camera_pass.h"
 #include "kernels/shared/film_layers.h"
 #include "kernels/shared/layout_facts.h"
 #include "kernels/shared/light.h"

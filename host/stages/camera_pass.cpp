@@ -2,6 +2,7 @@
 #include "host/stages/camera_pass.h"
 
 #include "host/stages/joint_programs.h"
+#include "kernels/shared/camera_pass.h"
 
 namespace nearlight::core {
 
@@ -39,11 +40,22 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uin
                      Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,
                      Buffer<SeenSurface>* seen) {
     const std::size_t sample_packets = packet_count(band, width) / band.branch_count;
-    camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range,
-                              packet_order(band, width), band.first_tile_column, band.first_tile_row,
-                              whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
-                              band.first_sample, band.samples_per_pixel, band.max_depth, band.light_samples,
-                              band.light_rays, band.min_weight, band.sky_rays * NEARLIGHT_SKY_RAYS, seed,
+    const CameraPassParams params{
+        .order = packet_order(band, width),
+        .first_tile_column = band.first_tile_column,
+        .first_tile_row = band.first_tile_row,
+        .tile_row_count = whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
+        .first_sample = band.first_sample,
+        .sequence_length = band.samples_per_pixel,
+        .seed = seed,
+        .limits = {.max_edges = band.max_depth,
+                   .light_samples = band.light_samples,
+                   .light_rays = band.light_rays,
+                   .min_weight = band.min_weight,
+                   .bundle_rays = band.sky_rays * NEARLIGHT_SKY_RAYS},
+        .pad0 = 0,
+        .pad1 = 0};
+    camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range, params,
                               receivers, vertices, seen != nullptr ? *seen : none_seen_);
 }
 

@@ -7,8 +7,8 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include bsdf_query.h, film_layers.h, light.h, light_cut.h, packet_order.h,
-/// receiver_paths.h, shared_light.h, types.h and walk_aim.h.
+/// place where it expands must include bsdf_query.h, camera_pass.h, film_layers.h, light.h, light_cut.h,
+/// packet_order.h, receiver_paths.h, shared_light.h, types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -92,6 +92,9 @@
     SIZE(PacketOrder)                               \
     OFFSET(PacketOrder, bundle_samples)             \
     OFFSET(PacketOrder, interleave)                 \
+    SIZE(CameraPassParams)                          \
+    OFFSET(CameraPassParams, seed)                  \
+    OFFSET(CameraPassParams, limits)                \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, filter_weight)             \
     OFFSET(CameraVertex, traced)                    \
